@@ -1,0 +1,1 @@
+"""MeshForge: teach one collision mesh, mend the whole family."""

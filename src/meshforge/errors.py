@@ -1,0 +1,71 @@
+"""The one family of errors a user meets: each builds its message from what was given, expected and available."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
+
+
+def nearest(name: str, available: Iterable[str]) -> str | None:
+    """The available name most like `name`, or None where nothing is alike."""
+    found = difflib.get_close_matches(name, sorted(available), n=1, cutoff=0.5)
+    return found[0] if found else None
+
+
+class MeshForgeError(Exception):
+    """What went wrong, where, and the remedy, in one message.
+
+    where: the file, hull, or `file:line:column` it is about; remedy: what the user can do. Both are optional.
+    Instances pickle, so that they can come back from worker processes whole.
+    """
+
+    def __init__(self, problem: str, *, where: str | None = None, remedy: str | None = None) -> None:
+        self.problem = problem
+        self.where = where
+        self.remedy = remedy
+        super().__init__(self.message)
+
+    @property
+    def message(self) -> str:
+        """The full text: `where: problem. remedy`."""
+        head = f"{self.where}: {self.problem}" if self.where else self.problem
+        return f"{head}\n  {self.remedy}" if self.remedy else head
+
+    def at(self, where: str) -> MeshForgeError:
+        """The same error, about `where`, when it did not say yet what it is about."""
+        return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _revive, (type(self), self.problem, self.where, self.remedy)
+
+    def __str__(self) -> str:
+        return self.message
+
+
+def _revive(kind: type[MeshForgeError], problem: str, where: str | None, remedy: str | None) -> MeshForgeError:
+    return kind(problem, where=where, remedy=remedy)
+
+
+class AssetError(MeshForgeError):
+    """A file that cannot be read or written as an asset."""
+
+
+class GeometryError(MeshForgeError):
+    """A shape that cannot be: no extent, not finite, not convex."""
+
+
+class ProgramError(MeshForgeError):
+    """A program text that does not parse, or a program that cannot run on an asset."""
+
+
+class ProjectError(MeshForgeError):
+    """A project folder, or a file in it, that is not as it should be."""
+
+
+class UsageError(MeshForgeError):
+    """Arguments that do not fit together."""
+
+
+class MissingExtraError(MeshForgeError):
+    """An optional part that is not installed; the remedy names the extra."""

@@ -1,0 +1,69 @@
+"""What a format is: a reader and a writer of assets, registered by one line in `registry`."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import ClassVar
+
+from meshforge.asset import Asset
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOptions:
+    """How to read: roots in which `package://` references are searched, besides upwards from the file."""
+
+    package_roots: tuple[Path, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """The files that make up a written asset, before anything is on disk.
+
+    text or bytes of each new file by its path relative to the folder of the main file; copies: files of the
+    input, by the same kind of path. `save` puts them on disk atomically.
+    notes: what the format could not hold, or holds in another form (a capsule written as a hull mesh).
+    """
+
+    main: bytes
+    made: dict[str, bytes] = field(default_factory=dict)
+    copies: dict[str, Path] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+
+class Format(ABC):
+    """One file format: reads an asset with its source document, writes it back with edited geoms."""
+
+    name: ClassVar[str]
+    suffixes: ClassVar[tuple[str, ...]]
+
+    @abstractmethod
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        """The asset in a file. Raises AssetError naming the file, what is wrong, and the remedy."""
+
+    @abstractmethod
+    def write(self, asset: Asset, name: str) -> Output:
+        """The files of an asset that was read by this format, main file named `name`.
+
+        Geoms without a parent are written as authored; geoms of the source that are gone are removed; the others
+        are new elements, which inherit the contact attributes of their parent.
+        Raises AssetError where the file cannot hold the edit.
+        """
+
+    def create(self, asset: Asset, name: str) -> Output:
+        """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""
+        raise self._cannot_create(asset)
+
+    def _cannot_create(self, asset: Asset) -> Exception:
+        from meshforge.errors import AssetError
+
+        return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
+
+    def sniffs(self, path: Path, head: bytes) -> bool:
+        """Whether a file of one of the suffixes is of this format; head: its first kilobytes."""
+        return True
+
+
+Formats = Sequence[Format]

@@ -1,0 +1,30 @@
+"""Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
+
+from meshforge.geometry.aabb import Aabb
+from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
+from meshforge.geometry.convex import FLATNESS, convex_hull, is_convex, principal_extents
+from meshforge.geometry.digest import digest, same_shape
+from meshforge.geometry.pose import Pose
+from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
+
+__all__ = [
+    "FLATNESS",
+    "Aabb",
+    "Box",
+    "Capsule",
+    "Cylinder",
+    "Ellipsoid",
+    "Floats",
+    "Ints",
+    "Polytope",
+    "Pose",
+    "Shape",
+    "Sphere",
+    "convex_hull",
+    "digest",
+    "frozen_floats",
+    "frozen_ints",
+    "is_convex",
+    "principal_extents",
+    "same_shape",
+]

@@ -1,0 +1,23 @@
+"""A digest of a shape's geometry, the same after a trip through a file of single precision."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+
+from meshforge.geometry.shapes import Polytope, Shape
+
+
+def digest(shape: Shape) -> str:
+    """Sixteen hexadecimal digits of the shape's kind and its vertices in single precision, in sorted order."""
+    vertices = shape.vertices if isinstance(shape, Polytope) else shape.tessellated().vertices
+    rounded = np.unique(vertices.astype(np.float32) + np.float32(0), axis=0)
+    return hashlib.blake2b(shape.kind.encode() + rounded.tobytes(), digest_size=8).hexdigest()
+
+
+def same_shape(a: Shape, b: Shape, tolerance: float = 0.0) -> bool:
+    """Whether two shapes are of one kind with equal tessellations, each coordinate within `tolerance` [m]."""
+    if a.kind != b.kind or a.vertices.shape != b.vertices.shape:
+        return False
+    return bool(np.abs(a.vertices - b.vertices).max() <= tolerance) and np.array_equal(a.faces, b.faces)

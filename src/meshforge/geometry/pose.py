@@ -1,0 +1,64 @@
+"""Rigid transforms: where a shape or a body is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from meshforge.geometry.arrays import Floats, frozen_floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pose:
+    """A rotation and a translation, `a_T_b`: takes coordinates in b to coordinates in a.
+
+    rotation: (3, 3), a proper rotation; translation: (3,) [m].
+    """
+
+    rotation: Floats
+    translation: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rotation", frozen_floats(self.rotation, (3, 3)))
+        object.__setattr__(self, "translation", frozen_floats(self.translation, (3,)))
+
+    @staticmethod
+    def identity() -> Pose:
+        return Pose(np.eye(3), np.zeros(3))
+
+    @staticmethod
+    def of_translation(translation: Any) -> Pose:
+        return Pose(np.eye(3), translation)
+
+    @staticmethod
+    def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> Pose:
+        """The URDF origin: roll, pitch, yaw about the fixed X, Y, Z axes [rad]; xyz [m]."""
+        (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
+        rotation = [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+        return Pose(rotation, xyz)
+
+    def to_rpy(self) -> tuple[float, float, float]:
+        """Roll, pitch, yaw [rad], the inverse of `from_rpy` (yaw 0 where pitch is +-90 degrees)."""
+        r = self.rotation
+        horizontal = float(np.hypot(r[0, 0], r[1, 0]))
+        pitch = float(np.arctan2(-r[2, 0], horizontal))
+        if horizontal < 1e-12:
+            return float(np.arctan2(-r[1, 2], r[1, 1])), pitch, 0.0
+        return float(np.arctan2(r[2, 1], r[2, 2])), pitch, float(np.arctan2(r[1, 0], r[0, 0]))
+
+    def __matmul__(self, other: Pose) -> Pose:
+        return Pose(self.rotation @ other.rotation, self.rotation @ other.translation + self.translation)
+
+    def inverse(self) -> Pose:
+        return Pose(self.rotation.T, -self.rotation.T @ self.translation)
+
+    def apply(self, points: Floats) -> Floats:
+        """Points (n, 3) in b to points (n, 3) in a."""
+        return points @ self.rotation.T + self.translation

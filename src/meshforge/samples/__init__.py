@@ -1,0 +1,1 @@
+"""The bundled family of tables: frozen files, made by `script/make-samples`."""

@@ -1,0 +1,63 @@
+"""The symbolic hull: a convex shape with a name, a body and a label."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
+from meshforge.symbolic.labels import Label
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hull:
+    """One node of the symbolic mesh (paper, definition of the symbolic collision mesh).
+
+    shape: in the mesh's frame; parent: as of `Geom`, None for a hull of the file.
+    """
+
+    name: str
+    body: str
+    shape: Shape
+    annotation: Label | None = None
+    parent: str | None = None
+
+    @property
+    def label(self) -> str | None:
+        return self.annotation.name if self.annotation else None
+
+    @property
+    def confidence(self) -> float | None:
+        return self.annotation.confidence if self.annotation else None
+
+    @property
+    def source(self) -> str | None:
+        return self.annotation.source if self.annotation else None
+
+    @property
+    def vertices(self) -> Floats:
+        """Vertices (n, 3) [m]; of a primitive, those of its tessellation."""
+        return self.shape.vertices
+
+    @property
+    def faces(self) -> Ints:
+        """Outward triangles (m, 3); of a primitive, those of its tessellation."""
+        return self.shape.faces
+
+    @property
+    def aabb(self) -> Aabb:
+        return self.shape.aabb
+
+    @property
+    def volume(self) -> float:
+        return self.shape.volume
+
+    @property
+    def primitive(self) -> Shape | None:
+        """The native primitive, or None for a polytope."""
+        return self.shape if self.shape.is_primitive else None
+
+    def labelled(self, annotation: Label | None) -> Hull:
+        return replace(self, annotation=annotation)
+
+    def moved(self, pose: Pose) -> Hull:
+        return replace(self, shape=self.shape.moved(pose))

@@ -1,0 +1,138 @@
+"""The symbolic collision mesh: hulls with labels, AABBs and the contact graph, immutable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from meshforge.asset import Asset, Geom
+from meshforge.errors import MeshForgeError
+from meshforge.geometry import Aabb
+from meshforge.symbolic.contact import NEAR_MISS, ContactGraph, contact_graph
+from meshforge.symbolic.hull import Hull
+from meshforge.symbolic.labels import Label
+
+EPSILON = 0.002
+"""Contact threshold as a share of the diagonal (paper, implementation)."""
+
+
+@dataclass(frozen=True, eq=False)
+class SymbolicMesh:
+    """A set of symbolic hulls and their contact graph (paper, section on the symbolic collision mesh).
+
+    asset: the file it came from, None for a mesh made in memory; epsilon: the contact threshold, relative;
+    scale: the length L [m] that epsilon refers to; None takes the diagonal of the AABB of all hulls.
+    """
+
+    hulls: tuple[Hull, ...]
+    asset: Asset | None = None
+    epsilon: float = EPSILON
+    scale: float | None = None
+
+    @staticmethod
+    def of(asset: Asset, labels: Mapping[str, Label] | None = None) -> SymbolicMesh:
+        """The mesh of an asset, with the labels of the hulls that have one; other names in `labels` are ignored."""
+        labels = labels or {}
+        return SymbolicMesh(
+            tuple(Hull(g.name, g.body, g.shape, labels.get(g.name), g.parent) for g in asset.geoms), asset
+        )
+
+    @cached_property
+    def aabb(self) -> Aabb | None:
+        """The box around all hulls, None where there is none."""
+        return Aabb.union(h.aabb for h in self.hulls) if self.hulls else None
+
+    @property
+    def diagonal(self) -> float:
+        """The diagonal of the AABB of all hulls [m], 0 where there is none."""
+        return self.aabb.diagonal if self.aabb else 0.0
+
+    @property
+    def contact_distance(self) -> float:
+        """Hulls no farther apart than this are in contact [m]; the slack against rounding is included."""
+        length = self.diagonal if self.scale is None else self.scale
+        return self.epsilon * length + 1e-9 * length
+
+    @cached_property
+    def graph(self) -> ContactGraph:
+        """Distances of all pairs within three times the contact distance."""
+        return contact_graph([h.shape for h in self.hulls], self.contact_distance * NEAR_MISS)
+
+    @cached_property
+    def contacts(self) -> frozenset[tuple[int, int]]:
+        """The pairs (i, j), i < j, of hulls in contact."""
+        return frozenset(pair for pair, gap in self.graph.items() if gap <= self.contact_distance)
+
+    @cached_property
+    def adjacency(self) -> tuple[int, ...]:
+        """The neighbours of each hull as a bit set: bit j of entry i is set where i and j are in contact."""
+        rows = [0] * len(self.hulls)
+        for i, j in self.contacts:
+            rows[i] |= 1 << j
+            rows[j] |= 1 << i
+        return tuple(rows)
+
+    def neighbours(self, index: int) -> frozenset[int]:
+        """Indices of the hulls in contact with hull `index`; never itself."""
+        return bits(self.adjacency[index])
+
+    @property
+    def near_misses(self) -> tuple[tuple[int, int, float], ...]:
+        """Pairs apart, yet within three times the contact distance, with their distance [m], nearest first."""
+        apart = [(i, j, gap) for (i, j), gap in self.graph.items() if gap > self.contact_distance]
+        return tuple(sorted(apart, key=lambda row: (row[2], row[0], row[1])))
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """Position of each hull by name."""
+        return {hull.name: k for k, hull in enumerate(self.hulls)}
+
+    def named(self, name: str) -> Hull:
+        """The hull of that name. Raises MeshForgeError where there is none."""
+        if name not in self.index:
+            raise MeshForgeError(f"there is no hull {name!r}", where=str(self.asset.path) if self.asset else None)
+        return self.hulls[self.index[name]]
+
+    @property
+    def labels(self) -> dict[str, Label]:
+        return {h.name: h.annotation for h in self.hulls if h.annotation}
+
+    def labelled(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
+        """The mesh with some labels set, or taken away by None."""
+        return self.with_hulls(h.labelled(labels[h.name]) if h.name in labels else h for h in self.hulls)
+
+    def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
+        """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
+        edited = replace(self, hulls=tuple(hulls))
+        if "graph" in self.__dict__ and edited.contact_distance == self.contact_distance:
+            known = {id(h.shape): k for k, h in enumerate(self.hulls)}
+            kept = {k: known[id(h.shape)] for k, h in enumerate(edited.hulls) if id(h.shape) in known}
+            reach = self.contact_distance * NEAR_MISS
+            graph = contact_graph([h.shape for h in edited.hulls], reach, known=self.graph, kept=kept)
+            edited.__dict__["graph"] = graph
+        return edited
+
+    def lowered(self) -> Asset:
+        """The asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in memory."""
+        if self.asset is None:
+            raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
+        return self.asset.with_geoms(Geom(h.name, h.body, h.shape, h.parent) for h in self.hulls)
+
+
+def bits(mask: int) -> frozenset[int]:
+    """The positions of the set bits."""
+    found = []
+    while mask:
+        low = mask & -mask
+        found.append(low.bit_length() - 1)
+        mask ^= low
+    return frozenset(found)
+
+
+def mask_of(indices: Iterable[int]) -> int:
+    """The bit set of some positions."""
+    mask = 0
+    for index in indices:
+        mask |= 1 << index
+    return mask
