@@ -1,5 +1,5 @@
-"""The command line: one file a command, thin."""
+"""The command line: one file a command, thin; nothing heavy is imported before a command runs."""
 
+from meshforge.cli.main import main
 
-def main() -> None:
-    """Run the command that the words name."""
+__all__ = ["main"]

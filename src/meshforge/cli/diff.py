@@ -1,0 +1,67 @@
+"""`meshforge diff`: what an edit changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from meshforge.cli.options import Json
+
+if TYPE_CHECKING:
+    from meshforge.symbolic import SymbolicMesh
+
+
+def diff(
+    before: Annotated[Path, typer.Argument(help="The asset as it was.")],
+    after: Annotated[Path, typer.Argument(help="The asset as it is now.")],
+    out: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG: before beside after.")] = None,
+    json: Json = False,
+) -> None:
+    """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
+    from meshforge.cli.output import print_json, remark
+    from meshforge.formats import load
+    from meshforge.views import before_after, write_png
+
+    old, new = load(before), load(after)
+    changes = compared(old, new)
+    if json:
+        print_json({"before": str(before), "after": str(after), **changes})
+    else:
+        _print(changes)
+    if out:
+        write_png(out, before_after(old, new))
+        remark(f"wrote {out}")
+
+
+def compared(old: SymbolicMesh, new: SymbolicMesh) -> dict[str, Any]:
+    """Names of removed, made, changed and kept hulls, and the counts, vertices and volumes of both."""
+    from meshforge.geometry import same_shape
+
+    near = 1e-6 * max(old.diagonal, new.diagonal)
+    both = [name for name in old.index if name in new.index]
+    kept = [name for name in both if same_shape(old.named(name).shape, new.named(name).shape, near)]
+    return {
+        "removed": [name for name in old.index if name not in new.index],
+        "made": [name for name in new.index if name not in old.index],
+        "changed": [name for name in both if name not in set(kept)],
+        "kept": kept,
+        "hulls": {"before": len(old.hulls), "after": len(new.hulls)},
+        "vertices": {"before": _vertices(old), "after": _vertices(new)},
+        "volume": {"before": sum(h.volume for h in old.hulls), "after": sum(h.volume for h in new.hulls)},
+    }
+
+
+def _vertices(mesh: SymbolicMesh) -> int:
+    return sum(len(h.vertices) for h in mesh.hulls)
+
+
+def _print(changes: dict[str, Any]) -> None:
+    for what in ("hulls", "vertices", "volume"):
+        before, after = changes[what]["before"], changes[what]["after"]
+        typer.echo(f"{what:9} {before:.6g} -> {after:.6g}" + (" m^3, overlaps counted twice" * (what == "volume")))
+    for kind, sign in (("removed", "-"), ("made", "+"), ("changed", "~")):
+        for name in changes[kind]:
+            typer.echo(f"{sign} {name}")
+    typer.echo(f"  {len(changes['kept'])} kept as they were")

@@ -1,0 +1,28 @@
+"""`meshforge fmt`: a program in its canonical form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def fmt(
+    program: Annotated[Path, typer.Argument(help="A program file, *.mf.")],
+    in_place: Annotated[bool, typer.Option("--in-place", "-i", help="Rewrite the file instead of printing.")] = False,
+    check: Annotated[bool, typer.Option("--check", help="Only tell, by exit code 1, whether it would change.")] = False,
+) -> None:
+    """Print a program in its canonical form, comments kept."""
+    from meshforge.language import Program
+    from meshforge.files import write_atomically
+
+    text = str(Program.read(program))
+    changed = text != program.read_text(encoding="utf-8")
+    if check:
+        typer.echo(f"{program}: {'would change' if changed else 'canonical'}")
+        raise typer.Exit(int(changed))
+    if not in_place:
+        typer.echo(text, nl=False)
+    elif changed:
+        write_atomically(program, text)

@@ -1,0 +1,112 @@
+"""`meshforge info`: what an asset holds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from meshforge.cli.options import AssetFile, Json, Labels
+
+if TYPE_CHECKING:
+    from meshforge.geometry import Shape
+    from meshforge.symbolic import Hull, SymbolicMesh
+
+
+def info(
+    asset: AssetFile,
+    labels: Labels = None,
+    json: Json = False,
+    geometry: Annotated[bool, typer.Option("--geometry", help="With --json: the points of every hull.")] = False,
+) -> None:
+    """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
+    from meshforge.cli.output import print_json
+    from meshforge.formats import load
+
+    mesh = load(asset, labels=labels)
+    if json:
+        print_json(described(mesh, str(asset), geometry=geometry))
+    else:
+        _print(mesh, str(asset))
+
+
+def described(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
+    """The JSON shape of `info`."""
+    names = [hull.name for hull in mesh.hulls]
+    source = mesh.asset
+    return {
+        "asset": asset,
+        "format": source.format if source else None,
+        "diagonal": mesh.diagonal,
+        "hulls": [_hull(hull, geometry) for hull in mesh.hulls],
+        "opaque": [{"name": o.name, "body": o.body, "reason": o.reason} for o in (source.opaque if source else ())],
+        "contacts": [[names[i], names[j]] for i, j in sorted(mesh.contacts)],
+        "near_misses": [[names[i], names[j], gap] for i, j, gap in mesh.near_misses],
+    }
+
+
+def _hull(hull: Hull, geometry: bool) -> dict[str, Any]:
+    bounds = hull.aabb
+    row = {
+        "name": hull.name,
+        "body": hull.body,
+        "label": hull.label,
+        "confidence": hull.confidence,
+        "source": hull.source,
+        "aabb": {"min": bounds.min.tolist(), "max": bounds.max.tolist()},
+        "volume": hull.volume,
+        "vertices": len(hull.vertices),
+        "faces": len(hull.faces),
+        "primitive": _primitive(hull.primitive),
+    }
+    return row | {"points": hull.vertices.tolist()} if geometry else row
+
+
+def _primitive(shape: Shape | None) -> dict[str, Any] | None:
+    from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
+
+    match shape:
+        case Box():
+            size: dict[str, Any] = {"size": (2 * shape.half).tolist()}
+        case Sphere():
+            size = {"radius": shape.radius}
+        case Cylinder() | Capsule():
+            size = {"radius": shape.radius, "length": 2 * shape.half_length}
+        case Ellipsoid():
+            size = {"radii": shape.radii.tolist()}
+        case _:
+            return None
+    pose = {"position": shape.pose.translation.tolist(), "rotation": shape.pose.rotation.tolist()}
+    return {"kind": shape.kind, **size, **pose}
+
+
+def _print(mesh: SymbolicMesh, asset: str) -> None:
+    from meshforge.cli.output import counted, table
+
+    source = mesh.asset
+    opaque = source.opaque if source else ()
+    bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
+    head = [source.format if source else "", counted(len(mesh.hulls), "hull"), counted(bodies, "body", "bodies")]
+    head += [counted(len(opaque), "opaque piece")] if opaque else []
+    typer.echo(f"{asset}: {', '.join(head)}, {len(mesh.contacts)} contacts, diagonal {mesh.diagonal:.4g} m")
+    for note in source.notes if source else ():
+        typer.echo(f"  note: {note}")
+    if mesh.hulls:
+        typer.echo()
+        rows = (
+            (h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
+            for k, h in enumerate(mesh.hulls)
+        )
+        columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
+        table(columns, rows, right=("vertices", "volume", "touches"))
+    if opaque:
+        typer.echo("\nOpaque (never selected, written back untouched; `meshforge decompose` makes hulls of it):")
+        for piece in opaque:
+            typer.echo(f"  {piece.name}: {piece.reason}")
+    if mesh.near_misses:
+        typer.echo(f"\nNear misses (apart, yet within three times the contact distance {mesh.contact_distance:.3g} m):")
+        for i, j, gap in mesh.near_misses[:12]:
+            typer.echo(f"  {mesh.hulls[i].name}  {mesh.hulls[j].name}  {gap:.3g} m")
+        if len(mesh.near_misses) > 12:
+            typer.echo(f"  and {len(mesh.near_misses) - 12} more (all with --json)")
+    typer.echo("\nBoxes and contacts are those of the frame the file comes in.")

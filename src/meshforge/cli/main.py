@@ -1,0 +1,88 @@
+"""The `meshforge` command: its list of commands, and how errors reach a person."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from importlib import import_module
+
+import typer
+
+COMMANDS = (
+    "demo",
+    "new",
+    "status",
+    "label",
+    "synthesize",
+    "apply",
+    "check",
+    "info",
+    "select",
+    "render",
+    "diff",
+    "decompose",
+    "convert",
+    "fmt",
+)
+"""Every command is the function of its name in the module of its name, listed in this order."""
+
+
+def application() -> typer.Typer:
+    """The command-line application with all commands."""
+    app = typer.Typer(
+        name="meshforge",
+        help="Teach one collision mesh, mend the whole family.",
+        epilog="Start with: meshforge demo",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,  # rich's help page alone costs a tenth of a second
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    for name in COMMANDS:
+        command: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
+        app.command(name)(command)
+    app.callback()(_version_option)
+    return app
+
+
+def _version_option(
+    version: bool = typer.Option(False, "--version", help="Print the version and leave.", is_eager=True),
+    debug: bool = typer.Option(False, "--debug", help="Show tracebacks (may stand after the command, too)."),
+) -> None:
+    if version:
+        from importlib.metadata import version as installed
+
+        typer.echo(f"meshforge {installed('meshforge')}")
+        raise typer.Exit
+
+
+def main() -> None:
+    """Run the command that the words name; every error becomes one message and an exit code."""
+    debug = "--debug" in sys.argv[1:]
+    sys.argv[1:] = [word for word in sys.argv[1:] if word != "--debug"]
+    try:
+        application()()
+    except KeyboardInterrupt:
+        print("stopped", file=sys.stderr)
+        sys.exit(130)
+    except BrokenPipeError:  # the reader of our output has gone; nothing is left to say
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+    except Exception as error:
+        if debug:
+            raise
+        print(f"error: {_told(error)}", file=sys.stderr)
+        sys.exit(2)
+
+
+def _told(error: Exception) -> str:
+    from meshforge.errors import MeshForgeError
+
+    match error:
+        case MeshForgeError():
+            return error.message
+        case OSError(filename=str() as name, strerror=str() as why):
+            return f"{name}: {why}"
+        case _:
+            return f"{type(error).__name__}: {error}\n  This is a fault of MeshForge; --debug shows where it came from."

@@ -1,0 +1,63 @@
+"""How commands print: results to stdout, progress and remarks to stderr."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rich.table import Table
+
+
+def print_json(value: Any, *, compact: bool = False) -> None:
+    """One JSON document: indented for reading, or on a single line."""
+    print(json.dumps(value, ensure_ascii=False, indent=None if compact else 2), flush=compact)
+
+
+def remark(text: str) -> None:
+    """A remark that is not part of the result."""
+    print(text, file=sys.stderr)
+
+
+def table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right: Sequence[str] = ()) -> None:
+    """A table on stdout; columns named in `right` are aligned to the right. Piped, it is never cut."""
+    from rich.console import Console
+
+    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False, soft_wrap=not sys.stdout.isatty())
+    console.print(_made(columns, rows, right))
+
+
+def _made(columns: Sequence[str], rows: Iterable[Sequence[Any]], right: Sequence[str]) -> Table:
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+    for name in columns:
+        made.add_column(name, justify="right" if name in right else "left", overflow="fold")
+    for row in rows:
+        made.add_row(*(Text("" if cell is None else str(cell)) for cell in row))
+    return made
+
+
+@contextmanager
+def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
+    """A bar on stderr for work on several assets; gives the function that counts one more. Silent where piped."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task(what, total=total)
+        yield lambda: bar.advance(task)
+
+
+def counted(number: int, one: str, many: str | None = None) -> str:
+    """`1 hull`, `3 hulls`."""
+    return f"{number} {one if number == 1 else many or one + 's'}"
