@@ -4,10 +4,12 @@ from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, is_convex, principal_extents
 from meshforge.geometry.digest import digest, same_shape
+from meshforge.geometry.pieces import FILLED, Piece, pieces
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
 
 __all__ = [
+    "FILLED",
     "FLATNESS",
     "Aabb",
     "Box",
@@ -16,6 +18,7 @@ __all__ = [
     "Ellipsoid",
     "Floats",
     "Ints",
+    "Piece",
     "Polytope",
     "Pose",
     "Shape",
@@ -25,6 +28,7 @@ __all__ = [
     "frozen_floats",
     "frozen_ints",
     "is_convex",
+    "pieces",
     "principal_extents",
     "same_shape",
 ]

@@ -7,20 +7,21 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.geometry.arrays import Floats, frozen_floats
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, init=False)
 class Aabb:
     """The axis-aligned box between two corners; min, max: (3,) [m]."""
 
     min: Floats
     max: Floats
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "min", frozen_floats(self.min, (3,)))
-        object.__setattr__(self, "max", frozen_floats(self.max, (3,)))
+    def __init__(self, min: npt.ArrayLike, max: npt.ArrayLike) -> None:
+        object.__setattr__(self, "min", frozen_floats(min, (3,)))
+        object.__setattr__(self, "max", frozen_floats(max, (3,)))
 
     @staticmethod
     def of_points(points: Floats) -> Aabb:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.geometry.arrays import Floats, frozen_floats
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, init=False)
 class Pose:
     """A rotation and a translation, `a_T_b`: takes coordinates in b to coordinates in a.
 
@@ -21,16 +21,16 @@ class Pose:
     rotation: Floats
     translation: Floats
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "rotation", frozen_floats(self.rotation, (3, 3)))
-        object.__setattr__(self, "translation", frozen_floats(self.translation, (3,)))
+    def __init__(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
+        object.__setattr__(self, "rotation", frozen_floats(rotation, (3, 3)))
+        object.__setattr__(self, "translation", frozen_floats(translation, (3,)))
 
     @staticmethod
     def identity() -> Pose:
         return Pose(np.eye(3), np.zeros(3))
 
     @staticmethod
-    def of_translation(translation: Any) -> Pose:
+    def of_translation(translation: npt.ArrayLike) -> Pose:
         return Pose(np.eye(3), translation)
 
     @staticmethod

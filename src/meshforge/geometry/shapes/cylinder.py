@@ -43,7 +43,8 @@ class Cylinder(Shape):
         flat = float(np.hypot(x, y))
         scale = self.radius / flat if flat > 0 else 0.0
         local = np.array([x * scale, y * scale, self.half_length if z >= 0 else -self.half_length])
-        return self.pose.rotation @ local + self.pose.translation
+        point: Floats = self.pose.rotation @ local + self.pose.translation
+        return point
 
     def tessellated(self) -> Polytope:
         points, faces = unit_cylinder()
