@@ -1,0 +1,59 @@
+"""The formats MeshForge knows, one line each, and which of them a file is of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from meshforge.errors import AssetError, nearest
+from meshforge.formats.base import Format
+
+_HEAD = 4096  # bytes shown to a format that shares its suffix with another
+
+
+FORMATS: tuple[Format, ...] = ()
+SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
+"""The suffixes of all files that can be read, lower case, with the dot."""
+
+
+def format_of(path: Path) -> Format:
+    """The format of a file or folder that is to be read.
+
+    Raises AssetError: there is no such file, or it is of no known format.
+    """
+    if not path.exists():
+        raise AssetError("there is no such file", where=str(path))
+    head = b"" if path.is_dir() else _head(path)
+    for known in _of_suffix(path):
+        if known.sniffs(path, head):
+            return known
+    raise _unknown(path)
+
+
+def format_for(path: Path, own: str) -> Format:
+    """The format of a file that is to be written: the one named `own` where the suffix fits it, else by suffix."""
+    found = _of_suffix(path)
+    for known in found:
+        if known.name == own:
+            return known
+    if not found:
+        raise _unknown(path)
+    return found[0]
+
+
+def _of_suffix(path: Path) -> list[Format]:
+    suffix = path.suffix.lower()
+    return [known for known in FORMATS if suffix in known.suffixes]
+
+
+def _head(path: Path) -> bytes:
+    try:
+        with path.open("rb") as stream:
+            return stream.read(_HEAD)
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+
+
+def _unknown(path: Path) -> AssetError:
+    guess = nearest(path.suffix.lower(), SUFFIXES)
+    remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
+    return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)
