@@ -1,0 +1,164 @@
+"""The kinds of arguments that actions take: how each is written, read, checked and described."""
+
+from __future__ import annotations
+
+import json
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+from meshforge.language.syntax import DIRECTIONS
+
+RawKind = Literal["word", "text", "number", "direction"]
+Primitive = Literal["box", "cylinder", "capsule", "sphere"]
+PRIMITIVES: tuple[Primitive, ...] = get_args(Primitive)
+Axis = Literal["all", "X", "Y", "Z"]
+AXES: tuple[Axis, ...] = get_args(Axis)
+
+
+class Argument(ABC):
+    """One kind of argument; kept as metadata of the action's field."""
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def usage(self) -> str:
+        """How it is written, as the documentation shows it."""
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The words to choose from, where there are such."""
+        return ()
+
+    @abstractmethod
+    def read(self, kind: RawKind, text: str) -> Any | None:
+        """The value of a piece of program text (a quoted text without its quotes), None where it does not fit."""
+
+    @abstractmethod
+    def fits(self, value: Any) -> bool:
+        """Whether a value may stand in the action's field."""
+
+    def show(self, value: Any) -> str:
+        """The value as program text."""
+        return str(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Words(Argument):
+    """One of some bare words."""
+
+    words: tuple[str, ...]
+    kind: RawKind = "word"
+
+    @property
+    def usage(self) -> str:
+        return "|".join(self.words)
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        return self.words
+
+    def read(self, kind: RawKind, text: str) -> str | None:
+        return text if kind == self.kind and text in self.words else None
+
+    def fits(self, value: Any) -> bool:
+        return value in self.words
+
+
+@dataclass(frozen=True, slots=True)
+class Flag(Argument):
+    """A bare word that is there or not."""
+
+    word: str
+
+    @property
+    def usage(self) -> str:
+        return self.word
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        return (self.word,)
+
+    def read(self, kind: RawKind, text: str) -> bool | None:
+        return True if kind == "word" and text == self.word else None
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, bool)
+
+    def show(self, value: Any) -> str:
+        return self.word
+
+
+@dataclass(frozen=True, slots=True)
+class File(Argument):
+    """A quoted path of a template file."""
+
+    usage = '"file"'
+
+    def read(self, kind: RawKind, text: str) -> str | None:
+        return text if kind == "text" else None
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, str) and bool(value)
+
+    def show(self, value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False)
+
+
+@dataclass(frozen=True, slots=True)
+class PrimitiveOrFile(Argument):
+    """The bare word of a primitive, or a quoted path of a template file."""
+
+    usage = "|".join((*PRIMITIVES, File.usage))
+    choices = PRIMITIVES
+
+    def read(self, kind: RawKind, text: str) -> str | None:
+        named = text in PRIMITIVES
+        return text if (kind == "word" and named) or (kind == "text" and not named) else None
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, str) and bool(value)
+
+    def show(self, value: Any) -> str:
+        return str(value) if value in PRIMITIVES else json.dumps(value, ensure_ascii=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Factor(Argument):
+    """A number above 0."""
+
+    usage = "factor"
+
+    def read(self, kind: RawKind, text: str) -> float | None:
+        return float(text) if kind == "number" else None
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, int | float) and math.isfinite(value) and value > 0
+
+    def show(self, value: Any) -> str:
+        return show_number(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Inner(Argument):
+    """An action inside another; the parser reads it, since it has arguments of its own."""
+
+    usage = "action"
+
+    def read(self, kind: RawKind, text: str) -> None:
+        return None
+
+    def fits(self, value: Any) -> bool:
+        from meshforge.language.actions.base import Action
+
+        return isinstance(value, Action)
+
+
+DIRECTION = Words(DIRECTIONS, kind="direction")
+
+
+def show_number(value: float) -> str:
+    """The shortest decimal that reads back as the same float."""
+    return repr(float(value)).removesuffix(".0")
