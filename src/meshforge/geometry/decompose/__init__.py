@@ -1,0 +1,16 @@
+"""Convex decomposition by CoACD and V-HACD: cached, cancellable, verified."""
+
+from meshforge.geometry.decompose.cache import cache_folder
+from meshforge.geometry.decompose.child import DecompositionCancelledError, Progress
+from meshforge.geometry.decompose.run import decompose
+from meshforge.geometry.decompose.settings import CoacdSettings, DecomposeSettings, VhacdSettings
+
+__all__ = [
+    "CoacdSettings",
+    "DecomposeSettings",
+    "DecompositionCancelledError",
+    "Progress",
+    "VhacdSettings",
+    "cache_folder",
+    "decompose",
+]

@@ -1,0 +1,55 @@
+"""The process that runs an engine: reads triangles, writes pieces, and may crash without harm to anyone else.
+
+Run by path, so that it loads nothing but numpy and the engine. Arguments: input .npz, output .npz, settings as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+import numpy as np
+
+
+def main(source: str, target: str, job: str) -> None:
+    """Decompose the triangles in `source` and write the pieces to `target`."""
+    given = np.load(source, allow_pickle=False)
+    settings: dict[str, Any] = json.loads(job)
+    engine = {"coacd": _coacd, "vhacd": _vhacd}[settings.pop("engine")]
+    pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(given["vertices"], given["faces"], settings)]
+    np.savez(
+        target,
+        vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
+        faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3), np.int64)]),
+        counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
+    )
+
+
+def _coacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
+    import coacd
+
+    coacd.set_log_level("info")  # its lines are the only sign of progress
+    return coacd.run_coacd(coacd.Mesh(vertices, faces.astype(np.int32)), **settings)
+
+
+def _vhacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
+    import vhacdx
+
+    return vhacdx.compute_vhacd(
+        vertices,
+        faces.astype(np.uint32),
+        maxConvexHulls=settings["max_convex_hulls"],
+        resolution=settings["resolution"],
+        minimumVolumePercentErrorAllowed=settings["volume_error"],
+        maxRecursionDepth=settings["max_recursion_depth"],
+        shrinkWrap=settings["shrink_wrap"],
+        fillMode=settings["fill_mode"],
+        maxNumVerticesPerCH=settings["max_hull_vertices"],
+        minEdgeLength=settings["min_edge_length"],
+        findBestPlane=settings["find_best_plane"],
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
