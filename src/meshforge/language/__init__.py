@@ -12,6 +12,7 @@ from meshforge.language.actions import (
     Replace,
     Scale,
 )
+from meshforge.language.apply import Applied, apply_action
 from meshforge.language.evaluate import (
     SLACK,
     attach_mask,
@@ -24,8 +25,11 @@ from meshforge.language.evaluate import (
     size,
 )
 from meshforge.language.groups import bodies, components
+from meshforge.language.orient import orient_mesh
+from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import show, show_label
 from meshforge.language.program import Comments, HeaderComments, Program, Rule
+from meshforge.language.run import RuleTrace, RunResult, apply_rule, stage, unstage
 from meshforge.language.syntax import (
     DIRECTIONS,
     EXTREMITY,
@@ -56,6 +60,7 @@ __all__ = [
     "Action",
     "Add",
     "All",
+    "Applied",
     "Attach",
     "Base",
     "Comments",
@@ -74,9 +79,13 @@ __all__ = [
     "Program",
     "Replace",
     "Rule",
+    "RuleTrace",
+    "RunResult",
     "Scale",
     "Template",
     "Union",
+    "apply_action",
+    "apply_rule",
     "attach_mask",
     "bodies",
     "components",
@@ -84,9 +93,15 @@ __all__ = [
     "label_mask",
     "labels_used",
     "length",
+    "orient_mesh",
+    "parse_action",
+    "parse_extractor",
+    "parse_orient",
     "select",
     "select_mask",
     "show",
     "show_label",
     "size",
+    "stage",
+    "unstage",
 ]

@@ -57,8 +57,7 @@ class Rule:
         if self.label is None:
             return
         check_label(self.label)
-        makes = getattr(self.action, "action", self.action)
-        if not makes.makes_hulls:
+        if not self.action.makes_hulls:
             raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
 
     def __str__(self) -> str:
@@ -95,13 +94,18 @@ class Program:
         check_threshold("extremity", self.extremity)
 
     @property
-    def used_labels(self) -> tuple[str, ...]:
-        """The labels that the orientation and the rules mention, each once, in order of mention."""
+    def asked_labels(self) -> tuple[str, ...]:
+        """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
-        used = [label for pair in pairs for end in (pair.start, pair.end) for label in labels_used(end)]
-        for rule in self.rules:
-            used += [*labels_used(rule.extractor), *([rule.label] if rule.label else [])]
-        return tuple(dict.fromkeys(used))
+        asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
+        asked += [rule.extractor for rule in self.rules]
+        return tuple(dict.fromkeys(label for extractor in asked for label in labels_used(extractor)))
+
+    @property
+    def used_labels(self) -> tuple[str, ...]:
+        """The labels asked for, then those that rules give to what they make."""
+        given = [rule.label for rule in self.rules if rule.label is not None]
+        return tuple(dict.fromkeys([*self.asked_labels, *given]))
 
     @property
     def templates(self) -> tuple[str, ...]:

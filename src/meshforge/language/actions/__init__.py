@@ -2,9 +2,10 @@
 
 from meshforge.language.actions.add import Add
 from meshforge.language.actions.arguments import AXES, PRIMITIVES, Argument
-from meshforge.language.actions.base import Action, Edit, Group, Made
+from meshforge.language.actions.base import Action
 from meshforge.language.actions.delete import Delete
 from meshforge.language.actions.each import Each
+from meshforge.language.actions.edit import Edit, Group, Made
 from meshforge.language.actions.merge import Merge
 from meshforge.language.actions.registry import ACTIONS
 from meshforge.language.actions.replace import Replace

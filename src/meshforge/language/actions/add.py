@@ -9,7 +9,8 @@ import numpy as np
 
 from meshforge.geometry import Aabb, Floats
 from meshforge.language.actions.arguments import DIRECTION, File, Flag
-from meshforge.language.actions.base import Action, Edit, Group
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group
 from meshforge.language.syntax import Direction
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -26,6 +27,11 @@ class Argument(ABC):
     @abstractmethod
     def usage(self) -> str:
         """How it is written, as the documentation shows it."""
+
+    @property
+    @abstractmethod
+    def wants(self) -> str:
+        """What it must be, in a sentence."""
 
     @property
     def choices(self) -> tuple[str, ...]:
@@ -57,6 +63,10 @@ class Words(Argument):
         return "|".join(self.words)
 
     @property
+    def wants(self) -> str:
+        return one_of(self.words)
+
+    @property
     def choices(self) -> tuple[str, ...]:
         return self.words
 
@@ -78,6 +88,10 @@ class Flag(Argument):
         return self.word
 
     @property
+    def wants(self) -> str:
+        return self.word
+
+    @property
     def choices(self) -> tuple[str, ...]:
         return (self.word,)
 
@@ -96,30 +110,30 @@ class File(Argument):
     """A quoted path of a template file."""
 
     usage = '"file"'
+    wants = "a file name in double quotes"
 
     def read(self, kind: RawKind, text: str) -> str | None:
-        return text if kind == "text" else None
+        return text if kind == "text" and self.fits(text) else None
 
     def fits(self, value: Any) -> bool:
-        return isinstance(value, str) and bool(value)
+        return isinstance(value, str) and bool(value) and value.isprintable()
 
     def show(self, value: Any) -> str:
         return json.dumps(value, ensure_ascii=False)
 
 
 @dataclass(frozen=True, slots=True)
-class PrimitiveOrFile(Argument):
+class PrimitiveOrFile(File):
     """The bare word of a primitive, or a quoted path of a template file."""
 
     usage = "|".join((*PRIMITIVES, File.usage))
+    wants = f"{', '.join(PRIMITIVES)} or {File.wants}"
     choices = PRIMITIVES
 
     def read(self, kind: RawKind, text: str) -> str | None:
-        named = text in PRIMITIVES
-        return text if (kind == "word" and named) or (kind == "text" and not named) else None
-
-    def fits(self, value: Any) -> bool:
-        return isinstance(value, str) and bool(value)
+        return (
+            text if (kind == "word") == (text in PRIMITIVES) and kind in ("word", "text") and self.fits(text) else None
+        )
 
     def show(self, value: Any) -> str:
         return str(value) if value in PRIMITIVES else json.dumps(value, ensure_ascii=False)
@@ -130,9 +144,10 @@ class Factor(Argument):
     """A number above 0."""
 
     usage = "factor"
+    wants = "a number above 0"
 
     def read(self, kind: RawKind, text: str) -> float | None:
-        return float(text) if kind == "number" else None
+        return float(text) if kind == "number" and self.fits(float(text)) else None
 
     def fits(self, value: Any) -> bool:
         return isinstance(value, int | float) and math.isfinite(value) and value > 0
@@ -146,6 +161,7 @@ class Inner(Argument):
     """An action inside another; the parser reads it, since it has arguments of its own."""
 
     usage = "action"
+    wants = "an action"
 
     def read(self, kind: RawKind, text: str) -> None:
         return None
@@ -154,6 +170,12 @@ class Inner(Argument):
         from meshforge.language.actions.base import Action
 
         return isinstance(value, Action)
+
+
+def one_of(words: Iterable[str]) -> str:
+    """The words as `a, b or c`."""
+    *most, last = words
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 DIRECTION = Words(DIRECTIONS, kind="direction")

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
-from meshforge.language.actions.base import Action, Edit, Group
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group
 
 
 @dataclass(frozen=True, slots=True)
 class Delete(Action):
     """Removes the selected hulls."""
 
-    makes_hulls: ClassVar[bool] = False
+    @property
+    def makes_hulls(self) -> bool:
+        return False
 
     def edit(self, group: Group) -> Edit:
         return Edit()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from meshforge.language.actions.arguments import Inner
-from meshforge.language.actions.base import Action, Edit, Group
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group
 from meshforge.language.groups import components
 from meshforge.symbolic import SymbolicMesh
 
@@ -28,3 +29,7 @@ class Each(Action):
     @property
     def templates(self) -> tuple[str, ...]:
         return self.action.templates
+
+    @property
+    def makes_hulls(self) -> bool:
+        return self.action.makes_hulls

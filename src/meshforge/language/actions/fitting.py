@@ -6,7 +6,7 @@ import numpy as np
 
 from meshforge.errors import ProgramError
 from meshforge.geometry import Box, Shape
-from meshforge.language.actions.base import Group
+from meshforge.language.actions.edit import Group
 
 
 def fitted_primitive(group: Group, primitive: str, *, tight: bool) -> tuple[Shape, str | None]:

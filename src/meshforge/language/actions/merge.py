@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from meshforge.geometry import convex_hull
-from meshforge.language.actions.base import Action, Edit, Group
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group
 
 
 @dataclass(frozen=True, slots=True)

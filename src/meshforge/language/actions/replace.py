@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from meshforge.language.actions.arguments import PRIMITIVES, PrimitiveOrFile, Words
-from meshforge.language.actions.base import Action, Edit, Group
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group
 from meshforge.language.actions.fitting import fitted_primitive, fitted_template
 
 

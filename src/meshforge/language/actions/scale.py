@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.language.actions.arguments import AXES, Axis, Factor, Words
-from meshforge.language.actions.base import Action, Edit, Group, Made
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import Edit, Group, Made
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,128 @@
+"""A program's run on one mesh: oriented, edited rule by rule, returned in the frame it came in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from meshforge.errors import MeshForgeError, ProgramError
+from meshforge.geometry import Pose
+from meshforge.language.apply import Applied, apply_action
+from meshforge.language.evaluate import select_mask
+from meshforge.language.orient import orient_mesh
+from meshforge.language.program import Program, Rule
+from meshforge.language.syntax import EXTREMITY, Orient
+from meshforge.language.template import Template, check_templates
+from meshforge.symbolic import Hull, SymbolicMesh, bits
+
+
+@dataclass(frozen=True, slots=True)
+class RuleTrace:
+    """What one rule did on a mesh; rule: its number from 1; selected, made: names of hulls.
+
+    sources: for each made hull, the names of the hulls it was made from; note: what a user should know.
+    """
+
+    rule: int
+    selected: tuple[str, ...]
+    made: tuple[str, ...] = ()
+    note: str | None = None
+    sources: tuple[tuple[str, ...], ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """The trace as JSON-able data: rule, selected, made, note, and sources by made name."""
+        return {
+            "rule": self.rule,
+            "selected": list(self.selected),
+            "made": list(self.made),
+            "note": self.note,
+            "sources": {name: list(names) for name, names in zip(self.made, self.sources, strict=True)},
+        }
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RunResult:
+    """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
+
+    mesh: SymbolicMesh
+    trace: tuple[RuleTrace, ...]
+
+
+def run(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
+    """The program's edit of a mesh.
+
+    Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
+    has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
+    cannot be made.
+    """
+    try:
+        check_templates(program.templates, templates)
+        _check_labels(program, mesh)
+        return _run(program, mesh, templates)
+    except MeshForgeError as error:
+        raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
+
+
+def stage(mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None) -> tuple[SymbolicMesh, Pose]:
+    """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
+
+    contact: the program's epsilon, None keeps the mesh's.
+    """
+    oriented, pose = orient_mesh(mesh, orient)
+    staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
+    if "graph" in oriented.__dict__ and staged.contact_distance == oriented.contact_distance:
+        staged.__dict__["graph"] = oriented.graph  # the same shapes and reach, so not measured again
+    return staged, pose
+
+
+def unstage(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `stage`."""
+    back = pose.inverse()
+    turned = not np.array_equal(pose.rotation, np.eye(3))
+    hulls = tuple(_home(incoming, hull, back if turned else None) for hull in staged.hulls)
+    same = incoming.scale is None and len(hulls) == len(incoming.hulls)
+    if same and all(a is b for a, b in zip(hulls, incoming.hulls, strict=True)):
+        return incoming
+    return replace(incoming, hulls=hulls, scale=None)
+
+
+def apply_rule(
+    mesh: SymbolicMesh,
+    rule: Rule,
+    templates: Mapping[str, Template] | None = None,
+    extremity: float | None = None,
+    used: frozenset[str] = frozenset(),
+) -> tuple[tuple[str, ...], Applied]:
+    """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
+    mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
+    selected = tuple(mesh.hulls[index].name for index in sorted(bits(mask)))
+    return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
+
+
+def _run(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
+    current, pose = stage(mesh, program.orient, program.contact)
+    trace, used = [], frozenset[str]()
+    for number, rule in enumerate(program.rules, 1):
+        selected, applied = apply_rule(current, rule, templates, program.extremity, used)
+        current, used = applied.mesh, applied.used
+        trace.append(RuleTrace(number, selected, applied.made, applied.note, applied.sources))
+    return RunResult(unstage(mesh, current, pose), tuple(trace))
+
+
+def _home(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
+    """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
+    if hull.name in incoming.index:
+        original = incoming.named(hull.name)
+        return original if original.annotation == hull.annotation else original.labelled(hull.annotation)
+    return hull.moved(back) if back else hull
+
+
+def _check_labels(program: Program, mesh: SymbolicMesh) -> None:
+    if program.asked_labels and mesh.hulls and not any(hull.label for hull in mesh.hulls):
+        raise ProgramError(
+            "no labels: the program asks for labels, and no hull has one",
+            remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
+        )
