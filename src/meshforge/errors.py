@@ -59,6 +59,10 @@ class ProgramError(MeshForgeError):
     """A program text that does not parse, or a program that cannot run on an asset."""
 
 
+class DemonstrationError(MeshForgeError):
+    """Demonstrations that contradict each other, or that name what is not there."""
+
+
 class ProjectError(MeshForgeError):
     """A project folder, or a file in it, that is not as it should be."""
 

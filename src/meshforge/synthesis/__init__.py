@@ -1,1 +1,28 @@
-"""The room `synthesis`."""
+"""Programs from demonstrations: steps, replay, the search for extractors, and what it comes to."""
+
+from meshforge.synthesis.demonstration import Demonstration, Step
+from meshforge.synthesis.gather import consolidated
+from meshforge.synthesis.learn import synthesize
+from meshforge.synthesis.options import LAYERS, Layers, Options, Shortcuts
+from meshforge.synthesis.outcome import Found, Nearest, NoProgram, Outcome, Reading, TimedOut
+from meshforge.synthesis.search import Tried
+from meshforge.synthesis.wire import outcome_json
+
+__all__ = [
+    "LAYERS",
+    "Demonstration",
+    "Found",
+    "Layers",
+    "Nearest",
+    "NoProgram",
+    "Options",
+    "Outcome",
+    "Reading",
+    "Shortcuts",
+    "Step",
+    "TimedOut",
+    "Tried",
+    "consolidated",
+    "outcome_json",
+    "synthesize",
+]

@@ -1,0 +1,106 @@
+"""Goal-directed search: what must the missing part of an extractor hold, and what must it avoid?
+
+Knowing one operand of a set operator turns the goal of the whole into a wider goal for the other operand, and the
+index of the bank finds at once what meets it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from meshforge.language import Diff, Intersect, Union
+from meshforge.synthesis.bank import Bank, Level
+from meshforge.synthesis.options import Shortcuts
+from meshforge.synthesis.order import Joint
+from meshforge.synthesis.term import Term, first, joined
+from meshforge.synthesis.watch import Watch
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """Met by every selection with all of `need` and nothing of `avoid`; what is in neither is free."""
+
+    need: int
+    avoid: int
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """A set operator with one operand known, and the goal of the other; as_right: whether the known one is right."""
+
+    joint: Joint
+    known: Term
+    rest: Goal
+    as_right: bool = False
+
+    def closed(self, other: Term) -> Term:
+        """The whole, with the other operand in its place."""
+        return joined(self.joint, other, self.known) if self.as_right else joined(self.joint, self.known, other)
+
+
+class Completion:
+    """Finds the first term of exactly one size that meets a goal, given that no smaller term meets it.
+
+    goals: how many goals of missing operands it has looked at.
+    """
+
+    def __init__(self, bank: Bank, watch: Watch, shortcuts: Shortcuts) -> None:
+        self._bank = bank
+        self._watch = watch
+        self._shortcuts = shortcuts
+        self._known: dict[tuple[Goal, int], Term | None] = {}
+        self.goals = 0
+
+    def first(self, goal: Goal, size: int) -> Term | None:
+        """The first term of that size that meets the goal. Raises OutOfTime."""
+        if not self._shortcuts.complete:
+            return _first_in(self._bank.level(size), goal)
+        leaves = [leaf for leaf in self._bank.leaves(size) if _meets(leaf.bits, goal)]
+        return first([*leaves, *self._compounds(goal, size)])
+
+    def _operand(self, goal: Goal, size: int) -> Term | None:
+        self.goals += 1
+        if size <= self._shortcuts.stored:
+            return _first_in(self._bank.level(size), goal)
+        if (goal, size) not in self._known:
+            self._known[goal, size] = self.first(goal, size)
+        return self._known[goal, size]
+
+    def _compounds(self, goal: Goal, size: int) -> Iterator[Term]:
+        """Of each set operator whose smaller operand is known, the first that meets the goal."""
+        for small in range(1, (size - 1) // 2 + 1):
+            self._watch.check()
+            for opening in _openings(self._bank.level(small), goal, self._shortcuts.help):
+                other = self._operand(opening.rest, size - 1 - small)
+                if other:
+                    yield opening.closed(other)
+
+
+def _meets(bits: int, goal: Goal) -> bool:
+    return bits & goal.need == goal.need and not bits & goal.avoid
+
+
+def _first_in(level: Level, goal: Goal) -> Term | None:
+    columns = level.columns
+    rows = columns.avoiding(goal.avoid, columns.holding(goal.need, columns.every))
+    return next(level.chosen(rows), None)
+
+
+def _openings(level: Level, goal: Goal, helpful: bool) -> Iterator[Opening]:
+    """Set operators with one operand from the level that can meet the goal.
+
+    helpful: only where the operand leaves less to need or to avoid; else the other one would meet the goal alone.
+    """
+    need, avoid, columns = goal.need, goal.avoid, level.columns
+    holding = columns.holding(need, columns.every)
+    clear = columns.avoiding(avoid, columns.every)
+    apart = columns.avoiding(need, columns.every)
+    for x in level.chosen(clear & ~apart if helpful else clear):
+        yield Opening(Union, x, Goal(need & ~x.bits, avoid))
+    for x in level.chosen(holding):
+        if avoid & ~x.bits or not helpful:
+            yield Opening(Intersect, x, Goal(need, avoid & x.bits))
+        yield Opening(Diff, x, Goal(avoid & x.bits, need))
+    for x in level.chosen(apart & ~clear if helpful else apart):
+        yield Opening(Diff, x, Goal(need, avoid & ~x.bits), as_right=True)

@@ -1,0 +1,41 @@
+"""How a search is limited, and which of its shortcuts it takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+Layers = Literal["S", "S+T", "S+G", "S+T+G"]
+LAYERS: tuple[Layers, ...] = get_args(Layers)
+
+
+@dataclass(frozen=True, slots=True)
+class Shortcuts:
+    """Ways of doing less for the same answer; each can be switched off, to see that the answer stays the same.
+
+    merge: of the extractors that select the same, only the first in the order is built upon.
+    group: hulls that no extractor can tell apart count as one.
+    complete: the missing operand of a set operator is looked up by what it must hold and avoid.
+    help: an operand that brings its goal no nearer is passed over.
+    stored: up to this size every selection is kept in an index, beyond only goals are followed.
+    """
+
+    merge: bool = True
+    group: bool = True
+    complete: bool = True
+    help: bool = True
+    stored: int = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Limits of a search.
+
+    layers: which extractors it may use besides set operators: semantic, topological, geometric (paper, ablation).
+    max_size: in syntax nodes; budget: for the whole program [s].
+    """
+
+    layers: Layers = "S+T+G"
+    max_size: int = 13
+    budget: float = 120.0
+    shortcuts: Shortcuts = Shortcuts()

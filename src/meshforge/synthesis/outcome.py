@@ -1,0 +1,92 @@
+"""What learning comes to: a closed union whose members share the attributes that callers read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from meshforge.language import Extractor, Program, Rule, size
+from meshforge.synthesis.search import Tried
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One extractor that agrees with all demonstrations of a rule.
+
+    belief: its share, in 0..1, of the belief in all readings of the rule; differs_on: names of the assets where it
+    selects something else than the reading that the program has.
+    """
+
+    id: str
+    rule: int
+    extractor: Extractor
+    belief: float
+    differs_on: tuple[str, ...] = ()
+
+    @property
+    def size(self) -> int:
+        """Syntax nodes of the extractor."""
+        return size(self.extractor)
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The extractor that came nearest for a rule that has none, and how it differs on one demonstrated mesh.
+
+    extra: names of hulls it selects though they were not shown; missing: names of those it leaves out.
+    """
+
+    rule: int
+    extractor: Extractor
+    asset: str
+    extra: tuple[str, ...]
+    missing: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Outcome:
+    """What all outcomes have.
+
+    rules: those learned, in order; readings: of them, by rule; tried: how far the search of each rule went.
+    seconds: under "search" and "replay"; settled: whether all believable readings do the same on the whole batch.
+    """
+
+    rules: tuple[Rule, ...]
+    readings: tuple[Reading, ...]
+    tried: tuple[Tried, ...]
+    seconds: Mapping[str, float]
+    settled: bool = False
+    repairs: tuple[()] = ()
+    question: None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found(_Outcome):
+    """A program that does on every demonstration what was shown."""
+
+    status: ClassVar[Literal["found"]] = "found"
+    program: Program
+    nearest: None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoProgram(_Outcome):
+    """A rule that no extractor fits; why: one sentence about it."""
+
+    status: ClassVar[Literal["none"]] = "none"
+    nearest: Nearest
+    why: str
+    program: None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimedOut(_Outcome):
+    """The time ran out while a rule was searched for; the rules before it are there."""
+
+    status: ClassVar[Literal["timeout"]] = "timeout"
+    nearest: Nearest | None
+    program: None = None
+
+
+Outcome = Found | NoProgram | TimedOut
