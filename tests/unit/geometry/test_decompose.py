@@ -23,7 +23,7 @@ from meshforge.geometry.decompose.cache import cache_key, read_entry, write_entr
 from meshforge.geometry.decompose.surface import sound_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
-COARSE = VhacdSettings(resolution=50_000, max_convex_hulls=8)
+COARSE = VhacdSettings(resolution=5000, max_convex_hulls=4)
 
 
 def prism(outline: list[tuple[float, float]], triangles: list[tuple[int, int, int]]) -> tuple[Floats, Ints]:

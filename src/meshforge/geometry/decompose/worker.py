@@ -38,7 +38,7 @@ def _vhacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
 
     return vhacdx.compute_vhacd(
         vertices,
-        faces.astype(np.uint32),
+        np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32).ravel(),  # each with its corner count
         maxConvexHulls=settings["max_convex_hulls"],
         resolution=settings["resolution"],
         minimumVolumePercentErrorAllowed=settings["volume_error"],
