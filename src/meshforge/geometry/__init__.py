@@ -2,14 +2,14 @@
 
 from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
-from meshforge.geometry.convex import FLATNESS, convex_hull, is_convex, principal_extents
+from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.digest import digest, same_shape
-from meshforge.geometry.pieces import FILLED, Piece, pieces
+from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
+from meshforge.geometry.surface import is_closed, is_convex, outward
 
 __all__ = [
-    "FILLED",
     "FLATNESS",
     "Aabb",
     "Box",
@@ -27,7 +27,9 @@ __all__ = [
     "digest",
     "frozen_floats",
     "frozen_ints",
+    "is_closed",
     "is_convex",
+    "outward",
     "pieces",
     "principal_extents",
     "same_shape",

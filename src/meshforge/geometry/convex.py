@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import manifold3d
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
@@ -9,95 +11,156 @@ from scipy.spatial import ConvexHull, QhullError
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.shapes.polytope import Polytope
+from meshforge.geometry.surface import height_above, is_closed, is_convex, lowest_altitudes, outward
 
 FLATNESS = 1e-4
 """Degenerate input is thickened to this share of the reference diagonal."""
-_CONVEXITY = 1e-9  # how far, relative to its size, a vertex may lie outside a face plane
-_RANK = 1e-7  # extents below this share of the largest count as none
+_RANK = 1e-6  # extents below this share of the largest count as none: single precision leaves 1e-7 of noise
+_CONVEXITY = 1e-8  # verified in coordinates where the hull is one long, wide and high
+_SLIVERS = (1e-7, 1e-6, 1e-5, 1e-4)  # altitudes of triangles given up in turn; the first is manifold's own precision
+_ROUNDS = 40
+_FARTHEST, _SMALLEST = 1e50, 1e-100  # [m] beyond, volumes are no floating point numbers any more
 
 
 def convex_hull(points: Floats, *, name: str = "points", thicken: float | None = None) -> Polytope:
-    """The convex hull of points (n, 3).
+    """The convex hull of points (n, 3); its vertices are some of them, bit for bit.
 
+    Every point is inside to 1e-7 of the hull's length, width and height; to 1e-4 at worst, where rounded, nearly
+    coplanar or collinear points leave no other hull that is convex.
     thicken: the thickness [m] given to points that span no volume; None refuses them.
     Raises GeometryError naming `name`: no points, a coordinate that is not finite, no extent, or no convex result.
     """
-    points = np.unique(np.asarray(points, dtype=np.float64).reshape(-1, 3), axis=0)
+    points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     if len(points) == 0:
         raise GeometryError("a convex hull needs points, there are none", where=name)
-    if not np.isfinite(points).all():
+    if not (np.abs(points) < _FARTHEST).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
     center, axes, extents = principal_extents(points)
-    flat = extents <= _RANK * max(float(extents.max()), np.finfo(float).tiny)
+    flat = extents <= _least_extent(points, extents)
     if thicken is not None and thicken > 0:
         flat = flat | (extents < thicken * 0.5)
-        for axis in axes[flat]:
-            inward = points - np.outer((points - center) @ axis, axis)
-            points = np.concatenate([inward - axis * (thicken / 2), inward + axis * (thicken / 2)])
+        if flat.any():
+            points = _thickened(points, center, axes[flat], thicken)
     elif flat.any():
         raise GeometryError(
             f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)",
             where=name,
             remedy="Give the piece a thickness, or delete it.",
         )
-    return _verified(points, name)
+    made = _verified(points, name)
+    while len(made.vertices) < len(points):  # until nothing more goes: the hull of a hull is that hull
+        points, made = made.vertices, _verified(made.vertices, name)
+    return made
 
 
 def principal_extents(points: Floats) -> tuple[Floats, Floats, Floats]:
-    """Middle (3,), principal axes as rows (3, 3), and the extent of the points along each (3,), widest first."""
+    """Middle (3,), principal axes as rows of a rotation (3, 3), and the extent along each (3,), widest first."""
     center = points.mean(axis=0)
-    _, _, axes = np.linalg.svd(points - center, full_matrices=True)
-    along = (points - center) @ axes.T
-    return center, axes, np.ptp(along, axis=0)
+    _, _, axes = np.linalg.svd(np.linalg.qr(points - center, mode="r"), full_matrices=True)
+    axes = axes * np.sign(np.linalg.det(axes))
+    return center, axes, np.ptp((points - center) @ axes.T, axis=0)
 
 
-def is_convex(vertices: Floats, faces: Ints, tolerance: float = _CONVEXITY) -> bool:
-    """Whether no vertex lies outside any face plane by more than `tolerance` times the size."""
-    size = float(np.ptp(vertices, axis=0).max())
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    keep = lengths > 1e-10 * size * size  # the plane of a needle is noise; its neighbours bound the shape there
-    normals = normals[keep] / lengths[keep, None]
-    heights = vertices @ normals.T - np.einsum("ij,ij->i", normals, a[keep])
-    return bool(heights.max(initial=-np.inf) <= tolerance * size)
+def _least_extent(points: Floats, extents: Floats) -> float:
+    """Extents of the points that are no larger count as none [m]."""
+    rounding = 8 * np.finfo(float).eps * float(np.abs(points).max())
+    return max(_RANK * float(extents.max()), rounding, _SMALLEST)
+
+
+def _thickened(points: Floats, center: Floats, axes: Floats, thickness: float) -> Floats:
+    for axis in axes:
+        flat = points - np.outer((points - center) @ axis, axis)
+        points = np.concatenate([flat - axis * (thickness / 2), flat + axis * (thickness / 2)])
+    return points
 
 
 def _verified(points: Floats, name: str) -> Polytope:
+    """The hull of points (n, 3), made and verified on their affine image that is one long, wide and high.
+
+    Hulls are affinely invariant; in the image a thin plate or a needle is as well conditioned as a cube.
+    """
+    center, axes, extents = principal_extents(points)
+    unit = (points - center) @ (axes.T / extents)
     for attempt in (_by_manifold, _by_qhull):
-        made = attempt(points)
-        if made is not None and made.volume > 0 and is_convex(made.vertices, made.faces, 1e-7):
-            return made
+        for altitude in _SLIVERS:
+            made = _pruned(unit, attempt, altitude)
+            if made is not None and _holds(unit, *made, max(10 * altitude, 1e-6)):
+                return Polytope(points[made[0]], made[1])
     raise GeometryError("no convex hull of its points could be made", where=name)
 
 
-def _by_manifold(points: Floats) -> Polytope | None:
-    shift = points.mean(axis=0)
-    scale = float(np.abs(points - shift).max()) or 1.0
-    unit_points = (points - shift) / scale + 0.0  # no negative zeros: vertices are found again by their bytes
-    mesh = manifold3d.Manifold.hull_points(unit_points).to_mesh64()
-    triangles = np.asarray(mesh.tri_verts, dtype=np.int64)
-    if len(triangles) < 4:
+_Hull = tuple[Ints, Ints]  # indices of the points that are vertices, and triangles of these vertices
+
+
+def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
+    """Whether the hull is what it should be, with all points inside to `reach`."""
+    vertices = unit[kept]
+    return (
+        is_closed(faces)
+        and outward(vertices, faces)
+        and is_convex(vertices, faces, _CONVEXITY)
+        and (len(kept) == len(unit) or height_above(unit, vertices, faces) <= reach)
+    )
+
+
+def _pruned(unit: Floats, attempt: Callable[[Floats], _Hull | None], altitude: float) -> _Hull | None:
+    """The hull without vertices that are none: within `altitude` of an edge between two others, or inside a face."""
+    kept = np.arange(len(unit))
+    for _ in range(_ROUNDS):
+        made = attempt(unit[kept])
+        if made is None:
+            return None
+        vertices, faces = kept[made[0]], made[1]
+        spare = _spare(unit[vertices], faces, altitude) or _flat(unit[vertices], faces, altitude)
+        if len(spare) == 0:
+            return vertices, faces
+        kept = np.delete(vertices, spare)
+    return None
+
+
+def _flat(vertices: Floats, faces: Ints, angle: float) -> list[int]:
+    """Vertices whose faces lie in one plane or two, to `angle` [rad]: no corners, they can all go at once."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    spread = np.zeros((len(vertices), 3, 3))
+    np.add.at(spread, faces.ravel(), np.repeat(normals[:, :, None] * normals[:, None, :], 3, axis=0))
+    return [int(k) for k in np.flatnonzero(np.linalg.eigvalsh(spread)[:, 0] < angle * angle)]
+
+
+def _spare(vertices: Floats, faces: Ints, altitude: float) -> list[int]:
+    """Vertices that can go at once, each next to an edge whose ends stay."""
+    heights, apex = lowest_altitudes(vertices, faces)
+    spare: list[int] = []
+    staying: set[int] = set()
+    for k in np.flatnonzero(heights < altitude)[np.argsort(heights[heights < altitude], kind="stable")]:
+        corner = int(faces[k, apex[k]])
+        ends = {int(faces[k, (apex[k] + 1) % 3]), int(faces[k, (apex[k] + 2) % 3])}
+        if corner not in staying and corner not in spare and ends.isdisjoint(spare):
+            spare.append(corner)
+            staying |= ends
+    return spare
+
+
+def _by_manifold(points: Floats) -> _Hull | None:
+    points = points + 0.0  # no negative zeros: vertices are found again by their bytes
+    mesh = manifold3d.Manifold.hull_points(points).to_mesh64()
+    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
+    if len(faces) < 4:
         return None
-    unit = np.asarray(mesh.vert_properties)[:, :3] + 0.0
-    return Polytope(_snapped(unit, unit_points, points), triangles)
+    index = {row.tobytes(): k for k, row in reversed(list(enumerate(points)))}
+    vertices = np.ascontiguousarray(np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] + 0.0)
+    return np.array([index[row.tobytes()] for row in vertices]), faces
 
 
-def _snapped(unit: Floats, unit_points: Floats, points: Floats) -> Floats:
-    """The given points that the hull's vertices are, so that no rounding creeps in by shift and scale."""
-    index = {row.tobytes(): k for k, row in enumerate(np.ascontiguousarray(unit_points))}
-    return points[[index[row.tobytes()] for row in np.ascontiguousarray(unit)]]
-
-
-def _by_qhull(points: Floats) -> Polytope | None:
+def _by_qhull(points: Floats) -> _Hull | None:
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
         return None
-    center = points[hull.vertices].mean(axis=0)
     used, faces = np.unique(hull.simplices, return_inverse=True)
     vertices, faces = points[used], faces.reshape(-1, 3).copy()
     a, b, c = (vertices[faces[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - center) < 0
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - vertices.mean(axis=0)) < 0
     faces[inward] = faces[inward][:, ::-1]
-    return Polytope(vertices, faces)
+    return used.astype(np.int64), faces
