@@ -24,6 +24,7 @@ from meshforge.geometry.decompose.surface import sound_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
 COARSE = VhacdSettings(resolution=5000, max_convex_hulls=4)
+RAYCAST = VhacdSettings(resolution=20000, fill_mode="raycast")
 
 
 def prism(outline: list[tuple[float, float]], triangles: list[tuple[int, int, int]]) -> tuple[Floats, Ints]:
@@ -50,10 +51,14 @@ def fake_engine(monkeypatch: pytest.MonkeyPatch, folder: Path, code: str) -> Non
     monkeypatch.setattr(child, "worker", SimpleNamespace(__file__=str(script)))
 
 
-@pytest.mark.parametrize("settings", [QUICK, COARSE], ids=["coacd", "vhacd"])
-def test_an_l_shape_becomes_convex_hulls_that_fill_it(settings: DecomposeSettings) -> None:
+@pytest.mark.parametrize(
+    "settings", [QUICK, VhacdSettings(resolution=5000), RAYCAST], ids=["coacd", "flood", "raycast"]
+)
+@pytest.mark.parametrize("winding", [1, -1], ids=["outward", "inward"])
+def test_an_l_shape_becomes_convex_hulls_that_fill_it(settings: DecomposeSettings, winding: int) -> None:
     notes: list[str] = []
-    hulls = decompose(*L_SHAPE, settings, note=notes.append)
+    vertices, faces = L_SHAPE
+    hulls = decompose(vertices, faces[:, ::winding], settings, note=notes.append)
     assert len(hulls) >= 2 and not notes
     assert all(is_convex(h.vertices, h.faces) and h.volume > 0 for h in hulls)
     assert sum(h.volume for h in hulls) == pytest.approx(5.0, rel=0.1)

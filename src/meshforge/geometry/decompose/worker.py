@@ -36,6 +36,10 @@ def _coacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
 def _vhacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
     import vhacdx
 
+    a, b, c = (vertices[faces[:, k]] - vertices.mean(axis=0) for k in range(3))
+    outward = np.einsum("ij,ij->", a, np.cross(b, c)) > 0
+    if outward:  # its ray casting takes triangles that face inward for a filled inside, and others for a shell
+        faces = faces[:, ::-1]
     return vhacdx.compute_vhacd(
         vertices,
         np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32).ravel(),  # each with its corner count
