@@ -1,9 +1,10 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.registry import FORMATS, SUFFIXES, format_of
 from meshforge.formats.saving import Saved, save
-from meshforge.formats.triangles import RawSurface, pieces_of, read_triangles
+from meshforge.formats.triangles import pieces_of, read_triangles
 
 __all__ = [
     "FORMATS",

@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.geometry import Floats, Ints, Piece, pieces
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class RawSurface:
-    """A named part of a mesh file (group, object, node); vertices (n, 3) in the file's own unit, faces (m, 3)."""
-
-    name: str | None
-    vertices: Floats
-    faces: Ints
+from meshforge.formats.meshfile import RawSurface
+from meshforge.geometry import Piece, pieces
 
 
 def read_triangles(path: Path) -> list[RawSurface]:
@@ -26,6 +17,10 @@ def read_triangles(path: Path) -> list[RawSurface]:
 
     Raises AssetError naming the file, and the line where there is one: unreadable, empty, or not finite.
     """
+    if path.suffix.lower() == ".obj":
+        from meshforge.formats.meshfile.obj import parse_obj
+
+        return parse_obj(path.read_bytes(), str(path)).surfaces(str(path))
     import trimesh
 
     try:

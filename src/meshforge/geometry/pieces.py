@@ -1,20 +1,21 @@
-"""The connected pieces of a triangle soup, each judged: a convex hull, or opaque with the reason."""
+"""The connected pieces of a triangle soup, each judged: a convex hull, or opaque with the reason.
+
+Files disagree on what holds a piece together: groups, shared indices, shared places or edges. Each coarse component
+is read as whole or as its finer parts, whichever accounts for more of it by valid hulls.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
+from meshforge.geometry.connect import by_edges, by_vertices, closed_components, distinct_faces, is_simple, row_ids
+from meshforge.geometry.connect import welded as welded_ids
 from meshforge.geometry.shapes.polytope import Polytope, volume_and_centroid
-
-FILLED = 0.95
-"""A piece is a hull when its volume is at least this share of its convex hull's."""
+from meshforge.geometry.solidity import FILLED, Verdict, verdict
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -22,7 +23,7 @@ class Piece:
     """A connected piece of a surface.
 
     shape: its convex hull, None where the piece is no hull, with the `reason`.
-    vertices: (n, 3) [m] and faces: (m, 3), the piece as authored; face_indices: (m,) its faces in the input;
+    vertices: (n, 3) [m] and faces: (m, 3), the piece as authored; face_indices: (m,) its faces in the input, ascending;
     group: the group of its first face.
     """
 
@@ -49,28 +50,129 @@ def pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = No
     if not np.isfinite(vertices[faces]).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
-    points, welded = np.unique(vertices + 0.0, axis=0, return_inverse=True)
-    corners = welded.reshape(-1)[faces]
-    links = coo_array(
-        (np.ones(2 * len(corners)), (corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel())), (len(points),) * 2
-    )
-    _, label = connected_components(links, directed=False)
-    of_piece = label[corners[:, 0]]
-    _, first = np.unique(of_piece, return_index=True)
-    return [
-        _judged(vertices, faces, np.flatnonzero(of_piece == of_piece[k]), int(of_face[k]), name) for k in np.sort(first)
-    ]
+    found = _Reader(vertices, faces, of_face, name).read()
+    return [_piece(vertices, faces, part, of_face) for part in sorted(found, key=lambda part: int(part.faces[0]))]
 
 
-def _judged(vertices: Floats, faces: Ints, indices: Ints, group: int, name: str) -> Piece:
-    used, local = np.unique(faces[indices], return_inverse=True)
-    points, triangles = vertices[used], local.reshape(-1, 3)
-    _, _, extents = principal_extents(points)
-    if extents.min() <= FLATNESS * max(extents.max(), 1e-300):
-        return Piece(None, "flat", points, triangles, indices, group)
-    hull = convex_hull(points, name=name)
-    share = abs(volume_and_centroid(points, triangles)[0]) / hull.volume
-    if share < FILLED:
-        reason = f"not convex: fills {share:.0%} of its convex hull"
-        return Piece(None, reason, points, triangles, indices, group)
-    return Piece(hull, None, points, triangles, indices, group)
+@dataclass(frozen=True, eq=False, slots=True)
+class _Part:
+    """Faces read as one piece, ascending, and what they are."""
+
+    faces: Ints
+    verdict: Verdict
+
+
+class _Reader:
+    """Reads components from coarse (all that touches) to fine (solids that meet in an edge)."""
+
+    def __init__(self, vertices: Floats, faces: Ints, group: Ints, name: str) -> None:
+        self.vertices = vertices
+        self.name = name
+        self.placed = welded_ids(vertices)[faces]  # corners by place
+        self.grouped = _in_groups(self.placed, group)  # corners by group and place
+        self.indexed = _in_groups(faces, group)  # corners by group and index
+        self.points = np.empty((int(self.placed.max()) + 1, 3))
+        self.points[self.placed] = vertices[faces]
+
+    def read(self) -> list[_Part]:
+        return [part for faces in _split(by_vertices(self.placed)) for part in self._touching(faces)]
+
+    def _touching(self, faces: Ints) -> list[_Part]:
+        """All that touches: as whole, or group by group."""
+        parts = _sub(faces, by_vertices(self.grouped[faces]))
+        if len(parts) == 1:
+            return self._group(faces)
+        return self._better([p for part in parts for p in self._group(part)], faces)
+
+    def _group(self, faces: Ints) -> list[_Part]:
+        """What touches in one group: as whole, or by the closed surfaces that share no vertex number."""
+        component = by_vertices(self.indexed[faces])
+        closed = np.isin(component, closed_components(self.indexed[faces], component))
+        parts = _sub(faces[closed], component[closed])
+        if not closed.all():
+            parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
+        if len(parts) == 1:
+            return self._edges(faces)
+        return self._better([p for part in parts for p in self._edges(part)], faces)
+
+    def _edges(self, faces: Ints) -> list[_Part]:
+        """One surface: as whole, or by the solids that meet in its edges and corners."""
+        whole = self._judged(faces)
+        corners = self.placed[faces]
+        if whole.verdict.shape is not None and is_simple(corners):
+            return [whole]
+        proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
+        inward = volume_and_centroid(self.points, corners)[0] < 0
+        component = by_edges(self.points, corners[proper], inward)
+        if component.max(initial=0) == 0:
+            return [whole]
+        parts = _sub(faces[proper], component)
+        slivers = np.setdiff1d(faces, faces[proper])
+        solids = _without_backs([self._judged(part) for part in self._with_slivers(parts, slivers)])
+        return solids if all(p.verdict.shape for p in solids) else [whole]
+
+    def _with_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
+        """The parts, each with the faces without area that lie at one of its corners."""
+        owner = np.zeros(len(self.points), dtype=np.int64)
+        for k in reversed(range(len(parts))):
+            owner[self.placed[parts[k]]] = k
+        of_sliver = owner[self.placed[slivers, 0]]
+        return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
+
+    def _judged(self, faces: Ints) -> _Part:
+        corners = self.placed[faces]
+        proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
+        if len(proper) < 2:
+            return _Part(faces, Verdict(None, "flat"))
+        return _Part(faces, verdict(self.points, corners[proper], self.name))
+
+    def _better(self, parts: list[_Part], faces: Ints) -> list[_Part]:
+        """The parts, or the whole, whichever accounts for more by valid hulls."""
+        parts = _without_backs(parts)
+        if all(part.verdict.shape for part in parts):
+            return parts
+        whole = self._judged(faces)
+        solid = sum(abs(p.verdict.volume) for p in parts if p.verdict.shape and p.verdict.closed)
+        enough = FILLED * abs(whole.verdict.volume) if whole.verdict.shape else 0.0
+        return parts if solid > enough else [whole]
+
+
+def _without_backs(parts: list[_Part]) -> list[_Part]:
+    """The parts, the inside-out copy of a hull joined with that hull: both are sides of one double-sided surface."""
+    found: dict[bytes, list[int]] = {}
+    out = list(parts)
+    for k, part in enumerate(parts):
+        shape = part.verdict.shape
+        if shape is None:
+            continue
+        same = found.setdefault(np.unique(shape.vertices, axis=0).tobytes(), [])
+        front = next((j for j in same if out[j].verdict.volume * part.verdict.volume < 0), None)
+        if front is None:
+            same.append(k)
+            continue
+        same.remove(front)
+        out[front] = _Part(np.sort(np.concatenate([out[front].faces, part.faces])), out[front].verdict)
+        out[k] = _Part(part.faces[:0], part.verdict)
+    return [part for part in out if len(part.faces)]
+
+
+def _in_groups(corners: Ints, group: Ints) -> Ints:
+    """Numbers for corners (m, 3) that differ from group to group."""
+    return row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
+
+
+def _split(component: Ints) -> list[Ints]:
+    """The members of each component, ascending, in the order of the component numbers."""
+    order = np.argsort(component, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(component[order])) + 1) if len(order) else []
+
+
+def _sub(faces: Ints, component: Ints) -> list[Ints]:
+    return [faces[members] for members in _split(component)]
+
+
+def _piece(vertices: Floats, faces: Ints, part: _Part, group: Ints) -> Piece:
+    used, local = np.unique(faces[part.faces], return_inverse=True)
+    first = int(part.faces[0])
+    found = part.verdict
+    return Piece(found.shape, found.reason, vertices[used], local.reshape(-1, 3), part.faces, int(group[first]))

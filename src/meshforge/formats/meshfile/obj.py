@@ -1,0 +1,162 @@
+"""Reading Wavefront OBJ: vertices, faces and groups, each with the statement it comes from, so that edits keep the text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.geometry import Floats, Ints
+
+Group = tuple[str, str]
+"""The object (`o`) and the group (`g`) that a face is in; an empty text where there is none."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ObjText:
+    """An OBJ file taken apart.
+
+    statements: the file, cut into statements (a line, or lines joined by backslashes), nothing left out.
+    vertices: (n, 3); vertex_at: (n,) the statement of each. faces: (m, 3) triangles, polygons cut into fans;
+    face_at: (m,) the statement of each triangle; face_group: (m,) into `groups`, in order of appearance.
+    """
+
+    statements: tuple[bytes, ...]
+    vertices: Floats
+    vertex_at: Ints
+    faces: Ints
+    face_at: Ints
+    face_group: Ints
+    groups: tuple[Group, ...]
+
+    def surfaces(self, where: str) -> list[RawSurface]:
+        """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
+        names = group_names(self.groups)
+        parts = [RawSurface(names[k], self.vertices, self.faces[self.face_group == k]) for k in range(len(names))]
+        return checked(parts, where)
+
+
+def statements_of(data: bytes) -> list[bytes]:
+    """The statements of an OBJ file, line ends included."""
+    lines = data.splitlines(keepends=True)
+    if b"\\\n" not in data and b"\\\r" not in data:
+        return lines
+    joined: list[bytes] = []
+    open_line = False
+    for line in lines:
+        if open_line:
+            joined[-1] += line
+        else:
+            joined.append(line)
+        open_line = line.rstrip(b"\r\n").endswith(b"\\") and not joined[-1].lstrip().startswith(b"#")
+    return joined
+
+
+def group_names(groups: tuple[Group, ...]) -> list[str | None]:
+    """The name of each group: its object where that holds one group only, else object and group."""
+    objects = [o for o, _ in groups]
+    names: list[str | None] = []
+    for o, g in groups:
+        if o and g:
+            names.append(o if objects.count(o) == 1 else f"{o}/{g}")
+        else:
+            names.append(o or g or None)
+    return names
+
+
+def parse_obj(data: bytes, where: str) -> ObjText:
+    """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
+    statements = statements_of(data)
+    words = [s.split(None, 1)[0] if s.strip() else b"" for s in statements]
+    vertex_at = np.array([k for k, word in enumerate(words) if word == b"v"], dtype=np.int64)
+    vertices = _vertices(statements, vertex_at, where)
+    face_at, faces = _faces(statements, words, vertex_at, where)
+    groups, of_statement = _groups(statements, words)
+    used = of_statement[face_at] if len(face_at) else np.zeros(0, dtype=np.int64)
+    kept, first, face_group = np.unique(used, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.argsort(order)
+    return ObjText(
+        tuple(statements),
+        vertices,
+        vertex_at,
+        faces,
+        face_at,
+        rank[face_group.reshape(-1)],
+        tuple(groups[int(kept[k])] for k in order),
+    )
+
+
+def line_of(statements: tuple[bytes, ...] | list[bytes], index: int) -> int:
+    """The line on which a statement starts, from 1."""
+    return 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
+
+
+def arguments(statement: bytes) -> list[bytes]:
+    """The words after the keyword, without a comment at the end."""
+    return statement.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").split(b"#", 1)[0].split()[1:]
+
+
+def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
+    rows = [arguments(statements[k])[:3] for k in at]
+    try:
+        return np.array([[float(x) for x in row] for row in rows], dtype=np.float64).reshape(len(rows), 3)
+    except ValueError:
+        for k, row in zip(at, rows, strict=True):
+            if len(row) < 3 or not all(map(_is_number, row)):
+                raise _error("a vertex needs three numbers", statements, int(k), where) from None
+        raise
+
+
+def _is_number(word: bytes) -> bool:
+    return re.fullmatch(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf)\w*", word, re.IGNORECASE) is not None
+
+
+def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
+    """The statement of each triangle, and the triangles (m, 3)."""
+    at: list[int] = []
+    triangles: list[tuple[int, int, int]] = []
+    before = np.searchsorted(vertex_at, np.arange(len(statements)))  # vertices ahead of a statement
+    for k, word in enumerate(words):
+        if word not in (b"f", b"fo"):
+            continue
+        try:
+            corners = [int(w.partition(b"/")[0]) for w in arguments(statements[k])]
+        except ValueError:
+            raise _error("a face needs vertex numbers", statements, k, where) from None
+        indices = [c - 1 if c > 0 else int(before[k]) + c for c in corners]
+        for corner, index in zip(corners, indices, strict=True):
+            if corner == 0 or not 0 <= index < len(vertex_at):
+                problem = f"a face names vertex {corner}, the file has {len(vertex_at)}"
+                raise _error(problem, statements, k, where)
+        for second, third in zip(indices[1:], indices[2:], strict=False):
+            at.append(k)
+            triangles.append((indices[0], second, third))
+    return np.array(at, dtype=np.int64), np.array(triangles, dtype=np.int64).reshape(-1, 3)
+
+
+def _groups(statements: list[bytes], words: list[bytes]) -> tuple[list[Group], Ints]:
+    """All groups in order of appearance, and the group in force at each statement."""
+    known: dict[Group, int] = {("", ""): 0}
+    current: Group = ("", "")
+    in_force = np.zeros(len(statements), dtype=np.int64)
+    for k, word in enumerate(words):
+        if word == b"o":
+            current = (name_in(statements[k]), "")
+        elif word == b"g":
+            current = (current[0], name_in(statements[k]))
+        in_force[k] = known.setdefault(current, len(known))
+    return list(known), in_force
+
+
+def name_in(statement: bytes) -> str:
+    """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
+    rest = statement.strip()[1:].strip()
+    return rest.decode("utf-8", errors="surrogateescape")
+
+
+def _error(problem: str, statements: list[bytes], index: int, where: str) -> AssetError:
+    return AssetError(problem, where=f"{where}:{line_of(statements, index)}")
