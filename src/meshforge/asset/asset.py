@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -74,7 +74,7 @@ class Asset:
     geoms: tuple[Geom, ...]
     document: Document
     opaque: tuple[Opaque, ...] = ()
-    visuals: tuple[Surface, ...] = ()
+    visuals: Sequence[Surface] = ()
     files: tuple[Path, ...] = ()
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = field(default=())

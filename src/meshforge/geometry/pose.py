@@ -49,9 +49,11 @@ class Pose:
         r = self.rotation
         horizontal = float(np.hypot(r[0, 0], r[1, 0]))
         pitch = float(np.arctan2(-r[2, 0], horizontal))
-        if horizontal < 1e-12:
-            return float(np.arctan2(-r[1, 2], r[1, 1])), pitch, 0.0
-        return float(np.arctan2(r[2, 1], r[2, 2])), pitch, float(np.arctan2(r[1, 0], r[0, 0]))
+        yaw = float(np.arctan2(r[1, 0], r[0, 0])) if horizontal > 1e-12 else 0.0
+        # roll of what is left when the yaw is undone: exact for any yaw, where pitch is near 90 degrees too
+        sy, cy = np.sin(yaw), np.cos(yaw)
+        roll = float(np.arctan2(sy * r[0, 2] - cy * r[1, 2], cy * r[1, 1] - sy * r[0, 1]))
+        return roll, pitch, yaw
 
     def __matmul__(self, other: Pose) -> Pose:
         return Pose(self.rotation @ other.rotation, self.rotation @ other.translation + self.translation)

@@ -1,0 +1,77 @@
+"""The files that a mesh file needs beside it, materials, textures, buffers, found without reading its geometry."""
+
+from __future__ import annotations
+
+import json
+import os
+import posixpath
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+_LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.M)
+_MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.M | re.I)
+_IMAGE = re.compile(rb"<init_from[^>]*>\s*(?:<ref>)?\s*([^<]+?)\s*<")
+_GLB_HEADER = 20  # bytes: magic, version, length; length and type of the chunk of JSON
+
+
+def companions(mesh: Path) -> dict[str, Path]:
+    """The files beside a mesh file that it refers to and that are there, by their path relative to its folder.
+
+    An OBJ's material libraries and their textures, a Collada file's images, a glTF file's buffers and images.
+    Never raises for what the file holds: what cannot be understood has no companions.
+    """
+    found: dict[str, Path] = {}
+    for reference in _references(mesh):
+        _add(found, mesh.parent, "", reference)
+    for key, library in [(k, p) for k, p in found.items() if p.suffix.lower() == ".mtl"]:
+        for reference in _matches(_MAP, _bytes(library)):
+            _add(found, mesh.parent, posixpath.dirname(key), reference)
+    return found
+
+
+def _references(mesh: Path) -> Iterator[str]:
+    match mesh.suffix.lower():
+        case ".obj":
+            yield from _matches(_LIBRARY, _bytes(mesh))
+        case ".dae":
+            yield from (unquote(text.removeprefix("file://")) for text in _matches(_IMAGE, _bytes(mesh)))
+        case ".gltf" | ".glb":
+            yield from map(unquote, _uris(mesh))
+
+
+def _matches(pattern: re.Pattern[bytes], data: bytes) -> Iterator[str]:
+    for found in pattern.finditer(data):
+        yield found[1].decode("utf-8", "replace").strip()
+
+
+def _uris(mesh: Path) -> Iterator[str]:
+    data = _bytes(mesh)
+    if data[:4] == b"glTF":
+        data = data[_GLB_HEADER : _GLB_HEADER + int.from_bytes(data[12:16], "little")]
+    try:
+        scene: Any = json.loads(data)
+        entries = [entry for kind in ("buffers", "images") for entry in scene.get(kind, [])]
+        uris = [entry["uri"] for entry in entries if "uri" in entry]
+    except (ValueError, AttributeError, TypeError):
+        return
+    yield from (uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:"))
+
+
+def _add(found: dict[str, Path], folder: Path, inside: str, reference: str) -> None:
+    """Add a referenced file; options may stand before a name, and names may hold blanks: the whole is tried first."""
+    for text in (reference, reference.split()[-1] if reference.split() else ""):
+        key = posixpath.normpath(posixpath.join(inside, text.replace("\\", "/")))
+        path = Path(os.path.normpath(folder / key))
+        if text and not posixpath.isabs(key) and "\0" not in key and path.is_file():
+            found.setdefault(key, path)
+            return
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""

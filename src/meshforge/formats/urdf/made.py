@@ -1,0 +1,52 @@
+"""The collision elements of made hulls: native where URDF has the shape, else a mesh file of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from meshforge.asset import Geom
+from meshforge.formats.urdf.elements import fresh, mesh_tag, native_tag, remeshed, reshaped
+from meshforge.formats.urdf.hull_files import HullFiles, folder_of
+from meshforge.formats.urdf.shapes import geometry_of
+from meshforge.formats.urdf.slots import Slot
+from meshforge.formats.urdf.tree import Element
+from meshforge.geometry import Box, Cylinder, Polytope, Pose, Shape, Sphere
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Maker:
+    """Makes elements for one document; folder: a reference's folder for hulls whose parent has no mesh."""
+
+    data: bytes
+    line_end: bytes
+    files: HullFiles
+    folder: str = ""
+    notes: list[str] = field(default_factory=list)
+
+    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+
+        lead: the blanks before an element without a template.
+        """
+        shape = geom.shape.moved(root_t_link.inverse())
+        if isinstance(shape, Box | Cylinder | Sphere):
+            pose, tag = shape.pose, native_tag(shape)
+            edits = reshaped(self.data, template, pose, tag) if template else ()
+        else:
+            pose, reference = Pose.identity(), self._file(geom, shape, template)
+            tag = mesh_tag(reference)
+            edits = remeshed(self.data, template, pose, reference) if template else ()
+        if template:
+            return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
+        return Slot(geom.body, (geom.name,), text=fresh(pose, tag, lead, self.line_end))
+
+    def _file(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+        """The reference to the mesh file of a hull, which is made."""
+        if not isinstance(shape, Polytope):
+            self.notes.append(
+                f"URDF has no {shape.kind}: {geom.name!r} is written as a hull of {len(shape.vertices)} vertices"
+            )
+        mesh = geometry_of(template) if template else None
+        beside = mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
+        folder = folder_of(beside) if beside else self.folder
+        return self.files.add(geom.name, folder, shape.vertices, shape.faces)

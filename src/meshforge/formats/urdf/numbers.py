@@ -1,0 +1,59 @@
+"""Numbers in attributes of a URDF, and back to text without a loss."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.urdf.tree import Element
+from meshforge.geometry import Floats, Pose
+
+
+def floats(
+    element: Element, attribute: str, count: int, where: str, default: tuple[float, ...] | None = None
+) -> Floats:
+    """The numbers (count,) of an attribute, `default` where it is left out.
+
+    Raises AssetError with `where:line`: the attribute is missing, of another length, or not of finite numbers.
+    """
+    place = f"{where}:{element.line}"
+    text = element.attributes.get(attribute)
+    if text is None:
+        if default is None:
+            raise AssetError(f"<{element.tag}> has no attribute {attribute!r}", where=place)
+        return np.array(default, dtype=np.float64)
+    given = f"<{element.tag} {attribute}={text!r}>"
+    if "${" in text:
+        raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
+    values = _numbers(text)
+    if values is None or len(values) != count:
+        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
+        raise AssetError(f"{given} does not hold {wanted}", where=place)
+    return np.array(values)
+
+
+def _numbers(text: str) -> list[float] | None:
+    """The numbers, apart by blanks or (as PyBullet reads) commas, None where one is none or not finite."""
+    try:
+        values = [float(word) for word in text.replace(",", " ").split()]
+    except ValueError:
+        return None
+    return values if all(map(math.isfinite, values)) else None
+
+
+def origin(element: Element, where: str) -> Pose:
+    """The pose of an element's first `<origin>`, identity where there is none."""
+    place = element.first("origin")
+    if place is None:
+        return Pose.identity()
+    zero = (0.0, 0.0, 0.0)
+    xyz, rpy = (floats(place, attribute, 3, where, zero) for attribute in ("xyz", "rpy"))
+    return Pose.from_rpy(list(xyz), list(rpy))
+
+
+def shown(values: Iterable[float]) -> str:
+    """Numbers as text that reads back as the same numbers; no negative zeros."""
+    return " ".join(repr(float(value) + 0.0) for value in values)

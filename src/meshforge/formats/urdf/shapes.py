@@ -1,0 +1,91 @@
+"""A `<geometry>` of a URDF as convex shapes and opaque pieces in the root frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.asset import Surface
+from meshforge.errors import AssetError
+from meshforge.formats.urdf.numbers import floats, shown
+from meshforge.formats.urdf.tree import Element
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Piece, Pose, Shape, Sphere
+
+KINDS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
+"""The elements of a `<geometry>` that engines know."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Part:
+    """A piece of a collision element in the root frame: a shape, or None with the reason why it is no hull."""
+
+    shape: Shape | None
+    reason: str = ""
+    surface: Surface | None = None
+
+
+def geometry_of(element: Element) -> Element | None:
+    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
+    geometry = element.first("geometry")
+    if geometry is None or not geometry.children:
+        return None
+    return next((child for child in geometry.children if child.tag in KINDS), geometry.children[0])
+
+
+def primitive(kind: Element, pose: Pose, where: str) -> Part:
+    """The shape of an element that is no mesh; pose: root_T_geometry.
+
+    Raises AssetError with `where:line` for a missing or unreadable attribute.
+    """
+    match kind.tag:
+        case "box":
+            extent = floats(kind, "size", 3, where)
+            shape: Shape = Box(pose, extent / 2)
+        case "sphere":
+            extent = floats(kind, "radius", 1, where)
+            shape = Sphere(pose, float(extent[0]))
+        case "cylinder" | "capsule":
+            extent = np.concatenate([floats(kind, name, 1, where) for name in ("radius", "length")])
+            make = Cylinder if kind.tag == "cylinder" else Capsule
+            shape = make(pose, float(extent[0]), float(extent[1]) / 2)
+        case "plane":
+            return Part(None, "a plane has no end")
+        case _:
+            return Part(None, f"<{kind.tag}> is no geometry that is known")
+    if extent.min() <= 0:
+        return Part(None, f"a {kind.tag} without volume: {shown(extent)} m")
+    return Part(shape)
+
+
+def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
+    """The factors (3,) by which a `<mesh>` is scaled; one number stands for three, as in PyBullet.
+
+    Raises AssetError naming `label`: a factor is zero.
+    """
+    single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
+    scale = floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
+    if not scale.all():
+        raise AssetError(
+            f"collision {label!r} is scaled to nothing: scale={mesh.attributes['scale']!r}",
+            where=f"{where}:{mesh.line}",
+            remedy="Give every axis a factor other than zero.",
+        )
+    return np.broadcast_to(scale, (3,))
+
+
+def mesh_parts(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[Part]:
+    """The pieces of a mesh file under x -> linear @ x + offset, reflections included."""
+    parts = [
+        Part(piece.shape.mapped(linear, offset))
+        if piece.shape is not None
+        else Part(None, piece.reason or "no hull", placed(piece.vertices, piece.faces, linear, offset))
+        for piece in pieces
+    ]
+    return parts or [Part(None, "the mesh holds no triangles")]
+
+
+def placed(vertices: Floats, faces: Ints, linear: Floats, offset: Floats) -> Surface:
+    """A surface under x -> linear @ x + offset; a reflection turns its faces round."""
+    return Surface(vertices @ linear.T + offset, faces if np.linalg.det(linear) > 0 else faces[:, ::-1])

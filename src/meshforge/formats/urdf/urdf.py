@@ -1,0 +1,32 @@
+"""The format URDF, as the registry has it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+from meshforge.asset import Asset
+from meshforge.errors import AssetError
+from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.urdf.create import create_urdf
+from meshforge.formats.urdf.document import UrdfDocument
+from meshforge.formats.urdf.read import read_urdf
+from meshforge.formats.urdf.write import write_urdf
+
+
+class UrdfFormat(Format):
+    """The Unified Robot Description Format."""
+
+    name: ClassVar[str] = "urdf"
+    suffixes: ClassVar[tuple[str, ...]] = (".urdf",)
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        return read_urdf(path, options)
+
+    def write(self, asset: Asset, name: str) -> Output:
+        if not isinstance(asset.document, UrdfDocument):
+            raise AssetError("this asset was not read from a URDF", where=str(asset.path))
+        return write_urdf(asset, asset.document, name)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        return create_urdf(asset, name)
