@@ -6,11 +6,12 @@ from pathlib import Path
 
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.base import Format
+from meshforge.formats.urdf import UrdfFormat
 
 _HEAD = 4096  # bytes shown to a format that shares its suffix with another
 
 
-FORMATS: tuple[Format, ...] = ()
+FORMATS: tuple[Format, ...] = (UrdfFormat(),)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot."""
 
