@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.asset import Document, unique_names
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.urdf.references import Resolver
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,21 +23,14 @@ class Authored:
 class UrdfDocument(Document):
     """The source of an asset read from a URDF.
 
-    source: the authored bytes; authored: one entry a `<collision>`, in order; roots: the package roots it was read
-    with; digests: of the mesh files that hold several pieces, so that a file changed since then is noticed.
+    source: the authored bytes; authored: one entry a `<collision>`, in order; resolver: finds its files;
+    digests: of the mesh files that hold several pieces, so that a file changed since then is noticed.
     """
 
     source: bytes
     authored: tuple[Authored, ...]
-    roots: tuple[Path, ...] = ()
+    resolver: Resolver
     digests: tuple[tuple[Path, str], ...] = ()
-
-
-def collisions(robot: Element) -> Iterator[tuple[Element, Element]]:
-    """Each `<collision>` with its link, in the order in which `UrdfDocument.authored` holds them."""
-    for link in robot.each("link"):
-        for collision in link.each("collision"):
-            yield link, collision
 
 
 def piece_names(elements: Sequence[tuple[str, str | None, int]]) -> list[tuple[str, ...]]:

@@ -39,7 +39,7 @@ class HullFiles:
 
     def add(self, name: str, folder: str, vertices: Floats, faces: Ints) -> str:
         """Make the file of a hull in a folder of `folder_of`; the reference to it."""
-        safe = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{self.stem}_{name}")[:_LONGEST].strip("._") or "hull"
+        safe = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{self.stem}--{name}")[:_LONGEST].strip("._") or "hull"
         stem, number = safe, 2
         while stem.lower() in self.taken:
             stem, number = f"{safe}_{number}", number + 1

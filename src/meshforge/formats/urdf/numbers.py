@@ -56,4 +56,4 @@ def origin(element: Element, where: str) -> Pose:
 
 def shown(values: Iterable[float]) -> str:
     """Numbers as text that reads back as the same numbers; no negative zeros."""
-    return " ".join(repr(float(value) + 0.0) for value in values)
+    return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)

@@ -8,11 +8,11 @@ from pathlib import Path
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.triangles import pieces_of, read_triangles
-from meshforge.formats.urdf.document import UrdfDocument, collisions, digest_of
+from meshforge.formats.urdf.document import UrdfDocument, digest_of
 from meshforge.formats.urdf.elements import refiled
 from meshforge.formats.urdf.hull_files import folder_of
 from meshforge.formats.urdf.made import Maker
-from meshforge.formats.urdf.references import Resolver
+from meshforge.formats.urdf.robot import collisions
 from meshforge.formats.urdf.shapes import geometry_of
 from meshforge.formats.urdf.slots import Slot
 from meshforge.formats.urdf.splice import indent
@@ -27,8 +27,8 @@ class Plan:
     no collision element.
     """
 
-    def __init__(self, asset: Asset, document: UrdfDocument, robot: Element, maker: Maker, resolver: Resolver) -> None:
-        self.asset, self.document, self.maker, self.resolver = asset, document, maker, resolver
+    def __init__(self, asset: Asset, document: UrdfDocument, robot: Element, maker: Maker) -> None:
+        self.asset, self.document, self.maker = asset, document, maker
         self.links: Mapping[str, Element] = {link.attributes["name"]: link for link in robot.each("link")}
         self.places: list[tuple[Element, list[Slot]]] = []
         self.ends: dict[str, list[Slot]] = {}
@@ -74,7 +74,7 @@ class Plan:
 
     def _pieces_in(self, reference: str) -> list[Piece]:
         """The pieces of a mesh file as they were when the asset was read. Raises AssetError where it has changed."""
-        path = self.resolver.find(reference)
+        path = self.document.resolver.find(reference)
         if path is None or digest_of(path) != dict(self.document.digests).get(path):
             raise AssetError(
                 f"the mesh {reference!r} has changed since the asset was read",

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import os
 import posixpath
 from collections.abc import Iterable
 from pathlib import Path
 
 from meshforge.asset import Asset
+from meshforge.errors import AssetError
 from meshforge.formats.base import Output
 from meshforge.formats.companions import companions
-from meshforge.formats.urdf.document import UrdfDocument, collisions
+from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.hull_files import HullFiles, folder_of
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.plan import Plan
-from meshforge.formats.urdf.read import references, robot_of
 from meshforge.formats.urdf.references import Resolver, placement
+from meshforge.formats.urdf.robot import collisions, references, robot_of
 from meshforge.formats.urdf.shapes import geometry_of
 from meshforge.formats.urdf.slots import Slot, settle
 from meshforge.formats.urdf.splice import Splice, indent, newline, removed, spliced
@@ -30,15 +30,14 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     """
     text = Text.of(document.source)
     robot = robot_of(text.data, str(asset.path))
-    resolver = Resolver(Path(os.path.normpath(asset.path.absolute())).parent, document.roots)
-    files = HullFiles(Path(name).stem, resolver)
+    files = HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
     maker = Maker(text.data, newline(text.data), files, _mesh_folder(robot))
-    plan = Plan(asset, document, robot, maker, resolver)
+    plan = Plan(asset, document, robot, maker)
     lost = settle(plan.slots)
     data = spliced(text.data, _splices(plan))
     main = document.source if data == text.data else text.encoded(data)
-    copies, far = _copies(robot_of(data, str(asset.path)), resolver, set(files.made))
+    copies, far = _copies(robot_of(data, str(asset.path)), document.resolver, set(files.made))
     notes = [*maker.notes, *(f"{name!r} reads back under another name" for name in lost), *far]
     return Output(main, dict(files.made), copies, tuple(notes))
 
@@ -75,10 +74,14 @@ def _at_end(data: bytes, link: Element, slots: list[Slot]) -> Splice:
         lead = indent(data, last.start)
         return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _joined(data, slots, lead))
     lead = before + b"  "
-    inside = line_end + lead + _joined(data, slots, lead) + line_end + before
+    added = lead + _joined(data, slots, lead) + line_end
     if data[link.inside - 2 : link.inside] == b"/>":
-        return Splice(link.inside - 2, link.inside, b">" + inside + b"</link>")
-    return Splice(link.inside, link.inside, inside.rstrip(b" \t") if data[link.inside] == 0x0A else inside)
+        return Splice(link.inside - 2, link.inside, b">" + line_end + added + before + b"</link>")
+    closing = data.rfind(b"</", link.inside, link.end)
+    blanks = indent(data, closing)
+    if blanks is None:
+        return Splice(closing, closing, line_end + added + before)
+    return Splice(closing - len(blanks), closing - len(blanks), added)
 
 
 def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
@@ -98,7 +101,12 @@ def _copies(robot: Element, resolver: Resolver, made: set[str]) -> tuple[dict[st
         if place is None:
             notes.append(f"{reference!r} is an absolute reference: the file is used where it is, not copied")
             continue
-        copies.setdefault(place, path)
+        if copies.setdefault(place, path) != path:
+            raise AssetError(
+                f"{copies[place]} and {path} would both become {place!r}",
+                where=str(path),
+                remedy="Rename one of them, or put both under one package root.",
+            )
         for key, companion in companions(path).items():
             copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
     return copies, notes
