@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.geometry import Ints, Polytope, Shape, convex_hull, is_convex, principal_extents
+from meshforge.geometry import Polytope, Shape, convex_hull, is_closed, is_convex, outward, principal_extents
 
-_CONVEXITY = 1e-7  # relative to the size; what the hulls of this program are verified to
-_FLAT = 1e-7  # an extent below this share of the largest counts as none
+_CONVEXITY = 1e-7  # relative to the size
+_FLAT = 1e-6  # an extent below this share of the largest counts as none
 
 
 def sound(shape: Shape, name: str, thickness: float) -> Shape:
@@ -26,11 +26,9 @@ def is_sound(shape: Shape) -> bool:
     extents = principal_extents(vertices)[2]
     if extents.min() <= _FLAT * extents.max():
         return False
-    return not isinstance(shape, Polytope) or (is_closed(shape.faces) and is_convex(vertices, shape.faces, _CONVEXITY))
+    return not isinstance(shape, Polytope) or _is_hull(shape)
 
 
-def is_closed(faces: Ints) -> bool:
-    """Whether every edge of the triangles (m, 3) is met once in each direction."""
-    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    forward = np.unique(edges, axis=0)
-    return len(forward) == len(edges) and np.array_equal(forward, np.unique(edges[:, ::-1], axis=0))
+def _is_hull(shape: Polytope) -> bool:
+    vertices, faces = shape.vertices, shape.faces
+    return is_closed(faces) and outward(vertices, faces) and is_convex(vertices, faces, _CONVEXITY)

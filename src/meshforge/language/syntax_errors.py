@@ -92,7 +92,9 @@ def _remedy(source: Source, offset: int, found: str, accepted: Set[str], before:
         return "Attach, Geo and orient refine All or Is(label); combine selections with Union, Intersect and Diff."
     if (found in ACTIONS and "_GEO" in accepted) or "_ARROW" in accepted:
         return "A rule is written `extractor => action`."
-    if "_GEO" in accepted and found[:1].isalpha():
+    if accepted & {"_TO", "COLON"}:
+        return "A landmark pair is written `+Z: start -> end`."
+    if "_GEO" in accepted and found[:1].isalpha() and found not in HEADERS:
         return f"Operators are {one_of(OPERATORS)}."
     if found.startswith("'"):
         return "Write double quotation marks."

@@ -1,0 +1,143 @@
+"""Laws of running programs: what comes out is sound, and what is not edited is untouched."""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+
+from meshforge.geometry import Shape
+from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
+from meshforge.language.actions.arguments import Axis
+from meshforge.symbolic import Hull, SymbolicMesh
+from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules
+
+DIRECTIONS = np.array([d for d in itertools.product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
+
+
+def supports(shape: Shape) -> list[float]:
+    return [float(shape.support(d) @ d) for d in DIRECTIONS]
+
+
+def alike(a: Shape, b: Shape, tolerance: float) -> bool:
+    """Whether two shapes reach equally far in many directions and have one volume."""
+    near = np.abs(np.subtract(supports(a), supports(b))).max() <= tolerance
+    return bool(near) and bool(np.isclose(a.volume, b.volume, rtol=1e-6, atol=tolerance**3))
+
+
+def assert_sound(shape: Shape) -> None:
+    vertices, faces = shape.vertices, shape.faces
+    assert np.isfinite(vertices).all() and shape.volume > 0
+    edges = Counter((int(a), int(b)) for f in faces for a, b in zip(f, np.roll(f, -1), strict=True))
+    assert set(edges.values()) == {1} and all((b, a) in edges for a, b in edges)
+    polytope = shape.tessellated()
+    size = float(np.ptp(vertices, axis=0).max())
+    hull = ConvexHull(vertices / size, qhull_options="QJ Pp" if np.ptp(vertices, axis=0).min() < 1e-3 * size else "")
+    assert np.isclose(hull.volume, polytope.volume / size**3, rtol=1e-6, atol=1e-6)
+
+
+@given(meshes(), programs(VOCABULARY, st.none()))
+@settings(max_examples=150, deadline=None)
+def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
+    mesh: SymbolicMesh, program: Program
+) -> None:
+    if program.asked_labels and not mesh.labels:
+        return
+    result = program.run(mesh, TEMPLATES)
+    for hull in result.mesh.hulls:
+        assert_sound(hull.shape)
+    assert len({hull.name for hull in result.mesh.hulls}) == len(result.mesh.hulls)
+
+
+@given(meshes(), programs(VOCABULARY, st.none()))
+@settings(max_examples=150, deadline=None)
+def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh, program: Program) -> None:
+    if program.asked_labels and not mesh.labels:
+        return
+    result = program.run(mesh, TEMPLATES)
+    selected = {name for rule in result.trace for name in rule.selected}
+    after = {hull.name: hull for hull in result.mesh.hulls}
+    for hull in mesh.hulls:
+        if hull.name not in selected:
+            assert after[hull.name] is hull
+        elif hull.name in after:
+            assert after[hull.name].shape is hull.shape and after[hull.name].parent is None
+    made = [hull for name, hull in after.items() if name not in mesh.index]
+    assert all(hull.parent in mesh.index for hull in made)
+    if result.mesh.hulls == mesh.hulls:
+        assert result.mesh is mesh
+    assert result.mesh.scale is None and result.mesh.epsilon == mesh.epsilon
+
+
+@given(meshes(), st.lists(rules(), max_size=3))
+@settings(max_examples=80, deadline=None)
+def test_a_program_is_its_rules_one_after_the_other(mesh: SymbolicMesh, given_rules: list[Rule]) -> None:
+    """Names of made hulls follow each other, so that later rules may count on them."""
+    program = Program(VOCABULARY, None, tuple(given_rules))
+    if program.asked_labels and not mesh.labels:
+        return
+    trace = program.run(mesh, TEMPLATES).trace
+    made = [name for rule in trace for name in rule.made]
+    assert len(set(made)) == len(made) and not set(made) & set(mesh.index)
+    known = set(mesh.index)
+    for rule in trace:
+        assert set(rule.selected) <= known
+        assert len(rule.sources) == len(rule.made)
+        assert all(set(sources) <= set(rule.selected) for sources in rule.sources)
+        known |= set(rule.made)
+
+
+@given(meshes(max_size=6))
+@settings(max_examples=60, deadline=None)
+def test_merge_is_idempotent(mesh: SymbolicMesh) -> None:
+    everything = select_mask(All(), mesh)
+    once = apply_action(mesh, everything, Merge()).mesh
+    twice = apply_action(once, select_mask(All(), once), Merge())
+    assert twice.mesh is once and twice.made == ()
+    assert len(once.hulls) == len({hull.body for hull in mesh.hulls})
+
+
+@given(meshes(), st.sampled_from(VOCABULARY), rules())
+@settings(max_examples=80, deadline=None)
+def test_a_rule_on_what_was_deleted_does_nothing(mesh: SymbolicMesh, label: str, rule: Rule) -> None:
+    if not mesh.labels:
+        return
+    deleting = Rule(Is(label), Delete())
+    after = Program(rules=(deleting, Rule(Is(label), rule.action))).run(mesh, TEMPLATES)
+    assert after.trace[1].selected == () and after.trace[1].note == "nothing selected"
+    assert after.mesh.hulls == Program(rules=(deleting,)).run(mesh).mesh.hulls
+
+
+@given(meshes(), st.sampled_from(("all", "X", "Y", "Z")), st.floats(0.1, 10.0))
+@settings(max_examples=80, deadline=None)
+def test_scaling_by_a_factor_and_back_is_the_identity(mesh: SymbolicMesh, axis: Axis, factor: float) -> None:
+    there_and_back = (Rule(All(), Scale(axis, factor)), Rule(All(), Scale(axis, 1 / factor)))
+    result = Program(rules=there_and_back).run(mesh)
+    for before, after in zip(mesh.hulls, result.mesh.hulls, strict=True):
+        same_kind = before.shape.kind == after.shape.kind
+        one, two = (hull.shape if same_kind else hull.shape.tessellated() for hull in (before, after))
+        assert alike(one, two, tolerance=1e-9 * mesh.diagonal * max(factor, 1 / factor))
+        assert (after.label, after.body, after.parent) == (before.label, before.body, before.name)
+
+
+@given(meshes())
+@settings(max_examples=60, deadline=None)
+def test_merging_each_component_covers_it_and_no_more(mesh: SymbolicMesh) -> None:
+    action = Each(Merge())
+    mask = select_mask(All(), mesh)
+    applied = apply_action(mesh, mask, action)
+    groups = [[mesh.hulls[k] for k in range(len(mesh.hulls)) if part >> k & 1] for part in action.groups(mesh, mask)]
+    several = [group for group in groups if len(group) > 1]
+    assert len(applied.made) == len(several) and len(applied.mesh.hulls) == len(groups)
+    for name, group in zip(applied.made, several, strict=True):
+        assert_hull_of(applied.mesh.named(name), group, mesh.diagonal)
+
+
+def assert_hull_of(made: Hull, group: list[Hull], diagonal: float) -> None:
+    reach = [supports(hull.shape.tessellated()) for hull in group]
+    assert np.abs(np.max(reach, axis=0) - supports(made.shape)).max() <= 2e-4 * diagonal
+    assert made.body == group[0].body
