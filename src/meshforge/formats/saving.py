@@ -1,4 +1,4 @@
-"""Putting a written asset on disk: the whole tree, each file atomically, the main file last, nothing of the input hurt."""
+"""Putting a written asset on disk: the whole tree, each file atomically, the main file last."""
 
 from __future__ import annotations
 

@@ -11,40 +11,68 @@ from meshforge.errors import AssetError
 from meshforge.formats.meshfile import RawSurface
 from meshforge.geometry import Piece, pieces
 
+MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
+"""The mesh files that `read_triangles` reads."""
+
 
 def read_triangles(path: Path) -> list[RawSurface]:
-    """The surfaces of an STL, OBJ, PLY, DAE, GLB or glTF file, node transforms applied.
+    """The surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
 
-    Raises AssetError naming the file, and the line where there is one: unreadable, empty, or not finite.
+    Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
     """
-    if path.suffix.lower() == ".obj":
-        from meshforge.formats.meshfile.obj import parse_obj
+    return surfaces_in(contents(path), path)
 
-        return parse_obj(path.read_bytes(), str(path)).surfaces(str(path))
-    import trimesh
 
+def contents(path: Path) -> bytes:
+    """The bytes of a file. Raises AssetError: it is not there, or may not be read."""
     try:
-        loaded = trimesh.load(path, process=False)
-    except Exception as error:
-        raise AssetError(f"cannot be read: {error}", where=str(path)) from error
-    parts = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
-    return [
-        RawSurface(
-            part.metadata.get("name"),
-            np.asarray(part.vertices, dtype=np.float64),
-            np.asarray(part.faces, dtype=np.int64),
-        )
-        for part in parts
-        if isinstance(part, trimesh.Trimesh)
-    ]
+        return path.read_bytes()
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+
+
+def surfaces_in(data: bytes, path: Path) -> list[RawSurface]:
+    """The surfaces in the bytes of the mesh file at a path. Raises AssetError."""
+    where = str(path)
+    match path.suffix.lower():
+        case ".obj":
+            from meshforge.formats.meshfile.obj import parse_obj
+
+            return parse_obj(data, where).surfaces(where)
+        case ".stl":
+            from meshforge.formats.meshfile.stl import parse_stl
+
+            return parse_stl(data, where).surfaces(where)
+        case ".ply":
+            from meshforge.formats.meshfile.ply import parse_ply
+
+            return parse_ply(data, where).surfaces(where)
+        case ".dae":
+            from meshforge.formats.meshfile.dae import parse_dae
+
+            return parse_dae(data, where)
+        case ".glb" | ".gltf":
+            from meshforge.formats.meshfile.gltf import parse_gltf
+
+            return parse_gltf(data, path)
+        case ".wrl":
+            from meshforge.formats.meshfile.vrml import parse_vrml
+
+            return parse_vrml(data, where)
+    raise AssetError(
+        f"{path.suffix or 'a file without suffix'} is no mesh file that MeshForge reads",
+        where=where,
+        remedy=f"It reads {', '.join(MESH_SUFFIXES)}.",
+    )
 
 
 def pieces_of(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
     """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
     if not surfaces:
         return []
-    starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
-    vertices = np.concatenate([s.vertices for s in surfaces])
+    shared = all(s.vertices is surfaces[0].vertices for s in surfaces)
+    starts = np.cumsum([0, *(0 if shared else len(s.vertices) for s in surfaces)])
+    vertices = surfaces[0].vertices if shared else np.concatenate([s.vertices for s in surfaces])
     faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
     groups = np.repeat(np.arange(len(surfaces)), [len(s.faces) for s in surfaces])
     return pieces(vertices, faces, name=name, groups=groups)

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from meshforge.geometry.arrays import Floats, Ints
 
@@ -29,6 +30,20 @@ def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
 def welded(vertices: Floats) -> Ints:
     """A number (n,) for each vertex, the same for vertices at exactly one place."""
     return row_ids(*(vertices.T + 0.0))[0]  # adding zero makes -0.0 and 0.0 one
+
+
+def nearly_welded(points: Floats, corners: Ints, reach: float) -> Ints | None:
+    """For each point (n,) the lowest number of those within `reach` [m] of it, chains included.
+
+    Only points that are corners take part; None where no two are that near.
+    """
+    used = np.unique(corners)
+    pairs = cKDTree(points[used]).query_pairs(reach, output_type="ndarray")
+    if len(pairs) == 0:
+        return None
+    group = _linked(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
+    _, lowest = np.unique(group, return_index=True)
+    return np.asarray(lowest[group], dtype=np.int64)
 
 
 def by_vertices(corners: Ints) -> Ints:

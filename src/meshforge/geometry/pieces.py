@@ -12,10 +12,20 @@ import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import by_edges, by_vertices, closed_components, distinct_faces, is_simple, row_ids
+from meshforge.geometry.connect import (
+    by_edges,
+    by_vertices,
+    closed_components,
+    distinct_faces,
+    is_simple,
+    nearly_welded,
+    row_ids,
+)
 from meshforge.geometry.connect import welded as welded_ids
 from meshforge.geometry.shapes.polytope import Polytope, volume_and_centroid
 from meshforge.geometry.solidity import FILLED, Verdict, verdict
+
+_NEAR = 1e-6  # places closer than this share of the surface's size are one, where that closes a hull
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -75,7 +85,20 @@ class _Reader:
         self.points[self.placed] = vertices[faces]
 
     def read(self) -> list[_Part]:
-        return [part for faces in _split(by_vertices(self.placed)) for part in self._touching(faces)]
+        found = [part for faces in _split(by_vertices(self.placed)) for part in self._touching(faces)]
+        return self._mended(found) if any(part.verdict.shape is None for part in found) else found
+
+    def _mended(self, found: list[_Part]) -> list[_Part]:
+        """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
+        opaque = [part for part in found if part.verdict.shape is None]
+        faces = np.sort(np.concatenate([part.faces for part in opaque]))
+        near = nearly_welded(self.points, self.placed[faces], _NEAR * float(np.ptp(self.points, axis=0).max()))
+        if near is None:
+            return found
+        mended = [self._judged(part, near) for part in _sub(faces, by_vertices(near[self.placed[faces]]))]
+        hulls = [part for part in mended if part.verdict.shape]
+        used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
+        return hulls + [part for part in found if not np.isin(part.faces[0], used)]
 
     def _touching(self, faces: Ints) -> list[_Part]:
         """All that touches: as whole, or group by group."""
@@ -106,10 +129,15 @@ class _Reader:
         component = by_edges(self.points, corners[proper], inward)
         if component.max(initial=0) == 0:
             return [whole]
-        parts = _sub(faces[proper], component)
-        slivers = np.setdiff1d(faces, faces[proper])
-        solids = _without_backs([self._judged(part) for part in self._with_slivers(parts, slivers)])
-        return solids if all(p.verdict.shape for p in solids) else [whole]
+        if len(closed_components(corners[proper], component)) <= component.max():
+            return [whole]
+        parts = self._with_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
+        solids = []
+        for part in parts:
+            solids.append(self._judged(part))
+            if solids[-1].verdict.shape is None:
+                return [whole]
+        return _without_backs(solids)
 
     def _with_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
         """The parts, each with the faces without area that lie at one of its corners."""
@@ -119,8 +147,8 @@ class _Reader:
         of_sliver = owner[self.placed[slivers, 0]]
         return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
 
-    def _judged(self, faces: Ints) -> _Part:
-        corners = self.placed[faces]
+    def _judged(self, faces: Ints, near: Ints | None = None) -> _Part:
+        corners = self.placed[faces] if near is None else near[self.placed[faces]]
         proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
         if len(proper) < 2:
             return _Part(faces, Verdict(None, "flat"))

@@ -1,7 +1,8 @@
-"""Reading Wavefront OBJ: vertices, faces and groups, each with the statement it comes from, so that edits keep the text."""
+"""Reading Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text."""
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import dataclass
 
@@ -132,7 +133,7 @@ def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: 
             if corner == 0 or not 0 <= index < len(vertex_at):
                 problem = f"a face names vertex {corner}, the file has {len(vertex_at)}"
                 raise _error(problem, statements, k, where)
-        for second, third in zip(indices[1:], indices[2:], strict=False):
+        for second, third in itertools.pairwise(indices[1:]):
             at.append(k)
             triangles.append((indices[0], second, third))
     return np.array(at, dtype=np.int64), np.array(triangles, dtype=np.int64).reshape(-1, 3)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import itertools
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,11 +14,15 @@ from meshforge.geometry import Floats, Ints
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RawSurface:
-    """A named part of a mesh file (group, object, node); vertices (n, 3) in the file's own unit, faces (m, 3)."""
+    """A named part of a mesh file (group, object, node); vertices (n, 3) in the file's own unit, faces (m, 3).
+
+    unit: the metres that the file says its unit has; most engines take no notice of it.
+    """
 
     name: str | None
     vertices: Floats
     faces: Ints
+    unit: float = 1.0
 
 
 def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
@@ -34,3 +39,9 @@ def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
         if not np.isfinite(surface.vertices[np.unique(surface.faces)]).all():
             raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
     return found
+
+
+def fans(polygons: Iterable[Sequence[int]]) -> Ints:
+    """The triangles (m, 3) of polygons, each cut into a fan about its first corner."""
+    triangles = [(p[0], b, c) for p in polygons for b, c in itertools.pairwise(p[1:])]
+    return np.array(triangles, dtype=np.int64).reshape(-1, 3)

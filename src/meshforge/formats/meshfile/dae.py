@@ -1,0 +1,66 @@
+"""Reading Collada by pycollada: a surface for each geometry in each node, node transforms applied.
+
+The tags `unit` and `up_axis` are not: PyBullet, MoveIt and yourdfpy ignore both, so descriptions scale the mesh
+themselves. `RawSurface.unit` tells readers of formats whose engines obey it (Gazebo).
+"""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.geometry import Floats
+
+
+def parse_dae(data: bytes, where: str) -> list[RawSurface]:
+    """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
+    import collada
+    from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
+
+    if b"<!ENTITY" in data:
+        raise AssetError("entities are not read", where=where)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # pycollada's own calls of numpy
+            document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
+        unit = float(document.assetInfo.unitmeter or 1.0)
+        nodes = document.scene.nodes if document.scene else []
+        found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
+    except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
+        raise AssetError(f"this Collada file cannot be read: {error}", where=where) from error
+    return checked(found, where)
+
+
+def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
+    from collada.scene import GeometryNode, Node, NodeNode
+
+    if isinstance(node, NodeNode):
+        node = node.node
+    inside = world @ node.matrix
+    for child in node.children:
+        if isinstance(child, Node | NodeNode):
+            yield from _walk(child, inside, unit)
+        elif isinstance(child, GeometryNode):
+            for bound in child.objects("geometry", inside):
+                yield from _surface(bound, node.name or node.id, unit)
+
+
+def _surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
+    """The surface of a geometry; its sets of triangles, one a material, are joined."""
+    vertices, faces, start = [], [], 0
+    for part in bound.primitives():
+        triangles = part.triangleset() if hasattr(part, "triangleset") else part
+        if not hasattr(triangles, "vertex_index") or np.ndim(triangles.vertex_index) != 2 or not len(triangles):
+            continue
+        if triangles.vertex_index.shape[1] == 3:
+            vertices.append(np.asarray(triangles.vertex, dtype=np.float64))
+            faces.append(np.asarray(triangles.vertex_index, dtype=np.int64) + start)
+            start += len(vertices[-1])
+    if faces:
+        yield RawSurface(name, np.concatenate(vertices), np.concatenate(faces), unit)

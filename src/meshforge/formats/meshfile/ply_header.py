@@ -1,0 +1,87 @@
+"""The header of a PLY file: which elements follow, how many rows of each, and of what types."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from meshforge.errors import AssetError
+
+TYPES = {
+    **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4"},
+    **{"double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
+    **{"float32": "f4", "float64": "f8"},
+}
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+@dataclass(frozen=True, slots=True)
+class Property:
+    """A property of an element: its name, numpy type, and the type of its length where it is a list."""
+
+    name: str
+    type: str
+    count: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """An element: its name, how many rows it has, its properties."""
+
+    name: str
+    rows: int
+    properties: tuple[Property, ...]
+
+    @property
+    def has_lists(self) -> bool:
+        return any(p.count for p in self.properties)
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """size: bytes of the header with its last line end; order: of the bytes in numpy's letters, empty for ASCII."""
+
+    size: int
+    order: str
+    elements: tuple[Element, ...]
+
+
+def parse_header(data: bytes, where: str) -> Header:
+    """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
+    end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
+    if data[:3] != b"ply" or end is None:
+        raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
+    order: str | None = None
+    elements: list[Element] = []
+    for number, line in enumerate(data[: end.start()].splitlines(), start=1):
+        words = line.decode("ascii", "replace").split()
+        try:
+            match words:
+                case ["format", kind, _]:
+                    order = _ORDERS[kind]
+                case ["element", name, rows]:
+                    elements.append(Element(name, _count(rows), ()))
+                case ["property", *rest]:
+                    last = elements.pop()
+                    elements.append(Element(last.name, last.rows, (*last.properties, _property(rest))))
+        except (KeyError, IndexError, ValueError):
+            raise AssetError("this line of the header makes no sense", where=f"{where}:{number}") from None
+    if order is None:
+        raise AssetError("the header names no format", where=where)
+    return Header(end.end(), order, tuple(elements))
+
+
+def _count(text: str) -> int:
+    rows = int(text)
+    if rows < 0:
+        raise ValueError(text)
+    return rows
+
+
+def _property(words: list[str]) -> Property:
+    match words:
+        case ["list", count, kind, name]:
+            return Property(name, TYPES[kind], TYPES[count])
+        case [kind, name]:
+            return Property(name, TYPES[kind])
+    raise ValueError(words)

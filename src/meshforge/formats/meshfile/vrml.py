@@ -1,0 +1,85 @@
+"""Reading VRML 2.0, which CoACD and MeshLab write: a surface for each shape, its transforms applied."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.meshfile.surface import RawSurface, checked, fans
+from meshforge.formats.meshfile.vrml_nodes import Node, parse_nodes
+from meshforge.geometry import Floats
+
+_SOLIDS = {"Box", "Sphere", "Cylinder", "Cone", "Extrusion", "ElevationGrid"}
+_PARENTS = {"Group", "Transform", "Anchor", "Collision", "Billboard", "Switch", "LOD"}
+
+
+def parse_vrml(data: bytes, where: str) -> list[RawSurface]:
+    """The surfaces of a VRML 2.0 file. Raises AssetError: not such a file, or shapes that are no face sets."""
+    found: list[RawSurface] = []
+    for node in parse_nodes(data.decode("utf-8", "replace"), where):
+        _walk(node, np.eye(4), None, found, where)
+    return checked(found, where)
+
+
+def _walk(node: Node, world: Floats, name: str | None, found: list[RawSurface], where: str) -> None:
+    name = node.name or name
+    if node.type == "Shape":
+        for geometry in node.nodes("geometry"):
+            found += _surface(geometry, world, node.name or name, where)
+    if node.type in _PARENTS:
+        world = world @ _transform(node) if node.type == "Transform" else world
+        for key in ("children", "choice", "level"):
+            for child in node.nodes(key):
+                _walk(child, world, name, found, where)
+
+
+def _surface(node: Node, world: Floats, name: str | None, where: str) -> list[RawSurface]:
+    if node.type in _SOLIDS:
+        raise AssetError(f"shapes of kind {node.type} are not read", where=where, remedy="Export it as OBJ.")
+    coordinates = node.nodes("coord")
+    if node.type != "IndexedFaceSet" or not coordinates:
+        return []
+    numbers = coordinates[0].numbers("point")
+    if len(numbers) % 3:
+        raise AssetError("its points are not all of three numbers", where=where)
+    points = np.array(numbers, dtype=np.float64).reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
+    faces = fans(_polygons([int(x) for x in node.numbers("coordIndex")]))
+    return [RawSurface(name, points, faces[:, ::-1] if node.word("ccw") == "FALSE" else faces)]
+
+
+def _polygons(indices: list[int]) -> list[list[int]]:
+    """The polygons of indices that -1 parts."""
+    polygons: list[list[int]] = [[]]
+    for index in indices:
+        if index == -1:
+            polygons.append([])
+        else:
+            polygons[-1].append(index)
+    return polygons
+
+
+def _transform(node: Node) -> Floats:
+    """The matrix of a Transform: translation, center, rotation, scale orientation, scale."""
+    move = _moved(node.numbers("translation"))
+    center = node.numbers("center")
+    turn = _turned(node.numbers("rotation"))
+    lean = _turned(node.numbers("scaleOrientation"))
+    scale = np.diag([*(node.numbers("scale") or [1.0, 1.0, 1.0]), 1.0])
+    back = _moved([-x for x in center])
+    return move @ _moved(center) @ turn @ lean @ scale @ lean.T @ back
+
+
+def _moved(offset: list[float]) -> Floats:
+    matrix = np.eye(4)
+    matrix[:3, 3] = offset or 0.0
+    return matrix
+
+
+def _turned(rotation: list[float]) -> Floats:
+    """The matrix of a rotation given by axis and angle [rad]."""
+    matrix = np.eye(4)
+    if rotation:
+        x, y, z = np.array(rotation[:3]) / max(float(np.linalg.norm(rotation[:3])), 1e-300)
+        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        matrix[:3, :3] += np.sin(rotation[3]) * cross + (1 - np.cos(rotation[3])) * cross @ cross
+    return matrix

@@ -1,0 +1,110 @@
+"""The grammar of VRML 2.0: a text as a tree of nodes with fields."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from meshforge.errors import AssetError
+
+_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|[{}\[\]]|[^\s,{}\[\]"#]+|#[^\n\r]*')
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|0[xX][0-9a-fA-F]+")
+_DEPTH = 200  # nodes in nodes; beyond, a file is damaged
+
+
+@dataclass(slots=True)
+class Node:
+    """A node: its type, its DEF name, and what its fields hold (numbers, words, nodes; lists stay lists)."""
+
+    type: str
+    name: str | None = None
+    fields: dict[str, list[Any]] = field(default_factory=dict)
+
+    def numbers(self, key: str) -> list[float]:
+        """The numbers of a field, none where it is not there."""
+        return [x for x in self.fields.get(key, []) if isinstance(x, float)]
+
+    def nodes(self, key: str) -> list[Node]:
+        return [x for x in self.fields.get(key, []) if isinstance(x, Node)]
+
+    def word(self, key: str) -> str | None:
+        return next((x for x in self.fields.get(key, []) if isinstance(x, str)), None)
+
+
+def parse_nodes(text: str, where: str) -> list[Node]:
+    """The nodes of a VRML 2.0 file. Raises AssetError: not such a file, cut short, or beyond what is read."""
+    if not text.startswith("#VRML V2.0"):
+        raise AssetError("this is no VRML 2.0 file", where=where, remedy="Export it as OBJ.")
+    parser = _Parser([t for t in _TOKEN.findall(text) if t[0] != "#"], where)
+    return list(parser.top())
+
+
+class _Parser:
+    def __init__(self, tokens: list[str], where: str) -> None:
+        self.tokens = tokens
+        self.where = where
+        self.at = 0
+        self.depth = 0
+        self.known: dict[str, Node] = {}
+
+    def top(self) -> Iterator[Node]:
+        while self.at < len(self.tokens):
+            if self.peek() == "ROUTE":
+                self.at += 4
+            else:
+                yield self.node()
+
+    def peek(self) -> str:
+        if self.at >= len(self.tokens):
+            raise AssetError("the file is cut short", where=self.where, remedy="Export it again.")
+        return self.tokens[self.at]
+
+    def take(self) -> str:
+        token = self.peek()
+        self.at += 1
+        return token
+
+    def node(self) -> Node:
+        word, name = self.take(), None
+        if word in ("PROTO", "EXTERNPROTO"):
+            raise AssetError("prototypes are not read", where=self.where, remedy="Export it as OBJ.")
+        if word == "USE":
+            return self.known.get(self.take(), Node("unknown"))
+        if word == "DEF":
+            name, word = self.take(), self.take()
+        if self.take() != "{" or self.depth > _DEPTH:
+            raise AssetError(f"a node was expected where {word!r} stands", where=self.where)
+        made = Node(word, name)
+        self.depth += 1
+        while self.peek() != "}":
+            key = self.take()
+            made.fields[key] = self.value()
+        self.at += 1
+        self.depth -= 1
+        if name:
+            self.known[name] = made
+        return made
+
+    def value(self) -> list[Any]:
+        if self.peek() == "[":
+            self.at += 1
+            out = []
+            while self.peek() != "]":
+                out.append(self.item())
+            self.at += 1
+            return out
+        out = [self.item()]
+        while isinstance(out[-1], float) and _NUMBER.fullmatch(self.peek()):
+            out.append(self.item())
+        return out
+
+    def item(self) -> Any:
+        token = self.peek()
+        if _NUMBER.fullmatch(token):
+            self.at += 1
+            return float(int(token, 16)) if token[:2] in ("0x", "0X") else float(token)
+        if token in ("TRUE", "FALSE", "NULL", "IS") or token[0] == '"':
+            return self.take()
+        return self.node()
