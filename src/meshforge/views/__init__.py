@@ -1,1 +1,29 @@
-"""The room `views`."""
+"""Pictures of symbolic meshes for labelling, reports and terminals: rays and arithmetic, no display needed."""
+
+from meshforge.views.camera import VIEWS, Up, View
+from meshforge.views.coloring import COLOR_BY, ColorBy, label_colors
+from meshforge.views.compare import before_after, compare, difference, joint_bounds
+from meshforge.views.palette import LABEL_COLORS, UNLABELLED, label_color
+from meshforge.views.picture import render
+from meshforge.views.sheet import sheet
+from meshforge.views.visibility import id_buffer, visible_hulls
+
+__all__ = [
+    "COLOR_BY",
+    "LABEL_COLORS",
+    "UNLABELLED",
+    "VIEWS",
+    "ColorBy",
+    "Up",
+    "View",
+    "before_after",
+    "compare",
+    "difference",
+    "id_buffer",
+    "joint_bounds",
+    "label_color",
+    "label_colors",
+    "render",
+    "sheet",
+    "visible_hulls",
+]

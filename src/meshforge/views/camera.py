@@ -1,0 +1,115 @@
+"""Where a picture is seen from: named views, framed on a set of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.geometry import Floats, Ints
+
+View = Literal["iso", "iso-back", "front", "back", "left", "right", "top", "bottom"]
+VIEWS: tuple[View, ...] = get_args(View)
+Up = Literal["Y", "Z"]
+Singles = npt.NDArray[np.float32]
+Places = Floats | Ints
+"""Columns or rows of pixels; halves lie between two of them."""
+
+_SEEN_FROM: dict[View, tuple[float, float, float]] = {
+    "iso": (0.62, -1.0, 0.62),
+    "iso-back": (-0.62, 1.0, 0.62),
+    "front": (0.0, -1.0, 0.0),
+    "back": (0.0, 1.0, 0.0),
+    "left": (-1.0, 0.0, 0.0),
+    "right": (1.0, 0.0, 0.0),
+    "top": (0.0, 0.0, 1.0),
+    "bottom": (0.0, 0.0, -1.0),
+}
+"""The side of a Z-up object on which the eye is; front is seen from -Y, as in Blender and CAD tools."""
+_DISTANCE = 3.4  # of the eye in a perspective view, in diagonals: strong enough to read depth, too weak to distort
+_MARGIN = 0.06  # free border on every side, as a share of the picture
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Camera:
+    """A camera: rows of axes (3, 3) are right, up and towards the eye; eye: (3,), None sees orthographically.
+
+    middle: (2,) and scale: the picture's centre, and its length a pixel, on the image plane.
+    That plane goes through the origin, or, in perspective, lies one unit before the eye.
+    """
+
+    axes: Floats
+    eye: Floats | None
+    middle: Floats
+    scale: float
+    size: tuple[int, int]
+
+    def plane(self, points: Floats) -> Floats:
+        """Points (n, 3) on the image plane: right and up (n, 2)."""
+        if self.eye is None:
+            return points @ self.axes[:2].T
+        local = (points - self.eye) @ self.axes.T
+        return local[:, :2] / -local[:, 2:]
+
+    def pixels(self, points: Floats) -> Floats:
+        """Points (n, 3) in the picture: column and row (n, 2), the first pixel's centre at (0, 0)."""
+        offset = (self.plane(points) - self.middle) / self.scale
+        half = (np.array(self.size) - 1) / 2
+        return half + offset * [1, -1]
+
+    def finer(self, factor: int) -> Camera:
+        """The same camera with `factor` times as many pixels along each side."""
+        width, height = self.size
+        return Camera(self.axes, self.eye, self.middle, self.scale / factor, (width * factor, height * factor))
+
+    def sight(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
+        """Origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through n pixels."""
+        right, up = self.on_plane(columns, rows)
+        aside = right[:, None] * self.axes[0] + up[:, None] * self.axes[1]
+        if self.eye is None:
+            return aside, -self.axes[2:]
+        return np.broadcast_to(self.eye, aside.shape), aside - self.axes[2]
+
+    def towards(self, points: Floats) -> Floats:
+        """Directions (n, 3) from points to the eye, not of unit length."""
+        return np.broadcast_to(self.axes[2], points.shape) if self.eye is None else self.eye - points
+
+    def on_plane(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
+        """Right and up of pixel columns and rows on the image plane."""
+        width, height = self.size
+        right = self.middle[0] + (columns - (width - 1) / 2) * self.scale
+        up = self.middle[1] - (rows - (height - 1) / 2) * self.scale
+        return right, up
+
+
+def look(view: View, up: Up, size: tuple[int, int], points: Floats) -> Camera:
+    """The camera of a named view that fills a picture of size (width, height) with points (n, 3).
+
+    The points are in a frame where their middle is near the origin and their diagonal near one.
+    """
+    axes = _axes(view, up)
+    eye = axes[2] * _DISTANCE if view.startswith("iso") else None
+    loose = Camera(axes, eye, np.zeros(2), 1.0, size)
+    plane = loose.plane(points)
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    room = np.array(size) * (1 - 2 * _MARGIN)
+    scale = float(np.max((high - low) / room)) or 1.0 / min(size)
+    return Camera(axes, eye, (low + high) / 2, scale, size)
+
+
+def _axes(view: View, up: Up) -> Floats:
+    towards = np.array(_SEEN_FROM[view])
+    towards /= np.linalg.norm(towards)
+    upright = np.array([0.0, 1.0, 0.0]) if view in ("top", "bottom") else np.array([0.0, 0.0, 1.0])
+    if view == "bottom":
+        upright = -upright
+    right = np.cross(upright, towards)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, np.cross(towards, right), towards])
+    return axes if up == "Z" else axes @ _Z_FROM_Y_UP
+
+
+_Z_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Takes a Y-up direction to the Z-up direction of the same meaning; its front, +Z, becomes -Y."""

@@ -1,0 +1,116 @@
+"""Pictures of an edit: before and after under one camera, and what was removed and made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from meshforge.geometry import Aabb
+from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.views.camera import Up, View
+from meshforge.views.canvas import Canvas
+from meshforge.views.coloring import ColorBy, Coloring, Entry, color_hulls
+from meshforge.views.palette import KEPT, MADE, REMOVED, rgb
+from meshforge.views.sheet import sheet
+from meshforge.views.stage import Layer
+from meshforge.views.subject import Subject, draw, skins_of, subject
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+def compare(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    color_by: ColorBy = "label",
+    size: tuple[int, int] = (640, 480),
+    vocabulary: Sequence[str] = (),
+    background: str | None = "light",
+    up: Up = "Z",
+) -> tuple[Image, Image]:
+    """The two pictures, without words, seen by one camera; a hull that stays keeps its colour."""
+    first = color_hulls(before, color_by, vocabulary)
+    known = {h.name: c for h, c in zip(before.hulls, first.colors, strict=True)}
+    second = color_hulls(after, color_by, vocabulary, known)
+    bounds = joint_bounds(before, after)
+    return (
+        _bare(subject(before, first), bounds, view, up, size, background),
+        _bare(subject(after, second), bounds, view, up, size, background),
+    )
+
+
+def before_after(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    color_by: ColorBy = "label",
+    size: tuple[int, int] = (640, 480),
+    vocabulary: Sequence[str] = (),
+    up: Up = "Z",
+) -> Image:
+    """Both pictures side by side, each of `size`, with the number of hulls below each."""
+    pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
+    titles = (f"before: {_hulls(len(before.hulls))}", f"after: {_hulls(len(after.hulls))}")
+    return sheet(pair, columns=2, titles=titles)
+
+
+def difference(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    size: tuple[int, int] = (800, 600),
+    legend: bool = True,
+    title: str | None = None,
+    background: str | None = "light",
+    up: Up = "Z",
+) -> Image:
+    """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
+    gone = [h for h in before.hulls if h.name not in after.index]
+    colors = np.array([rgb(KEPT if h.name in before.index else MADE) for h in after.hulls]).reshape(-1, 3)
+    made = sum(h.name not in before.index for h in after.hulls)
+    entries = (Entry(REMOVED, "removed", len(gone)), Entry(MADE, "made", made))
+    coloring = Coloring(colors, (*entries, Entry(KEPT, "kept", len(after.hulls) - made)))
+    caption = f"{_hulls(len(before.hulls))} before, {len(after.hulls)} after"
+    canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else Coloring(colors))
+    fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
+    what = _with_removed(subject(after, coloring), gone, fresh)
+    left, top, right, bottom = canvas.room
+    painted = draw(what, joint_bounds(before, after), view, up, (right - left, bottom - top))
+    canvas.lay(painted.pixels, (left, top))
+    if not before.hulls and not after.hulls:
+        canvas.say("no hulls", canvas.room)
+    return canvas.image
+
+
+def joint_bounds(*meshes: SymbolicMesh) -> Aabb | None:
+    """The box around all hulls of some meshes, None where there is none."""
+    boxes = [m.aabb for m in meshes if m.aabb]
+    return Aabb.union(boxes) if boxes else None
+
+
+def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) -> Subject:
+    if not gone:
+        return what
+    red, every = np.tile(rgb(REMOVED), (len(gone), 1)), frozenset(range(len(gone)))
+    shells = Layer(skins_of(gone), red, before=0.55, behind=0.3, hatched=every, drawn_over=fresh)
+    return Subject((*what.layers, shells), what.points)
+
+
+def _bare(
+    what: Subject, bounds: Aabb | None, view: View, up: Up, size: tuple[int, int], background: str | None
+) -> Image:
+    canvas = Canvas(size, background, None, None, Coloring(what.layers[0].colors))
+    canvas.lay(draw(what, bounds, view, up, size).pixels, (0, 0))
+    if not what.layers[0].skins:
+        canvas.say("no hulls", canvas.room)
+    return canvas.image
+
+
+def _hulls(count: int) -> str:
+    return f"{count} hull{'' if count == 1 else 's'}"

@@ -1,0 +1,58 @@
+"""Lines of a drawing: silhouettes, borders between hulls, and the sharp edges of one hull."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.geometry import Ints
+from meshforge.views.scene import Scene
+
+Lines = npt.NDArray[np.uint8]
+CREASE, BORDER, SILHOUETTE = 1, 2, 3
+_SHARP = np.cos(np.radians(24.0))  # edges flatter than this are left out: they are tessellation, not form
+
+
+def lines(scene: Scene, triangle: Ints, item: Ints, width: int) -> Lines:
+    """The strongest line through each pixel (h, w), 0 where there is none, drawn `width` pixels wide.
+
+    triangle, item: (h, w), what each pixel shows, -1 for nothing.
+    """
+    found = np.zeros(item.shape, np.uint8)
+    for axis in (0, 1):
+        a, b = along(axis)
+        steps = _steps(scene, triangle[a], triangle[b], item[a], item[b])
+        np.maximum(found[a], steps, out=found[a])
+        if width > 1:
+            np.maximum(found[b], steps, out=found[b])
+    return _widened(found, width - 2)
+
+
+def along(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+    """The pixels that have one `step` further along an axis, and those."""
+    first, second, whole = slice(None, -step), slice(step, None), slice(None)
+    return ((first, whole), (second, whole)) if axis == 0 else ((whole, first), (whole, second))
+
+
+def _steps(scene: Scene, here: Ints, there: Ints, mine: Ints, theirs: Ints) -> Lines:
+    differ = mine != theirs
+    steps = np.zeros(here.shape, np.uint8)
+    steps[differ] = BORDER
+    steps[differ & ((mine < 0) | (theirs < 0))] = SILHOUETTE
+    within = np.nonzero((here != there) & ~differ)
+    cosine = np.einsum("ij,ij->i", scene.normals[here[within]], scene.normals[there[within]])
+    sharp = cosine < _SHARP
+    steps[within[0][sharp], within[1][sharp]] = CREASE
+    return steps
+
+
+def _widened(found: Lines, by: int) -> Lines:
+    """Borders grown by some pixels, right and down in turn; silhouettes by one more; creases stay thin."""
+    for strength, steps in ((BORDER, by), (SILHOUETTE, by + 1)):
+        strong = np.where(found >= strength, found, 0)
+        for step in range(steps):
+            for axis in (0, 1):
+                a, b = along(axis) if step % 2 else along(axis)[::-1]
+                np.maximum(strong[b], strong[a].copy(), out=strong[b])
+        found = np.maximum(found, strong)
+    return found

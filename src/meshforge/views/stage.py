@@ -1,0 +1,104 @@
+"""What is drawn and in which frame, and which of it each pixel sees."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.geometry import Aabb, Floats, Ints
+from meshforge.views.camera import Camera, Up
+from meshforge.views.roundness import Skin
+from meshforge.views.scene import Scene, build, rays
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Layer:
+    """Things drawn together. colors: (k, 3), sRGB in 0..1, one for each skin.
+
+    solid things hide what is behind them. Shells do not: `before` and `behind` are how much of them shows before and
+    behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched: which skins
+    are striped.
+    """
+
+    skins: Sequence[Skin]
+    colors: Floats
+    solid: bool = True
+    before: float = 1.0
+    behind: float = 0.0
+    hatched: frozenset[int] = frozenset()
+    drawn_over: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stage:
+    """The frame that things are drawn in: middle and diagonal of `bounds` become origin and unit; upright: (3,)."""
+
+    bounds: Aabb
+    upright: Floats
+
+    @property
+    def unit(self) -> float:
+        return self.bounds.diagonal or 1.0
+
+    def placed(self, points: Floats) -> Floats:
+        return (points - self.bounds.center) / self.unit
+
+    @property
+    def level(self) -> list[int]:
+        """The two axes along the ground."""
+        return [k for k in range(3) if not self.upright[k]]
+
+    @property
+    def ground(self) -> float:
+        """The height of the lowest point."""
+        return float((self.placed(self.bounds.corners) @ self.upright).min())
+
+
+def upright(up: Up) -> Floats:
+    """The direction (3,) that points up."""
+    return np.array([0.0, 0.0, 1.0] if up == "Z" else [0.0, 1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hits:
+    """What the pixels of a picture show: triangle and item (h, w), -1 for nothing."""
+
+    scene: Scene
+    triangle: Ints
+    item: Ints
+
+    def points(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
+        """Where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
+        origins, directions = camera.sight(columns, rows)
+        depth = self.scene.depth(self.triangle[rows, columns], origins, directions)
+        return origins + directions * depth[:, None]
+
+    def depth(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
+        """How far along their rays (n,) those places are."""
+        return self.scene.depth(self.triangle[rows, columns], *camera.sight(columns, rows))
+
+
+def cast(layer: Layer, stage: Stage, camera: Camera) -> Hits:
+    """The first thing of a layer behind each pixel."""
+    scene = build(layer.skins, stage.bounds.center, stage.unit, camera.axes[2])
+    width, height = camera.size
+    triangle = np.full((height, width), -1, np.int64)
+    if len(scene.corners) == 0:
+        return Hits(scene, triangle, triangle.copy())
+    start = float((scene.corners @ camera.axes[2]).max()) + 0.1
+    x, y = _window(scene, camera)
+    origins, directions = rays(camera, np.arange(x.start, x.stop), np.arange(y.start, y.stop), start)
+    seen = scene.embree.run(origins, directions, query="INTERSECT")
+    triangle[y, x] = seen.reshape(y.stop - y.start, x.stop - x.start)
+    item = np.append(scene.item, -1).astype(np.int64)[triangle]
+    return Hits(scene, triangle, item)
+
+
+def _window(scene: Scene, camera: Camera) -> tuple[slice, slice]:
+    """The columns and rows that the scene can be seen in."""
+    points = camera.pixels(scene.corners.reshape(-1, 3))
+    low = np.clip(np.floor(points.min(axis=0)).astype(int) - 1, 0, camera.size)
+    high = np.clip(np.ceil(points.max(axis=0)).astype(int) + 2, low, camera.size)
+    return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))
