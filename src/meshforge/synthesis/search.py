@@ -81,7 +81,8 @@ class Search:
         by_mesh = [observed(chosen, mesh, extremity) for mesh in self.space.meshes]
         masks = [self.space.join(column) for column in zip(*by_mesh, strict=True)]
         every, shortcuts = self.space.everything, options.shortcuts
-        self.groups = atoms(masks, every) if shortcuts.group else singles(every)
+        self.alike = atoms(masks, every)
+        self.groups = self.alike if shortcuts.group else singles(every)
         terms = _terms(chosen, [packed(mask, self.groups) for mask in masks], vocabulary)
         self.bank = Bank(terms, len(self.groups), watch, shortcuts.merge)
         self.completion = Completion(self.bank, watch, shortcuts)
@@ -113,7 +114,7 @@ class Search:
 
     def _miss(self) -> Miss:
         self.bank.level(NEAR_SIZE)
-        why = lookalikes(self.groups, self.target, self.examples, self.space)
+        why = lookalikes(self.alike, self.target, self.examples, self.space)
         nearest = self._nearest()
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)

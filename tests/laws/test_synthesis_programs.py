@@ -1,0 +1,101 @@
+"""What is learned from demonstrations of a hidden program does what was shown, and is never larger."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.errors import MeshForgeError
+from meshforge.language import Program, Rule, size
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Demonstration, Found, synthesize
+from tests.strategies import TEMPLATES, grid_boxes, meshes, programs
+from tests.synthesis_showing import demonstrated
+
+LABELS = ("a", "b", "c")
+batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS, max_size=6), min_size=1, max_size=3)
+hidden_programs = programs(LABELS, orient=st.none(), max_rules=3)
+
+
+def shown(program: Program, batch: list[SymbolicMesh]) -> tuple[list[Rule], list[Demonstration]]:
+    assume(all(mesh.labels for mesh in batch))
+    try:
+        rules, demos = demonstrated(program, batch)
+    except MeshForgeError:  # a shape that cannot be made; nothing to learn from
+        assume(False)
+    assume(rules)
+    return rules, demos
+
+
+def learned(program: Program, demos: list[Demonstration]) -> Found:
+    outcome = synthesize(
+        demos, templates=TEMPLATES, vocabulary=LABELS, contact=program.contact, extremity=program.extremity
+    )
+    assert isinstance(outcome, Found)
+    return outcome
+
+
+@settings(max_examples=100, deadline=None)
+@given(hidden_programs, batches)
+def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Program, batch: list[SymbolicMesh]) -> None:
+    rules, demos = shown(hidden, batch)
+    program = learned(hidden, demos).program
+    assert [(rule.action, rule.label) for rule in program.rules] == [(rule.action, rule.label) for rule in rules]
+    for mine, theirs in zip(program.rules, rules, strict=True):
+        assert size(mine.extractor) <= size(theirs.extractor)
+    for mesh in batch:
+        names = [{hull.name for hull in p.run(mesh, TEMPLATES).mesh.hulls} for p in (program, hidden)]
+        assert names[0] == names[1]
+
+
+@settings(max_examples=50, deadline=None)
+@given(hidden_programs, batches, st.data())
+def test_a_demonstration_that_ends_early_leaves_the_later_rules_to_the_others(
+    hidden: Program, batch: list[SymbolicMesh], data: st.DataObject
+) -> None:
+    _, demos = shown(hidden, batch)
+    short = data.draw(st.integers(0, len(demos) - 1))
+    cut = data.draw(st.sampled_from(possible_cuts(demos, short)))
+    demos[short] = Demonstration(demos[short].mesh, demos[short].steps[:cut], demos[short].name)
+    program = learned(hidden, demos).program
+    for demo in demos:
+        trace = program.run(demo.mesh, TEMPLATES).trace
+        assert [step.select for step in demo.steps] == [frozenset(done.selected) for done in trace[: len(demo.steps)]]
+
+
+def possible_cuts(demos: list[Demonstration], short: int) -> list[int]:
+    """How many steps of that demonstration may be kept, so that each later rule is shown by another one."""
+    count = len(demos[short].steps)
+    elsewhere = [any(d.steps[k].shown for d in demos if d is not demos[short]) for k in range(count)]
+    return [cut for cut in range(count + 1) if all(elsewhere[cut:])]
+
+
+def test_the_outcome_does_not_depend_on_the_hash_seed() -> None:
+    root = Path(__file__).parents[2]
+    program = """
+import json
+from meshforge.synthesis import outcome_json
+from tests.unit.synthesis.test_running_example import learned
+out = outcome_json(learned())
+del out["seconds"]
+print(json.dumps(out))
+"""
+    printed = [
+        subprocess.run(
+            [sys.executable, "-c", program],
+            cwd=root,
+            env={**os.environ, "PYTHONHASHSEED": str(seed)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in (1, 2)
+    ]
+    assert json.loads(printed[0])["status"] == "found"
+    assert printed[0] == printed[1]

@@ -1,0 +1,89 @@
+"""The search gives the answer of a search that tries everything, whichever shortcuts it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.language import Extractor, select_mask
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.options import Options, Shortcuts
+from meshforge.synthesis.order import Key, order
+from meshforge.synthesis.search import Hit, Miss, Search
+from meshforge.synthesis.watch import Watch
+from tests.strategies import extractors, grid_boxes, meshes
+from tests.synthesis_naive import naive_search
+
+LABELS = ("a", "b", "c")
+TWO = LABELS[:2]
+ON = Shortcuts()
+OFF = {
+    "merge": replace(ON, merge=False),
+    "group": replace(ON, group=False),
+    "complete": replace(ON, complete=False),
+    "help": replace(ON, help=False),
+    "stored": replace(ON, stored=0),
+    "all": Shortcuts(merge=False, group=False, complete=False, help=False, stored=0),
+}
+batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size=3)
+
+
+def examples_of(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Example]:
+    examples = [Example(f"mesh {k}", mesh, select_mask(extractor, mesh)) for k, mesh in enumerate(batch)]
+    assume(any(example.selection for example in examples))
+    return examples
+
+
+def found(
+    examples: Sequence[Example], max_size: int, shortcuts: Shortcuts = ON, labels: Sequence[str] = TWO
+) -> Extractor | None:
+    answer = Search(examples, labels, Watch(600), Options(max_size=max_size, shortcuts=shortcuts)).run()
+    assert isinstance(answer, Hit | Miss)
+    return answer.extractor if isinstance(answer, Hit) else None
+
+
+def key(extractor: Extractor | None) -> Key | None:
+    """The place in the order: the same for two extractors that differ by the order of operands only."""
+    return order(extractor, {label: place for place, label in enumerate(LABELS)}) if extractor else None
+
+
+@settings(max_examples=100, deadline=None)
+@given(batches, extractors(TWO))
+def test_the_answer_is_that_of_a_search_that_tries_everything(batch: list[SymbolicMesh], hidden: Extractor) -> None:
+    examples = examples_of(batch, hidden)
+    assert key(found(examples, max_size=6)) == key(naive_search(examples, TWO, max_size=6))
+
+
+@settings(max_examples=60, deadline=None)
+@given(batches, st.integers(0, 2**24 - 1))
+def test_the_answer_for_any_selection_is_that_of_a_search_that_tries_everything(
+    batch: list[SymbolicMesh], selections: int
+) -> None:
+    examples = [Example(str(k), mesh, (selections >> 8 * k) % (1 << len(mesh.hulls))) for k, mesh in enumerate(batch)]
+    assume(any(example.selection for example in examples))
+    assert key(found(examples, max_size=6)) == key(naive_search(examples, TWO, max_size=6))
+
+
+@pytest.mark.parametrize("switched", OFF)
+@settings(max_examples=40, deadline=None)
+@given(batch=batches, hidden=extractors(TWO))
+def test_every_shortcut_can_be_switched_off_and_the_answer_stays(
+    switched: str, batch: list[SymbolicMesh], hidden: Extractor
+) -> None:
+    examples = examples_of(batch, hidden)
+    size = 7 if OFF[switched].merge else 5
+    assert found(examples, size) == found(examples, size, OFF[switched])
+
+
+@settings(max_examples=100, deadline=None)
+@given(batches, extractors(LABELS, max_leaves=5))
+def test_what_is_found_selects_what_was_shown(batch: list[SymbolicMesh], hidden: Extractor) -> None:
+    examples = examples_of(batch, hidden)
+    extractor = found(examples, max_size=19, labels=LABELS)
+    assert extractor is not None
+    assert [select_mask(extractor, e.mesh) for e in examples] == [e.selection for e in examples]
