@@ -14,6 +14,7 @@ COMMANDS = (
     "new",
     "status",
     "label",
+    "demonstrate",
     "synthesize",
     "apply",
     "check",

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from meshforge.cli.options import AssetFile, Labels
 
-
-class ColorBy(StrEnum):
-    """What the colours of a picture mean."""
-
-    HULL = "hull"
-    LABEL = "label"
-    BODY = "body"
-    CONFIDENCE = "confidence"
+if TYPE_CHECKING:
+    from meshforge.views import View
 
 
 def render(
@@ -25,7 +18,8 @@ def render(
     out: Annotated[Path, typer.Option("-o", "--out", help="The PNG to write.")],
     labels: Labels = None,
     color_by: Annotated[
-        ColorBy | None, typer.Option("--color-by", help="Default: label where there are labels, else hull.")
+        Literal["hull", "label", "body", "confidence"] | None,
+        typer.Option("--color-by", help="Default: label where there are labels, else hull."),
     ] = None,
     views: Annotated[
         str, typer.Option("--views", help="Comma-separated: iso, iso-back, front, back, left, right, top, bottom.")
@@ -35,24 +29,34 @@ def render(
     names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False,
 ) -> None:
     """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
-    from meshforge.cli.output import remark
+    from meshforge.cli.output import remark, write_png
     from meshforge.formats import load
     from meshforge.views import render as picture
-    from meshforge.views import write_png
 
     mesh = load(asset, labels=labels)
-    chosen = color_by.value if color_by else ("label" if mesh.labels else "hull")
     visuals = mesh.asset.visuals if ghost and mesh.asset else ()
     image = picture(
         mesh,
-        views=tuple(name.strip() for name in views.split(",")),
-        color_by=chosen,
+        views=_views(views),
+        color_by=color_by or ("label" if mesh.labels else "hull"),
         size=_pixels(size),
-        ghost=visuals,
+        ghost=visuals or None,
         labels=names,
     )
     write_png(out, image)
     remark(f"wrote {out}")
+
+
+def _views(text: str) -> list[View]:
+    from meshforge.errors import UsageError
+    from meshforge.views import VIEWS
+
+    known: dict[str, View] = {view: view for view in VIEWS}
+    names = [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in known:
+            raise UsageError(f"there is no view {name!r}", remedy=f"Views: {', '.join(VIEWS)}.")
+    return [known[name] for name in names]
 
 
 def _pixels(text: str) -> tuple[int, int]:

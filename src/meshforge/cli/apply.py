@@ -1,0 +1,145 @@
+"""`meshforge apply`: run a program on many assets, or a project's program on its own."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from meshforge.cli.options import Json, Labels
+
+if TYPE_CHECKING:
+    from meshforge.batch import Outcome
+
+    Run = Callable[[Callable[[], None]], Iterator[Outcome]]
+
+
+def apply(
+    program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")],
+    assets: Annotated[list[str] | None, typer.Argument(help="Files, folders or globs; not with a project.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
+    ] = None,
+    labels: Labels = None,
+    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")] = None,
+    mass: Annotated[
+        Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
+    ] = "keep",
+    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")] = False,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
+    json: Json = False,
+) -> None:
+    """Run a program on assets; each goes back into its own format below --out, labels beside it.
+
+    Exit code 1 when some assets failed: they are named, and the others are done.
+    """
+    from meshforge.batch import Failed, json_line
+    from meshforge.cli.output import print_json, progress
+
+    if program.is_dir():
+        total, run = _of_project(program, assets, out, labels, workers, mass, link, dry_run, fresh)
+    else:
+        total, run = _of_program(program, assets, out, labels, workers, mass, link, dry_run, fresh)
+    outcomes = []
+    with progress(total, "editing") as advance:
+        for outcome in run(advance):
+            outcomes.append(outcome)
+            if json:
+                print_json(json_line(outcome), compact=True)
+    if not json:
+        report(outcomes, dry_run=dry_run)
+    raise typer.Exit(int(any(isinstance(outcome, Failed) for outcome in outcomes)))
+
+
+def _of_project(
+    folder: Path,
+    assets: list[str] | None,
+    out: Path | None,
+    labels: Path | None,
+    workers: int | None,
+    mass: Literal["keep", "recompute"],
+    link: bool,
+    dry_run: bool,
+    fresh: bool,
+) -> tuple[int, Run]:
+    from meshforge.errors import UsageError
+    from meshforge.project import Project
+
+    if assets or labels:
+        raise UsageError(
+            "a project has its own assets and labels",
+            remedy=f"For other assets: meshforge apply {folder / 'program.mf'} ASSETS... --out DIR",
+        )
+    project = Project.open(folder)
+
+    def run(advance: Callable[[], None]) -> Iterator[Outcome]:
+        return project.apply(
+            out=out, workers=workers, mass=mass, link=link, dry_run=dry_run, resume=not fresh, progress=advance
+        )
+
+    return len(project.assets()), run
+
+
+def _of_program(
+    path: Path,
+    assets: list[str] | None,
+    out: Path | None,
+    labels: Path | None,
+    workers: int | None,
+    mass: Literal["keep", "recompute"],
+    link: bool,
+    dry_run: bool,
+    fresh: bool,
+) -> tuple[int, Run]:
+    from meshforge.batch import apply as run_batch
+    from meshforge.batch import expand, jobs, load_templates, template_folders
+    from meshforge.errors import UsageError
+    from meshforge.language import Program
+
+    if not assets or out is None:
+        lacking = "assets" if not assets else "--out DIR"
+        raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
+    program = Program.read(path)
+    templates = load_templates(program, template_folders(path))
+    work = jobs(expand(assets), labels)
+
+    def run(advance: Callable[[], None]) -> Iterator[Outcome]:
+        return run_batch(
+            program,
+            work,
+            out,
+            templates=templates,
+            workers=workers,
+            mass=mass,
+            link=link,
+            dry_run=dry_run,
+            resume=not fresh,
+            progress=advance,
+        )
+
+    return len(work), run
+
+
+def report(outcomes: Sequence[Outcome], *, dry_run: bool = False) -> None:
+    """One line an asset, then the counts."""
+    from meshforge.batch import Failed, status
+    from meshforge.cli.output import counted
+
+    for outcome in outcomes:
+        if isinstance(outcome, Failed):
+            typer.echo(f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    "))
+            continue
+        typer.echo(f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}")
+        for line in (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags):
+            typer.echo(f"    note: {line}")
+    done = [outcome for outcome in outcomes if not isinstance(outcome, Failed)]
+    counts = Counter(status(outcome) for outcome in outcomes)
+    typer.echo(
+        f"{counted(len(outcomes), 'asset')}: {', '.join(f'{n} {word}' for word, n in counts.items())}; "
+        f"hulls {sum(o.before for o in done)} -> {sum(o.after for o in done)}"
+        + (" (nothing was written)" if dry_run else "")
+    )
