@@ -24,6 +24,7 @@ from meshforge.language.evaluate import (
     select_mask,
     size,
 )
+from meshforge.language.explain import explain
 from meshforge.language.groups import bodies, components
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
@@ -89,6 +90,7 @@ __all__ = [
     "attach_mask",
     "bodies",
     "components",
+    "explain",
     "geo_mask",
     "label_mask",
     "labels_used",

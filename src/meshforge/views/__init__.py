@@ -3,6 +3,7 @@
 from meshforge.views.camera import VIEWS, Up, View
 from meshforge.views.coloring import COLOR_BY, ColorBy, label_colors
 from meshforge.views.compare import before_after, compare, difference, joint_bounds
+from meshforge.views.encode import png, webp, write_png
 from meshforge.views.palette import LABEL_COLORS, UNLABELLED, label_color
 from meshforge.views.picture import render
 from meshforge.views.sheet import sheet
@@ -23,7 +24,10 @@ __all__ = [
     "joint_bounds",
     "label_color",
     "label_colors",
+    "png",
     "render",
     "sheet",
     "visible_hulls",
+    "webp",
+    "write_png",
 ]

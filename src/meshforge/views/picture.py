@@ -35,7 +35,7 @@ def render(
     title: str | None = None,
     caption: str | None = None,
     background: str | None = "light",
-    marks: bool | Mapping[str, str] = False,
+    labels: bool | Mapping[str, str] = False,
     bounds: Aabb | None = None,
     vocabulary: Sequence[str] = (),
     up: Up = "Z",
@@ -46,7 +46,7 @@ def render(
     ghost: surfaces shown as grey shells; None shows the asset's opaque pieces.
     legend: names of colours and counts of hulls; without it the picture fills the whole size, but for a title.
     background: `light`, a colour `#rrggbb`, or None for transparent.
-    marks: the number of each hull on it, or other short texts by hull name.
+    labels: the number of each hull on it, counted from 0, or other short texts by hull name.
     bounds: the box that the camera is framed on, to compare pictures; None frames the mesh.
     vocabulary: the order in which labels take their colours. up: the axis that points up in the picture.
     Raises UsageError for an unknown view or colouring, or an impossible size.
@@ -58,7 +58,7 @@ def render(
     if caption is None and legend:
         caption = _count(mesh, highlight)
     canvas = Canvas(size, background, title, caption, coloring if legend else Coloring(coloring.colors))
-    names = _marks(mesh, marks)
+    names = _marks(mesh, labels)
     for view, box in zip(views, _boxes(canvas.room, len(views)), strict=True):
         _place(canvas, what, bounds, view, up, box, names, named=len(views) > 1)
     return canvas.image
@@ -104,10 +104,10 @@ def _count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str:
     return count if highlight is None else f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
 
 
-def _marks(mesh: SymbolicMesh, marks: bool | Mapping[str, str]) -> dict[int, str]:
-    if isinstance(marks, bool):
-        return {k: str(k) for k in range(len(mesh.hulls))} if marks else {}
-    return {k: marks[h.name] for k, h in enumerate(mesh.hulls) if h.name in marks}
+def _marks(mesh: SymbolicMesh, labels: bool | Mapping[str, str]) -> dict[int, str]:
+    if isinstance(labels, bool):
+        return {k: str(k) for k in range(len(mesh.hulls))} if labels else {}
+    return {k: labels[h.name] for k, h in enumerate(mesh.hulls) if h.name in labels}
 
 
 def _boxes(room: tuple[int, int, int, int], count: int) -> list[tuple[int, int, int, int]]:
