@@ -20,8 +20,9 @@ def sound(shape: Shape, name: str, thickness: float) -> Shape:
 
 def is_sound(shape: Shape) -> bool:
     """Whether a shape is finite, closed, convex, and spans a volume."""
-    vertices = shape.vertices
-    if not np.isfinite(vertices).all() or not (np.isfinite(shape.volume) and shape.volume > 0):
+    with np.errstate(all="ignore"):
+        vertices, volume = shape.vertices, shape.volume
+    if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
         return False
     extents = principal_extents(vertices)[2]
     if extents.min() <= _FLAT * extents.max():

@@ -75,7 +75,7 @@ def _expected(accepted: Set[str]) -> list[str]:
     if "DIRECTION" in accepted and "NAME" not in accepted:
         phrases.append(f"a direction ({', '.join(DIRECTIONS)})")
     phrases += [f"`{sign}`" for name, sign in _SIGNS.items() if name in accepted]
-    phrases += ["`as`"] if "_AS" in accepted else []
+    phrases += [f"`{word}`" for name, word in _WORDS.items() if name in accepted and word != "snap"]
     return phrases + (["the end of the line"] if accepted & {"_NL", "$END"} else [])
 
 

@@ -1,4 +1,4 @@
-"""Golden programs: `NAME.mf` lies beside its canonical form `NAME.out`, or beside the error that it gives, `NAME.err`."""
+"""Golden programs: `NAME.mf` lies beside its canonical form, `NAME.out`, or the error that it gives, `NAME.err`."""
 
 from __future__ import annotations
 

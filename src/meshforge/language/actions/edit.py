@@ -12,6 +12,7 @@ from meshforge.geometry import FLATNESS, Aabb, Floats, Shape
 from meshforge.language.template import Template, check_templates
 from meshforge.symbolic import Hull
 
+_EQUAL = 1e-9  # volumes of like hulls differ by rounding, which must not choose between them
 _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
 
 
@@ -40,8 +41,9 @@ class Group:
 
     @property
     def largest(self) -> Hull:
-        """The hull of the largest volume, of equals the first."""
-        return max(self.hulls, key=lambda hull: hull.volume)
+        """The hull of the largest volume, of those that are equal but for rounding the first."""
+        most = max(hull.volume for hull in self.hulls)
+        return next(hull for hull in self.hulls if hull.volume >= most * (1 - _EQUAL))
 
     @property
     def points(self) -> Floats:

@@ -22,4 +22,5 @@ class Scale(Action):
         factors = np.array([self.factor if self.axis in ("all", axis) else 1.0 for axis in "XYZ"])
         offset = group.bounds.center * (1.0 - factors)
         linear = np.diag(factors)
-        return Edit(tuple(Made(hull.shape.mapped(linear, offset), hull, (hull,)) for hull in group.hulls))
+        with np.errstate(all="ignore"):  # what grows beyond all numbers is refused where made shapes are verified
+            return Edit(tuple(Made(hull.shape.mapped(linear, offset), hull, (hull,)) for hull in group.hulls))

@@ -1,0 +1,285 @@
+"""What each action makes of its hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from meshforge.errors import ProgramError
+from meshforge.geometry import Box, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
+from meshforge.language import (
+    ACTIONS,
+    PRIMITIVES,
+    Action,
+    Add,
+    Applied,
+    Delete,
+    Each,
+    Merge,
+    Replace,
+    Scale,
+    apply_action,
+)
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.language.scenes import box, hull, mesh, table, wedge
+
+TEMPLATES = {"wedge.obj": wedge()}
+
+
+def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> Applied:
+    mask = sum(1 << scene.index[name] for name in names or scene.index)
+    return apply_action(scene, mask, action, TEMPLATES, label)
+
+
+def bounds(scene: SymbolicMesh, name: str) -> list[list[float]]:
+    aabb = scene.named(name).aabb
+    return [aabb.min.round(9).tolist(), aabb.max.round(9).tolist()]
+
+
+def legs() -> list[str]:
+    return [hull.name for hull in table().hulls if hull.label == "leg"]
+
+
+def test_delete_removes_the_hulls_and_nothing_else() -> None:
+    scene = table()
+    after = applied(scene, Delete(), "top", "splinter").mesh
+    assert after.hulls == tuple(h for h in scene.hulls if h.name not in ("top", "splinter"))
+
+
+def test_merge_takes_the_name_label_and_body_of_the_largest_hull() -> None:
+    result = applied(table(), Merge(), "leg0_low", "leg0_high")
+    made = result.mesh.named("leg0_high~1")
+    assert result.made == ("leg0_high~1",) and result.sources == (("leg0_low", "leg0_high"),)
+    assert (made.label, made.body, made.parent, made.source, made.confidence) == (
+        "leg", "body", "leg0_high", "edit", 0.8,
+    )  # fmt: skip
+    assert bounds(result.mesh, "leg0_high~1") == [[0, 0, 0], [0.1, 0.1, 1]]
+    assert np.isclose(made.volume, 0.01)
+
+
+def test_of_equally_large_hulls_the_first_counts() -> None:
+    scene = mesh(hull("b", box([0, 0, 0], [1, 1, 1]), "x"), hull("a", box([1, 0, 0], [2, 1, 1]), "y"))
+    assert applied(scene, Merge()).made == ("b~1",)
+
+
+def test_each_merge_makes_one_hull_a_component() -> None:
+    result = applied(table(), Each(Merge()), *legs())
+    assert result.made == ("leg0_high~1", "leg1_high~1", "leg2_high~1", "leg3_high~1")
+    assert bounds(result.mesh, "leg3_high~1") == [[1.9, 0.9, 0], [2, 1, 1]]
+
+
+def test_merge_without_each_makes_one_hull_a_body() -> None:
+    scene = mesh(
+        hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
+        hull("b", box([3, 0, 0], [4, 1, 1]), body="base"),
+        hull("c", box([0, 0, 1], [1, 1, 2]), body="door"),
+        hull("d", box([3, 0, 1], [4, 1, 2]), body="door"),
+    )
+    result = applied(scene, Merge())
+    assert result.made == ("a~1", "c~1")
+    assert [h.body for h in result.mesh.hulls] == ["base", "door"]
+
+
+def test_each_never_joins_hulls_of_two_bodies() -> None:
+    scene = mesh(
+        hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
+        hull("b", box([1, 0, 0], [2, 1, 1]), body="door"),
+        hull("c", box([2, 0, 0], [3, 1, 1]), body="base"),
+    )
+    assert applied(scene, Each(Merge())).mesh is scene
+
+
+def test_merging_one_hull_leaves_it_as_it_is() -> None:
+    scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
+    result = applied(scene, Merge())
+    assert result.mesh is scene and result.made == ()
+
+
+def test_merging_one_hull_under_a_label_relabels_it() -> None:
+    scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
+    after = applied(scene, Merge(), label="handle").mesh.named("ball")
+    assert after.label == "handle" and after.source == "edit" and after.parent is None
+    assert after.shape is scene.hulls[0].shape
+
+
+def test_merging_a_round_primitive_is_noted() -> None:
+    scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0)), hull("box", box([0, 0, 0], [1, 1, 2])))
+    assert applied(scene, Merge()).note == "round primitives were merged by their tessellated points"
+
+
+def test_flat_input_is_thickened() -> None:
+    low = convex_hull(np.array([[x, y, 0] for x in (0.0, 1) for y in (0.0, 1)]), thicken=1e-12)
+    high = convex_hull(np.array([[x, y, 0] for x in (1.0, 2) for y in (0.0, 1)]), thicken=1e-12)
+    result = applied(mesh(hull("a", low), hull("b", high)), Merge())
+    assert result.mesh.hulls[0].aabb.size[2] == pytest.approx(1e-4 * np.sqrt(5))
+
+
+def test_replace_by_a_box_fills_the_bounding_box() -> None:
+    result = applied(table(), Replace("box"), "leg0_low", "top")
+    assert isinstance(result.mesh.named("top~1").shape, Box)
+    assert bounds(result.mesh, "top~1") == [[0, 0, 0], [2, 1, 1.1]]
+
+
+@pytest.mark.parametrize("primitive", PRIMITIVES)
+def test_every_primitive_has_the_bounding_box_of_what_it_replaces(primitive: str) -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 2, 4])))
+    result = applied(scene, Replace(primitive))
+    assert bounds(result.mesh, "a~1") == [[0, 0, 0], [1, 2, 4]]
+
+
+def test_a_cylinder_stands_along_the_longest_side() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [4, 1, 1])))
+    shape = applied(scene, Replace("cylinder")).mesh.hulls[0].shape
+    assert isinstance(shape, Cylinder)
+    assert np.allclose(np.abs(shape.pose.rotation[:, 2]), [1, 0, 0])
+    assert (shape.radius, shape.half_length) == pytest.approx((0.5, 2.0))
+
+
+def test_a_cylinder_over_unequal_sides_is_a_polytope_and_noted() -> None:
+    result = applied(mesh(hull("a", box([0, 0, 0], [1, 2, 4]))), Replace("cylinder"))
+    assert result.mesh.hulls[0].primitive is None
+    assert result.note is not None and "cylinder" in result.note
+
+
+def test_a_sphere_is_the_ellipsoid_that_fills_the_box() -> None:
+    shape = applied(mesh(hull("a", box([0, 0, 0], [1, 2, 4]))), Replace("sphere")).mesh.hulls[0].shape
+    assert isinstance(shape, Ellipsoid) and np.allclose(shape.radii, [0.5, 1, 2])
+    cube = applied(mesh(hull("a", box([0, 0, 0], [2, 2, 2]))), Replace("sphere")).mesh.hulls[0].shape
+    assert isinstance(cube, Sphere) and cube.radius == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("primitive", ["box", "cylinder", "capsule"])
+def test_a_tight_fit_follows_a_slanted_leg(primitive: str) -> None:
+    slant = rotation(0.5)
+    leg = Box(Pose(slant, np.zeros(3)), np.array([0.1, 0.1, 2.0]))
+    after = applied(mesh(hull("leg", leg)), Replace(primitive, "tight")).mesh.hulls[0]
+    around = applied(mesh(hull("leg", leg)), Replace("box")).mesh.hulls[0]
+    assert after.shape.kind == primitive
+    assert after.volume < 3 * leg.volume < around.volume
+
+
+def rotation(angle: float) -> Floats:
+    """A turn about Y."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def test_a_template_is_mapped_axis_by_axis_and_never_turned() -> None:
+    scene = mesh(hull("a", box([10, 0, 0], [11, 2, 4])))
+    result = applied(scene, Replace("wedge.obj"))
+    assert bounds(result.mesh, "a~1") == [[10, 0, 0], [11, 2, 4]]
+    top = result.mesh.hulls[0].vertices
+    assert set(top[top[:, 2] > 3.9][:, 1].tolist()) == {2.0}  # the ridge stays at the far side along Y
+
+
+def test_longest_turns_the_template_first() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 2, 40])))
+    result = applied(scene, Replace("wedge.obj", "longest"))
+    shape = result.mesh.hulls[0].shape
+    assert bounds(result.mesh, "a~1") == [[0, 0, 0], [1, 2, 40]]
+    heights = shape.vertices[:, 2].round(9).tolist()
+    assert sorted(heights) == [0.0] * 3 + [40.0] * 3  # a prism along Z: three corners at either end
+
+
+def test_a_template_of_two_hulls_makes_two() -> None:
+    both = {"pair.obj": type(wedge())((*wedge().shapes, box([0, 0, 1], [1, 1, 3])), "pair.obj")}
+    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1]), "leg"))
+    result = apply_action(scene, 1, Replace("pair.obj"), both)
+    assert result.made == ("a~1", "a~2") and result.sources == (("a",), ("a",))
+    assert result.mesh.aabb is not None and result.mesh.aabb.size.tolist() == pytest.approx([1, 1, 1])
+
+
+def test_add_touches_the_middle_of_the_side_from_outside_as_large_as_fits() -> None:
+    scene = mesh(hull("door", box([0, 0, 0], [1, 8, 4]), "door"))
+    result = applied(scene, Add("+X", "wedge.obj"), label="handle")
+    assert [h.name for h in result.mesh.hulls] == ["door", "door~1"]
+    assert bounds(result.mesh, "door~1") == [[1, 0, 0], [17, 8, 4]]
+    assert result.mesh.named("door~1").label == "handle" and result.mesh.named("door").label == "door"
+
+
+def test_add_along_a_negative_direction_is_centred_on_the_other_side() -> None:
+    scene = mesh(hull("door", box([0, 0, 0], [4, 8, 4])))
+    assert bounds(applied(scene, Add("-Z", "wedge.obj")).mesh, "door~1") == [[0, 3, -1], [4, 5, 0]]
+
+
+def test_add_keep_keeps_the_size_of_the_template() -> None:
+    scene = mesh(hull("door", box([0, 0, 0], [1, 8, 4])))
+    assert bounds(applied(scene, Add("+X", "wedge.obj", keep=True)).mesh, "door~1") == [[1, 3, 1.5], [5, 5, 2.5]]
+
+
+def test_scale_keeps_the_group_together_and_every_hull_its_own() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1]), "x"), hull("b", box([3, 0, 0], [4, 1, 1]), "y", body="door"))
+    result = applied(scene, Scale("X", 0.5))
+    assert bounds(result.mesh, "a~1") == [[1, 0, 0], [1.5, 1, 1]]
+    assert bounds(result.mesh, "b~1") == [[2.5, 0, 0], [3, 1, 1]]
+    assert [(h.label, h.body, h.parent) for h in result.mesh.hulls] == [("x", "body", "a"), ("y", "door", "b")]
+    assert result.sources == (("a",), ("b",))
+
+
+def test_each_scale_scales_every_component_about_its_own_centre() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1])), hull("b", box([3, 0, 0], [4, 1, 1])))
+    result = applied(scene, Each(Scale("all", 2)))
+    assert bounds(result.mesh, "a~1") == [[-0.5, -0.5, -0.5], [1.5, 1.5, 1.5]]
+    assert bounds(result.mesh, "b~1") == [[2.5, -0.5, -0.5], [4.5, 1.5, 1.5]]
+
+
+def test_a_scaled_primitive_stays_one_where_the_map_keeps_its_kind() -> None:
+    scene = mesh(hull("a", Sphere(Pose.identity(), 1.0)))
+    assert isinstance(applied(scene, Scale("all", 2)).mesh.hulls[0].shape, Sphere)
+    assert applied(scene, Scale("Z", 2)).mesh.hulls[0].shape.kind == "polytope"
+
+
+def test_names_count_on_and_are_never_given_twice() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1])), hull("a~1", box([1, 0, 0], [2, 1, 1])))
+    first = applied(scene, Scale("all", 2), "a")
+    assert first.made == ("a~2",)
+    second = apply_action(first.mesh, 0b10, Scale("all", 2), used=first.used)
+    assert second.made == ("a~3",) and second.mesh.named("a~3").parent == "a"
+    third = apply_action(second.mesh, 0b01, Scale("all", 2), used=second.used)
+    assert third.made == ("a~1~1",) and third.mesh.named("a~1~1").parent == "a~1"
+
+
+def test_an_empty_selection_does_nothing_and_says_so() -> None:
+    scene = table()
+    result = apply_action(scene, 0, Merge())
+    assert result.mesh is scene and result.note == "nothing selected"
+
+
+def test_a_missing_template_is_named_with_those_that_there_are() -> None:
+    with pytest.raises(ProgramError) as error:
+        apply_action(table(), 0, Each(Add("+X", "knob.obj")), TEMPLATES)
+    assert 'there is no template "knob.obj" (templates given: wedge.obj)' in str(error.value)
+    assert "beside the program" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: Replace("sphere", "tight"),
+        lambda: Replace("bar.obj", "tight"),
+        lambda: Replace("box", "longest"),
+        lambda: Replace(""),
+        lambda: Add("X", "bar.obj"),  # type: ignore[arg-type]
+        lambda: Scale("all", 0.0),
+        lambda: Scale("all", float("nan")),
+        lambda: Scale("W", 2.0),  # type: ignore[arg-type]
+        lambda: Each(Each(Merge())),
+        lambda: Each("Merge"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_action_with_arguments_that_cannot_be_is_refused_at_birth(wrong: object) -> None:
+    assert callable(wrong)
+    with pytest.raises(ProgramError):
+        wrong()
+
+
+def test_the_registry_knows_every_action_by_the_name_it_is_written_with() -> None:
+    assert list(ACTIONS) == ["Delete", "Replace", "Add", "Merge", "Scale", "Each"]
+    assert [kind.usage() for kind in ACTIONS.values()] == [
+        "Delete",
+        'Replace(box|cylinder|capsule|sphere|"file"[, tight|longest])',
+        'Add(+X|-X|+Y|-Y|+Z|-Z, "file"[, keep])',
+        "Merge",
+        "Scale(all|X|Y|Z, factor)",
+        "Each(action)",
+    ]

@@ -1,0 +1,123 @@
+"""Orientation: which frame the landmarks ask for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from meshforge.errors import ProgramError
+from meshforge.geometry import Floats, Pose
+from meshforge.language import orient_mesh, parse_orient
+from meshforge.language.squaring import squaring_turn
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.language.scenes import box, hull, mesh, table
+
+UPRIGHT = parse_orient("orient +Z: Is(leg) -> Is(panel)")
+
+
+def about_z(degrees: float) -> Floats:
+    c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def moved(scene: SymbolicMesh, rotation: Floats) -> SymbolicMesh:
+    pose = Pose(rotation, np.zeros(3))
+    return scene.with_hulls(h.moved(pose) for h in scene.hulls)
+
+
+def size(scene: SymbolicMesh) -> list[float]:
+    assert scene.aabb is not None
+    return [round(float(side), 9) for side in scene.aabb.size]
+
+
+def test_an_upright_square_table_stays_the_very_mesh() -> None:
+    scene = table()
+    oriented, pose = orient_mesh(scene, UPRIGHT)
+    assert oriented is scene and np.array_equal(pose.rotation, np.eye(3))
+
+
+def test_no_directive_leaves_the_mesh_as_it_is() -> None:
+    scene = table()
+    assert orient_mesh(scene, None)[0] is scene
+
+
+def test_a_table_on_its_side_is_put_upright_exactly() -> None:
+    lying = moved(table(), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]))
+    oriented, pose = orient_mesh(lying, UPRIGHT)
+    assert size(oriented) == [2, 1, 1.1]
+    assert set(np.abs(pose.rotation).ravel().tolist()) == {0.0, 1.0}
+
+
+@pytest.mark.parametrize("degrees", [10, 30, 44, -44, -10])
+def test_one_pair_squares_the_footprint_up(degrees: float) -> None:
+    oriented, pose = orient_mesh(moved(table(), about_z(degrees)), UPRIGHT)
+    assert size(oriented) == [2, 1, 1.1]
+    assert np.allclose(pose.rotation, about_z(-degrees))
+
+
+def test_of_the_quarter_turns_the_nearest_to_the_incoming_frame_is_taken() -> None:
+    oriented, pose = orient_mesh(moved(table(), about_z(60)), UPRIGHT)
+    assert size(oriented) == [1, 2, 1.1]
+    assert np.allclose(pose.rotation, about_z(30))
+
+
+def test_between_two_turns_that_are_equally_near_the_positive_one_is_taken() -> None:
+    for degrees in (45, -45):
+        _, pose = orient_mesh(moved(table(), about_z(degrees)), UPRIGHT)
+        assert np.allclose(pose.rotation, about_z(45))
+
+
+def test_a_frame_within_five_percent_of_the_smallest_rectangle_is_kept() -> None:
+    askew = moved(table(), about_z(0.5))
+    assert orient_mesh(askew, UPRIGHT)[0] is askew
+    assert orient_mesh(moved(table(), about_z(2.0)), UPRIGHT)[0] is not askew
+
+
+def test_a_round_footprint_is_kept() -> None:
+    angles = np.arange(64) * (2 * np.pi / 64)
+    assert squaring_turn(np.column_stack([np.cos(angles), np.sin(angles)])) == 0.0
+
+
+def test_the_opposite_direction_is_a_half_turn_about_a_fixed_axis() -> None:
+    overhead = moved(table(), np.diag([-1.0, 1, -1]))
+    _, pose = orient_mesh(overhead, UPRIGHT)
+    assert np.array_equal(pose.rotation, np.diag([1.0, -1, -1]))
+
+
+def test_two_pairs_meet_the_first_axis_exactly_and_the_second_by_projection() -> None:
+    scene = mesh(
+        hull("a", box([-1, -1, -1], [1, 1, 1]), "a"),
+        hull("b", box([-1, -1, 9], [1, 1, 11]), "b"),
+        hull("c", box([-1, 4, 4], [1, 6, 6]), "c"),
+    )
+    oriented, _ = orient_mesh(scene, parse_orient("orient +X: Is(a) -> Is(b), -Y: Is(a) -> Is(c)"))
+    assert np.allclose([h.shape.centroid for h in oriented.hulls], [[0, 0, 0], [10, 0, 0], [5, -5, 0]])
+
+
+def test_snap_turns_a_file_that_is_square_but_permuted() -> None:
+    scene = mesh(hull("grip", box([0, 0, 0], [4, 1, 1]), "grip"), hull("blade", box([4, 0.5, 0], [9, 3, 0.2]), "blade"))
+    oriented, pose = orient_mesh(scene, parse_orient("orient snap +Z: Is(grip) -> Is(blade)"))
+    assert set(np.abs(pose.rotation).ravel().tolist()) == {0.0, 1.0}
+    assert size(oriented)[2] == 9
+
+
+def test_an_empty_landmark_is_named() -> None:
+    with pytest.raises(ProgramError, match=r"the landmark Is\(door\) selects nothing"):
+        orient_mesh(table(), parse_orient("orient +Z: Is(leg) -> Is(door)"))
+
+
+def test_landmarks_at_one_point_are_named_with_what_they_selected() -> None:
+    with pytest.raises(ProgramError) as error:
+        orient_mesh(table(), parse_orient("orient +Z: Is(leg) -> Is(leg)"))
+    assert "Is(leg) (leg0_low, leg0_high, leg1_low, leg1_high, leg2_low and 3 more)" in str(error.value)
+    assert "one centre" in str(error.value)
+
+
+def test_two_pairs_along_one_line_give_no_frame() -> None:
+    with pytest.raises(ProgramError, match="run along one line"):
+        orient_mesh(table(), parse_orient("orient +Z: Is(leg) -> Is(panel), +X: Is(panel) -> Is(leg)"))
+
+
+def test_a_mesh_without_hulls_has_no_landmark() -> None:
+    with pytest.raises(ProgramError, match="the landmark All selects nothing"):
+        orient_mesh(mesh(), parse_orient("orient +Z: All -> All"))
