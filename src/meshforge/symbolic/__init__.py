@@ -1,7 +1,26 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
+from meshforge.symbolic.components import components
+from meshforge.symbolic.follow import Followed, follow_labels
 from meshforge.symbolic.hull import Hull
+from meshforge.symbolic.label_file import LabelFile, read_labels, write_labels
 from meshforge.symbolic.labels import HUMAN_SOURCES, SOURCES, Label, Source
 from meshforge.symbolic.mesh import EPSILON, SymbolicMesh, bits, mask_of
 
-__all__ = ["EPSILON", "HUMAN_SOURCES", "SOURCES", "Hull", "Label", "Source", "SymbolicMesh", "bits", "mask_of"]
+__all__ = [
+    "EPSILON",
+    "HUMAN_SOURCES",
+    "SOURCES",
+    "Followed",
+    "Hull",
+    "Label",
+    "LabelFile",
+    "Source",
+    "SymbolicMesh",
+    "bits",
+    "components",
+    "follow_labels",
+    "mask_of",
+    "read_labels",
+    "write_labels",
+]
