@@ -50,8 +50,8 @@ def lookalikes(groups: Sequence[int], target: int, examples: Sequence[Example], 
     shown = _first_named(examples, space.split(split[0] & target))
     other = _first_named(examples, space.split(split[0] & ~target))
     return (
-        f"{shown} was selected and {other} was not, yet no extractor tells them apart: "
-        "they have the same label, contacts and extremes"
+        f"{shown} was selected and {other} was not, yet every extractor treats them alike; "
+        "a label of its own for one of them would tell them apart"
     )
 
 

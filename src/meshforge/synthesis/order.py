@@ -1,7 +1,8 @@
 """Which of two extractors that select the same a person would rather believe: the order in which the search answers.
 
-The order is total, and putting an earlier part in place of a part makes the whole earlier. The earliest extractor is
-therefore made of earliest parts, and of all parts that select the same the search may forget all but the first.
+The order is total, but for the operands of `Union` and `Intersect` changing places. Putting an earlier part in place
+of a part makes the whole earlier, so the earliest extractor is made of earliest parts, and of all parts that select
+the same the search may forget all but the first.
 """
 
 from __future__ import annotations
