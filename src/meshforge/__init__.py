@@ -1,1 +1,62 @@
-"""MeshForge: teach one collision mesh, mend the whole family."""
+"""MeshForge: teach one collision mesh, mend the whole family.
+
+The names below are the Python interface; each is imported when it is first used, so that `import meshforge` is quick.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from meshforge.errors import MeshForgeError
+    from meshforge.formats import load, load_many, save
+    from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
+    from meshforge.project import Project
+    from meshforge.symbolic import Hull, Label, SymbolicMesh
+    from meshforge.synthesis import Demonstration, Step, synthesize
+
+__all__ = [
+    "Add",
+    "Delete",
+    "Demonstration",
+    "Each",
+    "Hull",
+    "Label",
+    "Merge",
+    "MeshForgeError",
+    "Program",
+    "Project",
+    "Replace",
+    "Rule",
+    "Scale",
+    "Step",
+    "SymbolicMesh",
+    "Template",
+    "load",
+    "load_many",
+    "save",
+    "synthesize",
+]
+
+_ROOMS = {
+    "errors": ("MeshForgeError",),
+    "formats": ("load", "load_many", "save"),
+    "language": ("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
+    "project": ("Project",),
+    "symbolic": ("Hull", "Label", "SymbolicMesh"),
+    "synthesis": ("Demonstration", "Step", "synthesize"),
+}
+_HOMES = {name: room for room, names in _ROOMS.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'meshforge' has no attribute {name!r}")
+    value = getattr(import_module(f"meshforge.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,1 +1,67 @@
-"""The room `batch`."""
+"""Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
+
+from meshforge.batch.apply import TIMEOUT, apply
+from meshforge.batch.correction import Correction, replay
+from meshforge.batch.digests import (
+    asset_digests,
+    file_digest,
+    program_digest,
+    same_files,
+    software,
+    source_files,
+    text_digest,
+)
+from meshforge.batch.edit import inputs_of
+from meshforge.batch.expand import Found, asset_id, common_folder, expand
+from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
+from meshforge.batch.job import AssetJob, Mass, Task, jobs, labels_for
+from meshforge.batch.lock import locked
+from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
+from meshforge.batch.pool import Lost, isolated
+from meshforge.batch.stamp import Inputs, Stamp, read_stamp
+from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
+
+__all__ = [
+    "OWN_FOLDERS",
+    "SETTINGS",
+    "STATE",
+    "TIMEOUT",
+    "AssetJob",
+    "Correction",
+    "Edited",
+    "Failed",
+    "Found",
+    "Inputs",
+    "Lost",
+    "Mass",
+    "Outcome",
+    "RuleLine",
+    "Skipped",
+    "Stamp",
+    "Task",
+    "Unchanged",
+    "apply",
+    "asset_digests",
+    "asset_id",
+    "common_folder",
+    "expand",
+    "file_digest",
+    "inputs_of",
+    "isolated",
+    "jobs",
+    "json_line",
+    "labels_for",
+    "load_templates",
+    "locked",
+    "named_templates",
+    "program_digest",
+    "read_stamp",
+    "read_template",
+    "replay",
+    "same_files",
+    "software",
+    "source_files",
+    "status",
+    "template_folders",
+    "text_digest",
+]

@@ -1,1 +1,21 @@
-"""The room `project`."""
+"""The project folder: labels, demonstrations, the learned program, its outputs, and how far everything is."""
+
+from meshforge.project.advice import Advice
+from meshforge.project.labelling import Labelled
+from meshforge.project.layout import Layout
+from meshforge.project.project import Project
+from meshforge.project.reviewing import Review, Verdict
+from meshforge.project.settings import Settings
+from meshforge.project.status import AssetStatus, Status
+
+__all__ = [
+    "Advice",
+    "AssetStatus",
+    "Labelled",
+    "Layout",
+    "Project",
+    "Review",
+    "Settings",
+    "Status",
+    "Verdict",
+]

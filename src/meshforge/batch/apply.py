@@ -1,0 +1,91 @@
+"""Running a program over many assets."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+from meshforge.batch.draft import drafts
+from meshforge.batch.edit import Worked, edit
+from meshforge.batch.folder import STATE
+from meshforge.batch.job import AssetJob, Mass, Task
+from meshforge.batch.ledger import Ledger
+from meshforge.batch.lock import locked
+from meshforge.batch.outcome import Failed, Outcome
+from meshforge.batch.pool import Lost, isolated
+from meshforge.errors import UsageError
+from meshforge.language import Program, Template
+
+TIMEOUT = 600.0
+"""Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
+
+
+def apply(
+    program: Program,
+    assets: Iterable[AssetJob],
+    out: Path,
+    *,
+    templates: Mapping[str, Template] | None = None,
+    workers: int | None = None,
+    mass: Mass = "keep",
+    link: bool = False,
+    dry_run: bool = False,
+    resume: bool = True,
+    timeout: float | None = TIMEOUT,
+    progress: Callable[[], None] | None = None,
+) -> Iterator[Outcome]:
+    """Run a program on assets and write each into `out`; one outcome an asset, in the order given.
+
+    The outcomes come as the work goes on; an asset is in place when its outcome is there. What one asset does wrong
+    is its own outcome. Outcomes and files do not depend on the number of workers.
+
+    workers: processes, None takes one a processor, 0 works in this process (no time-out, no protection against
+    crashes of native code); mass: whether bodies keep their masses where a format derives them from geometry;
+    link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
+    and was made from the same is skipped; timeout: seconds for one asset; progress: called for each finished asset.
+    Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`.
+    """
+    jobs = tuple(assets)
+    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume)
+    _check(jobs, task)
+    return _run(jobs, task, workers, timeout, progress)
+
+
+def _run(
+    jobs: tuple[AssetJob, ...],
+    task: Task,
+    workers: int | None,
+    timeout: float | None,
+    progress: Callable[[], None] | None,
+) -> Iterator[Outcome]:
+    with ExitStack() as stack:
+        ledger = None
+        if not task.dry_run:
+            stack.enter_context(locked(task.out / STATE / "lock", str(task.out), wait=0))
+            stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
+            shutil.rmtree(drafts(task.out), ignore_errors=True)
+            ledger = Ledger(task.out, (job.id for job in jobs))
+        work = [(task, job) for job in jobs]
+        results = isolated(edit, work, workers=workers, timeout=timeout, done=progress)
+        stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
+        for job, result in zip(jobs, results, strict=True):
+            worked = _lost(job, result) if isinstance(result, Lost) else result
+            yield ledger.settle(worked) if ledger else worked.outcome
+
+
+def _lost(job: AssetJob, lost: Lost) -> Worked:
+    return Worked(Failed(job.id, f"{job.path}: {lost.why}\n  The other assets are not affected.", lost.seconds))
+
+
+def _check(jobs: tuple[AssetJob, ...], task: Task) -> None:
+    seen: dict[str, Path] = {}
+    for job in jobs:
+        if job.id in seen:
+            raise UsageError(f"two assets have the id {job.id!r}: {seen[job.id]} and {job.path}")
+        seen[job.id] = job.path
+        if job.base.absolute() == task.out:
+            raise UsageError(
+                "the output folder is the folder of the assets", where=str(task.out), remedy="Choose another --out."
+            )

@@ -1,0 +1,67 @@
+"""The files of one output, written aside and read back before they are put in place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from meshforge.asset import Asset
+from meshforge.batch.digests import file_digest, text_digest
+from meshforge.batch.folder import STATE
+from meshforge.batch.job import AssetJob, Task
+from meshforge.errors import AssetError
+from meshforge.formats import labels_beside, placed, read, save
+from meshforge.symbolic import SymbolicMesh, write_labels
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """An output that lies aside.
+
+    files: the digest of each file by its path in `folder`; main: the path of the main one; notes: what the format
+    could not hold, or holds in another form.
+    """
+
+    folder: Path
+    main: str
+    files: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+
+def drafts(out: Path) -> Path:
+    """The folder for outputs that are not in place yet; on the disk of the output, so that they can be renamed."""
+    return out / STATE / "drafts"
+
+
+def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
+    """Where the output of an asset would be."""
+    folder = drafts(task.out) / text_digest(job.id)
+    return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
+
+
+def written(plan: Draft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], *, link: bool) -> Draft:
+    """The output, with the labels of the edited mesh beside it.
+
+    Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
+    """
+    main = plan.folder / plan.main
+    saved = save(mesh, main, link=link)
+    _check_back(main, mesh)
+    if mesh.labels:
+        write_labels(labels_beside(main), mesh, vocabulary)
+    files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
+    digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
+    return Draft(plan.folder, plan.main, digests, saved.notes)
+
+
+def _check_back(main: Path, mesh: SymbolicMesh) -> None:
+    """Labels are keyed by the names that the file reads back as, so these must be those of the mesh."""
+    back = sorted(geom.name for geom in read(main).geoms)
+    wanted = sorted(hull.name for hull in mesh.hulls)
+    if back != wanted:
+        odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
+        raise AssetError(
+            f"the edited file reads back with other hulls than it should have: {odd}",
+            remedy="This is a fault of MeshForge; nothing was written. Please report the asset.",
+        )

@@ -1,0 +1,138 @@
+"""One asset of a batch, from its file to a draft of its output; runs in a worker process."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from meshforge.asset import Asset
+from meshforge.batch.correction import replay
+from meshforge.batch.digests import (
+    asset_digests,
+    corrections_digest,
+    file_digest,
+    program_digest,
+    same_files,
+    software,
+    template_digests,
+)
+from meshforge.batch.draft import Draft, planned, written
+from meshforge.batch.job import AssetJob, Task
+from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Unchanged
+from meshforge.batch.stamp import Inputs, read_stamp
+from meshforge.errors import MeshForgeError
+from meshforge.formats import read
+from meshforge.language import RunResult
+from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
+
+
+_NAMED = 5  # so many hulls are named in a note
+
+
+@dataclass(frozen=True, slots=True)
+class Worked:
+    """What a worker made of one asset; draft: its new files, None where there are none to put in place."""
+
+    outcome: Outcome
+    inputs: Inputs | None = None
+    draft: Draft | None = None
+
+
+def edit(work: tuple[Task, AssetJob]) -> Worked:
+    """Run a task on one asset. Never raises: whatever goes wrong is the asset's outcome."""
+    task, job = work
+    started, inputs = time.perf_counter(), None
+    try:
+        skipped = _skipped(task, job)
+        if skipped:
+            return skipped
+        asset = read(job.path)
+        inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
+        return _edited(task, job, asset, inputs, started)
+    except Exception as error:  # a failed asset never stops the others
+        return Worked(Failed(job.id, _told(error, job), time.perf_counter() - started), inputs)
+
+
+def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
+    """The digests of all that decides the output of a job; files: those of the asset."""
+    return Inputs(
+        asset=files,
+        labels=file_digest(job.labels) if job.labels else None,
+        program=program_digest(task.program),
+        templates=template_digests(task.templates),
+        corrections=corrections_digest(job.corrections),
+        settings=f"mass={task.mass}",
+        software=software(),
+    )
+
+
+def _skipped(task: Task, job: AssetJob) -> Worked | None:
+    """The outcome `skipped`, where the output of an earlier run is whole and made from the same."""
+    stamp = read_stamp(task.out, job.id) if task.resume else None
+    if not stamp or not stamp.inputs or inputs_of(task, job, stamp.inputs.asset) != stamp.inputs:
+        return None
+    if not same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
+        return None
+    return Worked(stamp.skipped(task.out), stamp.inputs)
+
+
+def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: float) -> Worked:
+    labels = read_labels(job.labels) if job.labels else LabelFile()
+    followed = follow_labels(labels, SymbolicMesh.of(asset))
+    source = followed.mesh
+    result = task.program.run(source, task.templates)
+    mesh, flags = replay(job.corrections, source, result.mesh, task.program, task.templates)
+    draft = planned(task, job, asset)
+    if not task.dry_run:
+        draft = written(draft, mesh, labels.vocabulary or task.program.labels, link=task.link)
+    outcome = (Unchanged if _same_hulls(source, mesh) else Edited)(
+        asset=job.id,
+        out=str(task.out / draft.main),
+        rules=_lines(result),
+        before=len(source.hulls),
+        after=len(mesh.hulls),
+        seconds=time.perf_counter() - started,
+        notes=(*asset.notes, *_label_notes(followed), *draft.notes),
+        flags=flags,
+    )
+    return Worked(outcome, inputs, None if task.dry_run else draft)
+
+
+def _lines(result: RunResult) -> tuple[RuleLine, ...]:
+    return tuple(RuleLine(line.rule, line.selected, line.made, line.note) for line in result.trace)
+
+
+def _label_notes(followed: Followed) -> tuple[str, ...]:
+    """What a person should know about labels that were given to another state of the asset."""
+    renamed = [f"{old} to {new}" for old, new in followed.renamed]
+    told = (
+        ("labels followed renamed hulls", renamed),
+        ("hulls changed since they were labelled", followed.changed),
+        ("labels of hulls that are gone were left out", followed.gone),
+    )
+    return tuple(f"{what}: {_some(names)}" for what, names in told if names)
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return ", ".join(names[:_NAMED]) + more
+
+
+def _same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
+    """Whether no hull was removed, made or reshaped."""
+    return len(before.hulls) == len(after.hulls) and all(
+        a.name == b.name and a.shape is b.shape for a, b in zip(before.hulls, after.hulls, strict=True)
+    )
+
+
+def _told(error: Exception, job: AssetJob) -> str:
+    match error:
+        case MeshForgeError():
+            return error.at(str(job.path)).message
+        case OSError(filename=str() as name, strerror=str() as why):
+            return f"{name}: {why}"
+        case _:
+            return (
+                f"{job.path}: {type(error).__name__}: {error}\n  This is a fault of MeshForge; please report the asset."
+            )

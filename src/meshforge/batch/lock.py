@@ -1,0 +1,47 @@
+"""One writer at a time: a lock that the system lets go of when its process dies, however it dies."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from meshforge.errors import MeshForgeError
+
+
+@contextmanager
+def locked(path: Path, what: str, wait: float = 10.0) -> Iterator[None]:
+    """Hold the lock file `path`, made if absent, for the time of a `with` block.
+
+    wait: seconds to wait for another holder. Raises MeshForgeError, saying that `what` is busy, after that.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        until = time.monotonic() + wait
+        while not _taken(handle):
+            if time.monotonic() >= until:
+                raise MeshForgeError(
+                    "another meshforge is writing here", where=what, remedy="Wait until it is done, then try again."
+                )
+            time.sleep(0.02)
+        yield
+    finally:
+        os.close(handle)  # closing lets go of the lock
+
+
+def _taken(handle: int) -> bool:
+    try:
+        if os.name == "nt":
+            import msvcrt
+
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
+        else:
+            import fcntl
+
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,53 @@
+"""The top of the page: what was done, in figures, and what the colours mean."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from meshforge.batch.report.asset import ReportAsset, Status
+from meshforge.batch.report.html import Node, tag
+from meshforge.batch.report.words import change, duration
+
+STATUSES: tuple[Status, ...] = ("edited", "unchanged", "skipped", "failed")
+
+
+def headline(title: str, assets: Sequence[ReportAsset], seconds: float | None, about: str | None) -> Node:
+    """Title and figures."""
+    found = Counter(a.status for a in assets)
+    figures = [_figure("assets", f"{len(assets):,}")]
+    figures += [_figure(s, f"{found[s]:,}", s) for s in STATUSES if found[s]]
+    known = [a.counts for a in assets if a.counts]
+    if known:
+        before, after = (sum(c[k] for c in known) for k in (0, 1))
+        figures.append(_figure("hulls", f"{before:,} → {after:,}", extra=change(before, after)))
+    if seconds is not None:
+        figures.append(_figure("run time", duration(seconds)))
+    parts = [tag("i", class_=s, style=f"flex:{found[s]}") for s in STATUSES if found[s]]
+    return tag(
+        "header",
+        tag("h1", title),
+        tag("p", about, class_="about") if about else None,
+        tag("dl", *figures, class_="figures"),
+        tag("div", *parts, class_="bar", aria_hidden="true"),
+    )
+
+
+def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str) -> Node:
+    """Each label with its colour, and its hulls before and after."""
+    known = [(a.before, a.after) for a in assets if a.before and a.after]
+    before, after = (Counter(h.label for pair in known for h in pair[k].hulls) for k in (0, 1))
+    entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items()]
+    if before[None] or after[None]:
+        entries.append(_entry("no label", unlabelled, before[None], after[None]))
+    return tag("ul", *entries, class_="legend")
+
+
+def _entry(name: str, color: str, before: int, after: int) -> Node:
+    count = f"{before:,}" if before == after else f"{before:,} → {after:,}"
+    return tag("li", tag("i", style=f"background:{color}"), name, " ", tag("span", count))
+
+
+def _figure(name: str, value: str, kind: str | None = None, extra: str | None = None) -> Node:
+    body = tag("dd", value, tag("small", f" {extra}") if extra else None)
+    return tag("div", tag("dt", name), body, class_=kind)

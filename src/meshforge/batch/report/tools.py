@@ -1,0 +1,37 @@
+"""The bar above the assets: filters, how pictures are compared, search. The script that makes it work shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from meshforge.batch.report.asset import ReportAsset
+from meshforge.batch.report.headline import STATUSES
+from meshforge.batch.report.html import Node, tag
+
+
+def tools(assets: Sequence[ReportAsset]) -> Node:
+    """The bar, hidden until the script runs."""
+    every = tag("input", type="range", min=0, max=100, step="any", value=50, id_="every", aria_label="all sliders")
+    return tag(
+        "div",
+        tag("span", *_kinds(assets), class_="group", id_="kinds"),
+        tag("span", _mode("slider", "before | after"), _mode("changes", "changes"), class_="group", id_="modes"),
+        tag("label", "before", every, "after", class_="every"),
+        tag("input", type="search", placeholder="find an asset", id_="find", aria_label="find an asset"),
+        class_="tools",
+        hidden=True,
+    )
+
+
+def _kinds(assets: Sequence[ReportAsset]) -> list[Node]:
+    """A button for all assets, and one for each kind that there is."""
+    kinds: list[str] = [s for s in STATUSES if any(a.status == s for a in assets)]
+    if any(a.demonstrated for a in assets):
+        kinds.append("demonstrated")
+    rest = [tag("button", kind, type="button", data_kind=kind, aria_pressed="false") for kind in kinds]
+    return [tag("button", "all", type="button", data_kind="", aria_pressed="true"), *rest]
+
+
+def _mode(mode: str, words: str) -> Node:
+    pressed = str(mode == "slider").lower()
+    return tag("button", words, type="button", data_mode=mode, aria_pressed=pressed)

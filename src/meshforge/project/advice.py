@@ -1,0 +1,97 @@
+"""The next sensible step in a project, as a sentence and the command to type."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from meshforge.project.status import AssetStatus
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """What to do next; command: what to type, None where there is nothing to type."""
+
+    say: str
+    command: str | None = None
+
+
+def advice(
+    folder: Path,
+    paths: Mapping[str, Path],
+    assets: Sequence[AssetStatus],
+    vocabulary: Sequence[str],
+    rules: int | None,
+    outdated: bool,
+) -> Advice:
+    """The first thing that is missing on the way from assets to edited assets; paths: of the assets by id."""
+    return (
+        _labels(folder, assets, vocabulary)
+        or _demonstrations(folder, paths, assets, rules)
+        or _program(folder, rules, outdated)
+        or _output(folder, assets)
+        or _review(folder, assets)
+    )
+
+
+def _labels(folder: Path, assets: Sequence[AssetStatus], vocabulary: Sequence[str]) -> Advice | None:
+    if any(asset.labelled for asset in assets):
+        return None
+    words = "" if vocabulary else " --vocabulary a,b,c"
+    say = (
+        "No hull has a label yet: take over labels files that lie beside the assets, or name a file or folder of them."
+    )
+    return Advice(say, f"meshforge label {_word(folder)} --with file{words}")
+
+
+def _demonstrations(
+    folder: Path, paths: Mapping[str, Path], assets: Sequence[AssetStatus], rules: int | None
+) -> Advice | None:
+    if rules is not None or any(asset.demonstrated for asset in assets):
+        return None
+    example = next((asset.id for asset in assets if asset.labelled), assets[0].id)
+    return Advice(
+        "Nothing is demonstrated yet: show the steps of the edit on an asset or two. "
+        f"The names of hulls: meshforge info {_word(paths[example])}",
+        f"meshforge demonstrate {_word(folder)} {_word(Path(example))} 'HULLS => ACTION' ...",
+    )
+
+
+def _program(folder: Path, rules: int | None, outdated: bool) -> Advice | None:
+    if rules is None:
+        return Advice("Learn the program from the demonstrations.", f"meshforge synthesize {_word(folder)}")
+    if outdated:
+        say = "Labels, demonstrations or settings changed since the program was learned: learn it again."
+        return Advice(say, f"meshforge synthesize {_word(folder)}")
+    return None
+
+
+def _output(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
+    behind = [asset for asset in assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
+    if behind:
+        return Advice(f"Apply the program: {_these(behind)} not up to date.", f"meshforge apply {_word(folder)}")
+    failed = [asset for asset in assets if asset.output == "failed"]
+    if failed:
+        some = f"{len(failed)} of {len(assets)} assets, first on {failed[0].id}"
+        say = f"The program fails on {some}: mend what is named, then apply it again."
+        return Advice(say, f"meshforge apply {_word(folder)}")
+    return None
+
+
+def _review(folder: Path, assets: Sequence[AssetStatus]) -> Advice:
+    odd = [asset.id for asset in assets if asset.flags or asset.review == "flagged"]
+    if odd:
+        return Advice(f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}.")
+    return Advice("All assets are edited and up to date: check them.", f"meshforge check {_word(folder / 'edited')}")
+
+
+def _these(assets: Sequence[AssetStatus]) -> str:
+    return f"{assets[0].id} is" if len(assets) == 1 else f"{len(assets)} assets are"
+
+
+def _word(path: Path) -> str:
+    return shlex.quote(str(path))

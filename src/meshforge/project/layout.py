@@ -1,0 +1,60 @@
+"""Where each thing lies in a project folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.batch import STATE
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The paths of a project; those of one asset mirror its id."""
+
+    folder: Path
+
+    def labels(self, asset: str) -> Path:
+        return self.folder / "labels" / f"{asset}.json"
+
+    def demonstration(self, asset: str) -> Path:
+        return self.folder / "demonstrations" / f"{asset}.json"
+
+    def corrections(self, asset: str) -> Path:
+        return self.folder / "corrections" / f"{asset}.json"
+
+    @property
+    def templates(self) -> tuple[Path, Path]:
+        """Where templates are looked for: beside the program, then in their folder."""
+        return self.folder, self.folder / "templates"
+
+    @property
+    def program(self) -> Path:
+        return self.folder / "program.mf"
+
+    @property
+    def learned(self) -> Path:
+        """What the program was learned from."""
+        return self.folder / STATE / "learned.json"
+
+    @property
+    def review(self) -> Path:
+        return self.folder / "review.json"
+
+    @property
+    def edited(self) -> Path:
+        return self.folder / "edited"
+
+    @property
+    def lock(self) -> Path:
+        return self.folder / STATE / "lock"
+
+    @property
+    def survey(self) -> Path:
+        """What is known of the asset files, so that they are not read again for a status."""
+        return self.folder / STATE / "survey.json"
+
+    def kept_for(self, kind: str) -> tuple[str, ...]:
+        """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
+        root = self.folder / kind
+        return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))

@@ -1,0 +1,87 @@
+"""Puts the status of a project together from its files and from the stamps of its outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
+from meshforge.project.advice import advice
+from meshforge.project.applying import jobs, task
+from meshforge.project.learning import is_outdated
+from meshforge.project.reviewing import Review, output_digest
+from meshforge.project.status import AssetStatus, State, Status
+from meshforge.project.survey import Facts, survey
+from meshforge.symbolic import LabelFile
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+def status(project: Project, workers: int | None, progress: Callable[[], None] | None) -> Status:
+    """How far everything is. Raises ProjectError or ProgramError for a file of the project that cannot be read."""
+    settings, program = project.settings, project.program()
+    facts = survey(project.found, project.layout.survey, workers=workers, progress=progress)
+    work, reviews = jobs(project), project.reviews()
+    what = task(project, program, work) if program else None
+    assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
+    outdated = program is not None and is_outdated(project, program)
+    rules = len(program.rules) if program else None
+    return Status(
+        name=settings.name,
+        assets=assets,
+        vocabulary=settings.vocabulary,
+        rules=rules,
+        outdated=outdated,
+        lost=_lost(project),
+        next=advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, outdated),
+    )
+
+
+def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, review: Review | None) -> AssetStatus:
+    stamp = read_stamp(project.layout.edited, job.id)
+    labels = project.labels(job.id)
+    doubtful = () if facts.error else _doubtful(labels, facts)
+    failed = stamp.error if stamp and stamp.status == "failed" else None
+    return AssetStatus(
+        id=job.id,
+        hulls=None if facts.error else len(facts.hulls),
+        labelled=0 if facts.error else len(labels.labels) - sum(name not in facts.hulls for name in doubtful),
+        doubtful=doubtful,
+        demonstrated=project.layout.demonstration(job.id).exists(),
+        output=_state(stamp),
+        stale=_stale(stamp, job, facts, what),
+        error=facts.error or failed,
+        flags=stamp.flags if stamp else (),
+        review=review.verdict if review and review.output == output_digest(stamp) else None,
+    )
+
+
+def _doubtful(labels: LabelFile, facts: Facts) -> tuple[str, ...]:
+    """Labelled hulls that are not there as they were labelled, under their name or another."""
+    present = set(facts.hulls.values())
+    return tuple(
+        name
+        for name in labels.labels
+        if facts.hulls.get(name) != labels.digests.get(name, facts.hulls.get(name, "gone"))
+        and labels.digests.get(name) not in present
+    )
+
+
+def _state(stamp: Stamp | None) -> State:
+    return "none" if stamp is None or stamp.status == "writing" else stamp.status
+
+
+def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) -> tuple[str, ...]:
+    """What changed since the output was made; of written files only whether they are there."""
+    if not stamp or not stamp.inputs or not what:
+        return ()
+    gone = not all((what.out / name).is_file() for name in stamp.outputs)
+    now = inputs_of(what, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
+    return (*now.changes(stamp.inputs), *(["output"] if gone else []))
+
+
+def _lost(project: Project) -> tuple[str, ...]:
+    """The ids that something is kept for, though there is no such asset."""
+    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.kept_for(kind)}
+    return tuple(sorted(kept - set(project.assets())))

@@ -1,0 +1,272 @@
+"""The project folder: its state lies in files alone, every change is one atomic write under the project's lock."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from meshforge.batch import SETTINGS, Correction, Found, Mass, Outcome, expand, labels_for, locked, named_templates
+from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
+from meshforge.formats import read
+from meshforge.language import Action, Orient, Program, Template
+from meshforge.project import applying, correcting, demonstrating, labelling, learning, overview, reviewing
+from meshforge.project.labelling import Labelled
+from meshforge.project.layout import Layout
+from meshforge.project.reviewing import Review, Verdict
+from meshforge.project.settings import (
+    Settings,
+    change_setting,
+    orientation,
+    orientation_text,
+    parse_orientation,
+    read_settings,
+    write_settings,
+)
+from meshforge.project.status import Status
+from meshforge.symbolic import Label, LabelFile, Source, SymbolicMesh, follow_labels, read_labels
+from meshforge.synthesis import Demonstration, Options, Step
+from meshforge.synthesis import Outcome as Lesson
+
+
+@dataclass(frozen=True)
+class Project:
+    """A project folder. Nothing but paths is held in memory: what is asked for is read, what is set is written.
+
+    found: the assets, as they were when the project was opened.
+    """
+
+    folder: Path
+    found: Found = field(repr=False)
+
+    # Opening
+
+    @staticmethod
+    def create(
+        folder: str | Path,
+        assets: Sequence[str | Path],
+        *,
+        name: str | None = None,
+        vocabulary: Sequence[str] = (),
+        orient: Orient | str | None = None,
+    ) -> Project:
+        """Make a project folder for some assets, given as files, folders and globs.
+
+        Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
+        """
+        folder = Path(folder).absolute()
+        if (folder / SETTINGS).exists():
+            raise ProjectError("there is a project here already", where=str(folder), remedy="Choose another folder.")
+        found = expand(assets)
+        text = orient if isinstance(orient, str) else orientation_text(orient)
+        parse_orientation(text)
+        settings = Settings(
+            name=name or folder.name,
+            assets=tuple(_seen_from(folder, str(pattern)) for pattern in assets),
+            base=_seen_from(folder, str(found.base)),
+            vocabulary=tuple(vocabulary),
+            orient=text,
+        )
+        write_settings(folder, settings)
+        return Project.open(folder)
+
+    @staticmethod
+    def open(folder: str | Path) -> Project:
+        """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
+        folder = Path(folder).absolute()
+        settings = read_settings(folder)
+        base = Path(os.path.normpath(folder / settings.base))
+        try:
+            found = Found(base, expand(settings.assets, folder).paths)
+        except UsageError as error:
+            raise ProjectError(f"assets: {error.message}", where=str(folder / SETTINGS)) from None
+        for key in found.ids:
+            if key.startswith("../"):
+                raise ProjectError(
+                    f"the asset {key} lies outside of {base}, the folder that ids count from",
+                    where=str(folder / SETTINGS),
+                    remedy="Make another project for it, or move it there.",
+                )
+        return Project(folder, found)
+
+    @property
+    def layout(self) -> Layout:
+        """Where everything lies."""
+        return Layout(self.folder)
+
+    def lock(self) -> AbstractContextManager[None]:
+        """The project's lock, under which files are read, changed and written."""
+        return locked(self.layout.lock, str(self.folder))
+
+    # Settings
+
+    @property
+    def settings(self) -> Settings:
+        return read_settings(self.folder)
+
+    @property
+    def name(self) -> str:
+        return self.settings.name
+
+    @property
+    def vocabulary(self) -> tuple[str, ...]:
+        return self.settings.vocabulary
+
+    @property
+    def orientation(self) -> Orient | None:
+        return orientation(self.settings, self.folder)
+
+    def set_vocabulary(self, labels: Sequence[str]) -> None:
+        """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
+        Program(labels=tuple(labels))
+        with self.lock():
+            change_setting(self.folder, "vocabulary", tuple(labels))
+
+    def set_orientation(self, orient: Orient | str | None) -> None:
+        """Set the orientation directive; a text has the form it has in a program."""
+        directive = parse_orientation(orient) if isinstance(orient, str) else orient
+        with self.lock():
+            change_setting(self.folder, "orient", orientation_text(directive))
+
+    # Assets
+
+    def assets(self) -> tuple[str, ...]:
+        """The ids of all assets."""
+        return tuple(self.found.ids)
+
+    def path(self, asset: str) -> Path:
+        """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
+        ids = self.found.ids
+        if asset not in ids:
+            like = nearest(asset, ids)
+            remedy = f"Did you mean {like!r}?" if like else f"See them with: meshforge status {self.folder}"
+            raise ProjectError(f"there is no asset {asset!r}", where=str(self.folder), remedy=remedy)
+        return ids[asset]
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        """An asset with its labels. Raises AssetError where it cannot be read."""
+        mesh = follow_labels(self.labels(asset), SymbolicMesh.of(read(self.path(asset)))).mesh
+        contact = self.settings.thresholds.contact
+        return mesh if contact is None else replace(mesh, epsilon=contact)
+
+    def meshes(self) -> Iterator[SymbolicMesh]:
+        """All assets with their labels, one after the other; those that cannot be read are left out."""
+        for asset in self.assets():
+            try:
+                yield self.mesh(asset)
+            except MeshForgeError:
+                continue
+
+    # Labels
+
+    def labels(self, asset: str) -> LabelFile:
+        """The labels of an asset as they are kept; empty where there are none."""
+        path = self.layout.labels(asset)
+        return read_labels(path) if path.exists() else LabelFile()
+
+    def set_labels(
+        self, asset: str, labels: Mapping[str, str | None], *, source: Source = "user", confidence: float = 1.0
+    ) -> Labelled:
+        """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
+        given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
+        away = [name for name, label in labels.items() if label is None]
+        with self.lock():
+            return labelling.give(self, asset, given, away)
+
+    def label_from_files(self, source: Path | None = None) -> tuple[Labelled, ...]:
+        """Take over labels files: a file for a single asset, a folder that mirrors the assets, or those beside them."""
+        given = {asset: labels_for(path, source, self.found.base) for asset, path in self.found.ids.items()}
+        return labelling.take_over(self, given)
+
+    # Demonstrations
+
+    def demonstrations(self) -> dict[str, Demonstration]:
+        """What was demonstrated, by asset."""
+        ids = [asset for asset in self.assets() if self.layout.demonstration(asset).exists()]
+        return {asset: Demonstration(self.mesh(asset), self.steps(asset), asset) for asset in ids}
+
+    def steps(self, asset: str) -> tuple[Step, ...]:
+        """The steps that were demonstrated on an asset; none where nothing was."""
+        return demonstrating.steps(self.layout.demonstration(asset))
+
+    def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
+        """Set the steps that are demonstrated on an asset; no steps take the demonstration away."""
+        demonstrating.demonstrate(self, asset, tuple(steps))
+
+    # The program
+
+    def templates(self, names: Iterable[str]) -> dict[str, Template]:
+        """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
+        return named_templates(names, self.layout.templates)
+
+    def program(self) -> Program | None:
+        """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
+        return Program.read(self.layout.program) if self.layout.program.exists() else None
+
+    def accept(self, program: Program) -> None:
+        """Make it the project's program."""
+        learning.accept(self, program)
+
+    def synthesize(self, *, accept: bool = True, options: Options | None = None) -> Lesson:
+        """Learn the program from the demonstrations; accept: what is found becomes the project's program."""
+        return learning.learn(self, accept, options)
+
+    def apply(
+        self,
+        *,
+        out: Path | None = None,
+        workers: int | None = None,
+        mass: Mass = "keep",
+        link: bool = False,
+        dry_run: bool = False,
+        resume: bool = True,
+        progress: Callable[[], None] | None = None,
+    ) -> Iterator[Outcome]:
+        """Run the program on all assets, into `edited/` or `out`; all else as of `meshforge.batch.apply`."""
+        return applying.apply_program(
+            self,
+            out or self.layout.edited,
+            workers=workers,
+            mass=mass,
+            link=link,
+            dry_run=dry_run,
+            resume=resume,
+            progress=progress,
+        )
+
+    # After the program
+
+    def corrections(self, asset: str) -> tuple[Correction, ...]:
+        """The edits by hand that are replayed on an asset after the program."""
+        return correcting.corrections(self.layout.corrections(asset))
+
+    def correct(self, asset: str, select: Iterable[str], action: Action, label: str | None = None) -> None:
+        """Add an edit by hand on hulls of an asset, by the names they have after the program and the edits before."""
+        correcting.correct(self, asset, sorted(set(select)), action, label)
+
+    def drop_corrections(self, asset: str) -> None:
+        """Take all edits by hand away from an asset."""
+        with self.lock():
+            self.layout.corrections(asset).unlink(missing_ok=True)
+
+    def reviews(self) -> dict[str, Review]:
+        """What a person said about edited assets."""
+        return reviewing.reviews(self.layout.review)
+
+    def review(self, asset: str, verdict: Verdict | None, note: str | None = None) -> None:
+        """Accept or flag the output of an asset, or take that back by None; it counts until the output changes."""
+        reviewing.review(self, asset, verdict, note)
+
+    def status(self, *, workers: int | None = None, progress: Callable[[], None] | None = None) -> Status:
+        """How far everything is, what is stale, and the next sensible step."""
+        return overview.status(self, workers, progress)
+
+
+def _seen_from(folder: Path, pattern: str) -> str:
+    """A path or glob, given from here, as it is written in a file of that folder."""
+    try:
+        return Path(os.path.relpath(pattern, folder)).as_posix()
+    except ValueError:  # another drive
+        return Path(pattern).absolute().as_posix()

@@ -1,0 +1,86 @@
+"""How far a project is: each asset, the program, what is stale, and the next sensible step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from meshforge.project.advice import Advice
+
+State = Literal["none", "edited", "unchanged", "failed"]
+
+
+@dataclass(frozen=True, slots=True)
+class AssetStatus:
+    """One asset. hulls: how many, None where it cannot be read; labelled: how many of them have a label.
+
+    output: what the last `apply` made; stale: what changed since then (`asset`, `labels`, `program`, ...), or `output`
+    where written files are gone. error: why it cannot be read, or why it failed.
+    doubtful: labelled hulls that are gone, or have another geometry than was labelled.
+    flags: edits by hand that were left out; review: what a person said about the output as it is.
+    """
+
+    id: str
+    hulls: int | None
+    labelled: int = 0
+    doubtful: tuple[str, ...] = ()
+    demonstrated: bool = False
+    output: State = "none"
+    stale: tuple[str, ...] = ()
+    error: str | None = None
+    flags: tuple[str, ...] = ()
+    review: Literal["accepted", "flagged"] | None = None
+
+    @property
+    def is_done(self) -> bool:
+        """Whether its output is there and up to date."""
+        return self.output in ("edited", "unchanged") and not self.stale
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """A project. rules: of the program, None where there is none; outdated: whether it was learned from other
+    demonstrations, labels or settings than there are now.
+
+    lost: ids that have labels, demonstrations or corrections, but no asset.
+    """
+
+    name: str
+    assets: tuple[AssetStatus, ...]
+    vocabulary: tuple[str, ...]
+    rules: int | None
+    outdated: bool
+    lost: tuple[str, ...]
+    next: Advice
+
+    def count(self, holds: Callable[[AssetStatus], bool]) -> int:
+        """How many assets a condition holds for."""
+        return sum(map(holds, self.assets))
+
+    def to_json(self) -> dict[str, Any]:
+        """The status for scripts."""
+        return {
+            "name": self.name,
+            "vocabulary": list(self.vocabulary),
+            "rules": self.rules,
+            "outdated": self.outdated,
+            "assets": [_asset_json(asset) for asset in self.assets],
+            "lost": list(self.lost),
+            "next": {"say": self.next.say, "command": self.next.command},
+        }
+
+
+def _asset_json(asset: AssetStatus) -> dict[str, Any]:
+    return {
+        "asset": asset.id,
+        "hulls": asset.hulls,
+        "labelled": asset.labelled,
+        "doubtful": list(asset.doubtful),
+        "demonstrated": asset.demonstrated,
+        "output": asset.output,
+        "stale": list(asset.stale),
+        "error": asset.error,
+        "flags": list(asset.flags),
+        "review": asset.review,
+    }

@@ -1,0 +1,250 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.batch import (
+    AssetJob,
+    Edited,
+    Failed,
+    Outcome,
+    Skipped,
+    Unchanged,
+    apply,
+    expand,
+    jobs,
+    json_line,
+    locked,
+    status,
+)
+from meshforge.errors import MeshForgeError, UsageError
+from meshforge.formats import load
+from meshforge.language import Program
+from tests.unit.batch.families import PROGRAM, obj, tree, write_table, write_tables, write_urdf_table
+
+
+def run(assets: Path, out: Path, text: str = PROGRAM, **more: Any) -> list[Outcome]:
+    more.setdefault("workers", 0)
+    return list(apply(Program.parse(text), jobs(expand([assets])), out, **more))
+
+
+def words(outcomes: Sequence[Outcome]) -> list[str]:
+    return [status(outcome) for outcome in outcomes]
+
+
+def results(folder: Path) -> dict[str, bytes]:
+    """The files of an output without what the batch keeps about them."""
+    return {name: data for name, data in tree(folder).items() if not name.startswith(".meshforge")}
+
+
+@pytest.fixture
+def assets(tmp_path: Path) -> Path:
+    write_tables(tmp_path / "assets", 3)
+    return tmp_path / "assets"
+
+
+@pytest.fixture
+def out(tmp_path: Path) -> Path:
+    return tmp_path / "out"
+
+
+def test_every_asset_is_edited_into_a_tree_that_mirrors_the_input(assets: Path, out: Path) -> None:
+    outcomes = run(assets, out)
+    assert words(outcomes) == ["edited"] * 3
+    first = outcomes[0]
+    assert isinstance(first, Edited)
+    assert (first.asset, first.before, first.after) == ("table0/model.obj", 6, 3)
+    assert first.rules[0].selected == ("crumb",)
+    assert first.rules[1].made == ("left_low~1", "right_low~1")
+    assert first.out == str(out / "table0/model.obj")
+    assert sorted(results(out)) == [f"table{k}/model{end}" for k in range(3) for end in (".labels.json", ".obj")]
+
+
+def test_the_labels_of_the_edited_asset_lie_beside_it_and_fit_it(assets: Path, out: Path) -> None:
+    run(assets, out)
+    mesh = load(out / "table1/model.obj")
+    assert {hull.name: (hull.label, hull.source) for hull in mesh.hulls} == {
+        "top": ("top", "file"),
+        "left_low~1": ("leg", "edit"),
+        "right_low~1": ("leg", "edit"),
+    }
+
+
+def test_outcomes_and_files_do_not_depend_on_the_number_of_workers(assets: Path, tmp_path: Path) -> None:
+    (assets / "table1" / "model.obj").write_text("v 0 0\nf 1 2 3\n")
+    runs = {workers: run(assets, tmp_path / f"out{workers}", workers=workers) for workers in (0, 1, 2)}
+    lines = {w: [json_line(o) | {"seconds": 0, "out": None} for o in outcomes] for w, outcomes in runs.items()}
+    assert lines[0] == lines[1] == lines[2]
+    trees = {workers: tree(tmp_path / f"out{workers}") for workers in runs}
+    assert trees[0] == trees[1] == trees[2]
+    assert words(runs[2]) == ["edited", "failed", "edited"]
+
+
+def test_a_failed_asset_is_named_and_not_written_and_stops_no_other(assets: Path, out: Path) -> None:
+    (assets / "table1" / "model.labels.json").unlink()
+    outcomes = run(assets, out)
+    assert words(outcomes) == ["edited", "failed", "edited"]
+    failed = outcomes[1]
+    assert isinstance(failed, Failed)
+    assert "no labels" in failed.error and "table1" in failed.error
+    assert not (out / "table1").exists()
+
+
+def test_an_unchanged_asset_is_written_too(assets: Path, out: Path) -> None:
+    outcomes = run(assets, out, "labels misc, seat\nIs(seat) => Delete\n")
+    assert words(outcomes) == ["unchanged"] * 3
+    assert isinstance(outcomes[0], Unchanged)
+    assert (out / "table0/model.obj").read_bytes() == (assets / "table0/model.obj").read_bytes()
+
+
+def test_a_second_run_skips_what_is_up_to_date(assets: Path, out: Path) -> None:
+    first = run(assets, out)
+    before = tree(out)
+    second = run(assets, out)
+    assert words(second) == ["skipped"] * 3
+    assert tree(out) == before
+    old, new = first[0], second[0]
+    assert isinstance(old, Edited) and isinstance(new, Skipped)
+    assert (new.rules, new.before, new.after, new.out) == (old.rules, old.before, old.after, old.out)
+    assert words(run(assets, out, resume=False)) == ["edited"] * 3
+
+
+def test_a_changed_asset_label_program_or_output_is_made_again(assets: Path, out: Path) -> None:
+    run(assets, out)
+    write_table(assets / "table0/model.obj", 3.0)
+    assert words(run(assets, out)) == ["edited", "skipped", "skipped"]
+    labels = assets / "table1/model.labels.json"
+    labels.write_text(labels.read_text().replace('"misc"', '"leg"'))
+    assert words(run(assets, out)) == ["skipped", "edited", "skipped"]
+    (out / "table2/model.obj").write_text("broken")
+    assert words(run(assets, out)) == ["skipped", "skipped", "edited"]
+    (out / "table2/model.labels.json").unlink()
+    assert words(run(assets, out)) == ["skipped", "skipped", "edited"]
+    assert words(run(assets, out, PROGRAM.replace("Each(Merge)", "Delete"))) == ["edited"] * 3
+
+
+def test_a_comment_in_the_program_makes_nothing_stale(assets: Path, out: Path) -> None:
+    run(assets, out)
+    assert words(run(assets, out, "# merge the legs\n" + PROGRAM)) == ["skipped"] * 3
+
+
+def test_a_file_that_an_asset_refers_to_is_part_of_it(tmp_path: Path, out: Path) -> None:
+    write_urdf_table(tmp_path / "robots")
+    text = "labels misc, leg\nIs(leg) => Delete\n"
+    assert words(run(tmp_path / "robots", out, text)) == ["edited"]
+    assert (out / "meshes/crumb.obj").read_bytes() == (tmp_path / "robots/meshes/crumb.obj").read_bytes()
+    assert words(run(tmp_path / "robots", out, text)) == ["skipped"]
+    (tmp_path / "robots/meshes/crumb.obj").write_text(obj({"crumb": ((0, 0, 0), (0.2, 0.1, 0.1))}))
+    assert words(run(tmp_path / "robots", out, text)) == ["edited"]
+
+
+def test_an_output_whose_asset_fails_now_is_taken_away(assets: Path, out: Path) -> None:
+    run(assets, out)
+    (assets / "table0/model.obj").write_text("nothing of use")
+    assert words(run(assets, out)) == ["failed", "skipped", "skipped"]
+    assert not (out / "table0").exists()
+    write_table(assets / "table0/model.obj")
+    assert words(run(assets, out)) == ["edited", "skipped", "skipped"]
+
+
+def test_a_file_of_someone_else_in_the_output_folder_is_not_overwritten(assets: Path, out: Path) -> None:
+    (out / "table1").mkdir(parents=True)
+    (out / "table1/model.obj").write_text("mine")
+    outcomes = run(assets, out)
+    assert words(outcomes) == ["edited", "failed", "edited"]
+    assert isinstance(outcomes[1], Failed) and "no earlier run wrote it" in outcomes[1].error
+    assert (out / "table1/model.obj").read_text() == "mine"
+    assert words(run(assets, out)) == ["skipped", "failed", "skipped"]
+
+
+def test_the_output_folder_cannot_be_that_of_the_assets(assets: Path) -> None:
+    before = tree(assets)
+    with pytest.raises(UsageError, match="folder of the assets"):
+        run(assets, assets)
+    assert tree(assets) == before
+
+
+def test_assets_may_share_files_that_they_do_not_edit(tmp_path: Path, out: Path) -> None:
+    for name in ("a.urdf", "b.urdf"):
+        write_urdf_table(tmp_path / "robots", name)
+    text = "labels misc, leg\nIs(leg) => Delete\n"
+    assert words(run(tmp_path / "robots", out, text)) == ["edited", "edited"]
+    (tmp_path / "robots/a.labels.json").unlink()
+    assert words(run(tmp_path / "robots", out, text)) == ["failed", "skipped"]
+    assert (out / "meshes/crumb.obj").exists()
+
+
+def test_the_second_of_two_assets_that_change_one_file_differently_fails(tmp_path: Path, out: Path) -> None:
+    first, second = (write_table(tmp_path / name / "t.obj", height) for name, height in (("a", 1.0), ("b", 2.0)))
+    work = [AssetJob("a", first, first.parent, None), AssetJob("b", second, second.parent, None)]
+    program = Program.parse("labels misc\nAll => Merge\n")
+    outcomes = list(apply(program, work, out, workers=0))
+    assert words(outcomes) == ["edited", "failed"]
+    assert isinstance(outcomes[1], Failed) and "a has written this file with other contents" in outcomes[1].error
+    assert words(list(apply(program, work, out, workers=0))) == ["skipped", "failed"]
+
+
+def test_a_dry_run_tells_the_same_and_writes_nothing(assets: Path, out: Path) -> None:
+    dry = [json_line(o) | {"seconds": 0} for o in run(assets, out, dry_run=True)]
+    assert not out.exists()
+    assert dry == [json_line(o) | {"seconds": 0} for o in run(assets, out)]
+
+
+def test_files_that_an_edit_no_longer_makes_are_taken_away(tmp_path: Path, out: Path) -> None:
+    write_urdf_table(tmp_path / "robots")
+    run(tmp_path / "robots", out, "labels top, leg, misc\nUnion(Is(leg), Is(top)) => Merge\n")
+    made = set(results(out))
+    run(tmp_path / "robots", out, "labels top, leg, misc\nIs(misc) => Delete\n")
+    assert len(made) > len(set(results(out)) & made)
+    assert words(run(tmp_path / "robots", out, "labels top, leg, misc\nIs(misc) => Delete\n")) == ["skipped"]
+
+
+def test_copied_files_may_be_hard_links(tmp_path: Path, out: Path) -> None:
+    write_urdf_table(tmp_path / "robots")
+    run(tmp_path / "robots", out, "labels top, leg, misc\nIs(leg) => Delete\n", link=True)
+    assert (out / "meshes/crumb.obj").samefile(tmp_path / "robots/meshes/crumb.obj")
+
+
+def test_only_one_run_may_write_into_a_folder(assets: Path, out: Path) -> None:
+    with locked(out / ".meshforge" / "lock", str(out)), pytest.raises(MeshForgeError, match="another meshforge"):
+        run(assets, out)
+
+
+def test_progress_counts_every_asset(assets: Path, out: Path) -> None:
+    seen: list[None] = []
+    run(assets, out, workers=1, progress=lambda: seen.append(None))
+    assert len(seen) == 3
+
+
+def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Path, out: Path) -> None:
+    outcomes = apply(Program.parse(PROGRAM), jobs(expand([assets])), out, workers=1)
+    assert status(next(outcomes)) == "edited"
+    outcomes.close()  # type: ignore[attr-defined]
+    assert sorted(results(out)) == ["table0/model.labels.json", "table0/model.obj"]
+    assert not (out / ".meshforge" / "drafts").exists()
+    assert words(run(assets, out)) == ["skipped", "edited", "edited"]
+
+
+def test_two_assets_of_one_id_are_refused(assets: Path, out: Path) -> None:
+    job = jobs(expand([assets]))[0]
+    with pytest.raises(UsageError, match="two assets have the id"):
+        apply(Program.parse(PROGRAM), [job, job], out)
+
+
+def test_a_folder_of_pieces_is_edited_as_one_asset(tmp_path: Path, out: Path) -> None:
+    pieces = {"left": ((0, 0, 0), (1, 1, 1)), "right": ((1, 0, 0), (2, 1, 1)), "far": ((9, 9, 9), (10, 10, 10))}
+    (tmp_path / "pieces").mkdir()
+    for name, box in pieces.items():
+        (tmp_path / f"pieces/{name}.obj").write_text(obj({name: box}))
+    (tmp_path / "pieces.labels.json").write_text(json.dumps({"hulls": {"left": "a", "right": "a", "far": "b"}}))
+    program = "labels a, b\nIs(a) => Merge\n"
+    outcomes = run(tmp_path / "pieces", out, program)
+    assert [(o.asset, status(o)) for o in outcomes] == [("pieces", "edited")]
+    assert sorted(hull.name for hull in load(out / "pieces").hulls) == ["far", "left~1"]
+    assert words(run(tmp_path / "pieces", out, program)) == ["skipped"]
+    (tmp_path / "pieces/more.obj").write_text(obj({"more": ((20, 0, 0), (21, 1, 1))}))
+    assert words(run(tmp_path / "pieces", out, program)) == ["edited"]

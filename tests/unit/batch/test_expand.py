@@ -1,0 +1,117 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import expand, jobs
+from meshforge.errors import UsageError
+from tests.unit.batch.families import obj, write_table, write_tables, write_urdf_table
+
+
+def ids(*patterns: str | Path, root: Path | None = None) -> list[str]:
+    return list(expand(patterns, root).ids)
+
+
+def one_box(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(obj({"box": ((0, 0, 0), (1, 1, 1))}))
+    return path
+
+
+def test_a_glob_counts_ids_from_the_folder_before_its_first_star(tmp_path: Path) -> None:
+    write_tables(tmp_path / "assets", 2)
+    assert ids(tmp_path / "assets/**/*.obj") == ["table0/model.obj", "table1/model.obj"]
+    assert expand([str(tmp_path / "assets/*/*.obj")]).base == tmp_path / "assets"
+
+
+def test_files_count_from_their_common_folder_and_come_once_in_order(tmp_path: Path) -> None:
+    paths = write_tables(tmp_path, 3)
+    assert ids(paths[2], paths[0], paths[2]) == ["table0/model.obj", "table2/model.obj"]
+    assert ids(paths[1]) == ["model.obj"]
+
+
+def test_a_folder_stands_for_the_assets_in_it(tmp_path: Path) -> None:
+    write_tables(tmp_path, 2)
+    assert ids(tmp_path) == ["table0/model.obj", "table1/model.obj"]
+    assert ids("table1", root=tmp_path) == ["model.obj"]
+
+
+def test_mesh_files_are_parts_where_structured_files_are_about(tmp_path: Path) -> None:
+    write_urdf_table(tmp_path / "robots" / "urdf", mesh="../meshes/crumb.obj")
+    assert ids(tmp_path) == ["robots/urdf/table.urdf"]
+
+
+def test_mesh_files_of_one_hull_each_are_the_pieces_of_one_asset(tmp_path: Path) -> None:
+    for name in ("a/1.obj", "a/2.obj", "b/1.obj", "b/2.obj"):
+        one_box(tmp_path / name)
+    assert ids(tmp_path) == ["a", "b"]
+    assert ids(tmp_path / "a") == ["a"]
+
+
+def test_mesh_files_of_several_hulls_are_assets_of_their_own(tmp_path: Path) -> None:
+    one_box(tmp_path / "a.obj")
+    write_table(tmp_path / "b.obj")
+    assert ids(tmp_path) == ["a.obj", "b.obj"]
+
+
+def test_a_lone_mesh_file_is_an_asset_and_not_a_folder_of_pieces(tmp_path: Path) -> None:
+    one_box(tmp_path / "sub" / "a.obj")
+    assert ids(tmp_path) == ["sub/a.obj"]
+
+
+def test_what_was_written_before_is_passed_over_unless_named_outright(tmp_path: Path) -> None:
+    write_table(tmp_path / "assets" / "t.obj")
+    write_table(tmp_path / "assets" / "out" / "t.obj")
+    (tmp_path / "assets" / "out" / ".meshforge").mkdir()
+    for pattern in ("assets", "assets/**/*.obj", "assets/*"):
+        assert ids(pattern, root=tmp_path) == ["t.obj"]
+    assert ids("assets/out", root=tmp_path) == ["t.obj"]
+    assert expand(["assets/out/*.obj"], tmp_path).paths == (tmp_path / "assets/out/t.obj",)
+
+
+def test_the_folders_of_a_project_hold_no_assets(tmp_path: Path) -> None:
+    (tmp_path / "meshforge.toml").touch()
+    for name in ("templates/knob.obj", "edited/t.obj", "assets/t.obj"):
+        write_table(tmp_path / name)
+    assert ids(tmp_path) == ids("**/*.obj", root=tmp_path) == ["assets/t.obj"]
+
+
+def test_a_glob_passes_over_files_that_are_no_assets(tmp_path: Path) -> None:
+    write_table(tmp_path / "t.obj")
+    (tmp_path / "notes.txt").touch()
+    assert ids("*", root=tmp_path) == ["t.obj"]
+
+
+def test_a_file_name_with_brackets_is_no_glob(tmp_path: Path) -> None:
+    path = write_table(tmp_path / "table[1].obj")
+    assert expand([path]).paths == (path,)
+
+
+@pytest.mark.parametrize("pattern", ["absent.obj", "*.urdf", "empty"])
+def test_an_argument_that_matches_nothing_is_named(tmp_path: Path, pattern: str) -> None:
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UsageError, match=pattern.replace("*", r"\*")):
+        expand([pattern], tmp_path)
+
+
+def test_labels_are_found_beside_the_assets_or_in_a_folder_that_mirrors_them(tmp_path: Path) -> None:
+    write_tables(tmp_path / "assets", 3)
+    found = expand([tmp_path / "assets"])
+    assert [job.labels for job in jobs(found)] == [p.with_suffix(".labels.json") for p in found]
+    mirror = tmp_path / "labels"
+    for name in ("table0/model.obj.json", "table1/model.labels.json"):
+        (mirror / name).parent.mkdir(parents=True)
+        (mirror / name).touch()
+    given = [job.labels for job in jobs(found, mirror)]
+    assert given == [mirror / "table0/model.obj.json", mirror / "table1/model.labels.json", None]
+
+
+def test_one_labels_file_serves_one_asset_only(tmp_path: Path) -> None:
+    paths = write_tables(tmp_path, 2)
+    labels = paths[0].with_suffix(".labels.json")
+    assert jobs(expand(paths[1:]), labels)[0].labels == labels
+    with pytest.raises(UsageError, match="one labels file cannot serve 2 assets"):
+        jobs(expand(paths), labels)
+    with pytest.raises(UsageError, match="no such labels file or folder"):
+        jobs(expand(paths[:1]), tmp_path / "absent")

@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+import os
+import time
+
+from meshforge.batch import Lost, isolated
+
+
+def square(number: int) -> int:
+    return number * number
+
+
+def square_or_crash(number: int) -> int:
+    if number == 2:
+        os.abort()
+    return number * number
+
+
+def square_or_hang(number: int) -> int:
+    if number == 1:
+        time.sleep(60)
+    return number * number
+
+
+def test_results_come_in_the_order_of_the_items() -> None:
+    assert list(isolated(square, range(40), workers=2)) == [n * n for n in range(40)]
+
+
+def test_no_workers_means_this_process() -> None:
+    seen: list[int] = []
+    done: list[None] = []
+
+    def note(number: int) -> int:
+        seen.append(number)
+        return number
+
+    assert list(isolated(note, [1, 2, 3], workers=0, done=lambda: done.append(None))) == [1, 2, 3]
+    assert seen == [1, 2, 3] and len(done) == 3
+
+
+def test_a_crash_in_native_code_loses_one_item_only() -> None:
+    results = list(isolated(square_or_crash, range(5), workers=2))
+    assert results[2] == Lost("its worker process died (SIGABRT)")
+    assert results[:2] + results[3:] == [0, 1, 9, 16]
+
+
+def test_a_hang_is_stopped_and_loses_one_item_only() -> None:
+    results = list(isolated(square_or_hang, range(4), workers=2, timeout=0.5))
+    assert results[1] == Lost("it took longer than 0.5 seconds and was stopped", 0.5)
+    assert results[:1] + results[2:] == [0, 4, 9]
+
+
+def test_a_caller_may_stop_early() -> None:
+    results = isolated(square, range(1000), workers=1)
+    assert next(results) == 0
+    results.close()
+
+
+def test_nothing_to_do_starts_no_process() -> None:
+    assert list(isolated(square, [], workers=4)) == []

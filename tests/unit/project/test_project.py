@@ -1,0 +1,350 @@
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import status as word
+from meshforge.errors import DemonstrationError, MeshForgeError, ProgramError, ProjectError
+from meshforge.formats import load
+from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Program, Replace
+from meshforge.project import Project
+from meshforge.synthesis import Found, NoProgram, Step
+from tests.unit.batch.families import PROGRAM, tree, write_table, write_urdf_table
+from tests.unit.project.tables import FIRST, LEGS, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
+
+UP = Orient((LandmarkPair("+Z", Is("leg"), Is("top")),))
+
+
+def test_a_new_project_is_one_readable_file(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    settings = tomllib.loads((project.folder / "meshforge.toml").read_text())
+    assert settings == {"name": "tables", "assets": ["../assets"], "base": "../assets", "vocabulary": [], "orient": ""}
+    assert project.assets() == (FIRST, SECOND, THIRD)
+
+
+def test_ids_stay_when_more_assets_are_named(tmp_path: Path) -> None:
+    write_table(tmp_path / "assets/deep/a.obj")
+    project = Project.create(tmp_path / "p", [tmp_path / "assets/deep/*.obj"])
+    assert project.assets() == ("a.obj",)
+    write_table(tmp_path / "assets/deep/er/b.obj")
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text().replace("/*.obj", "/**/*.obj"))
+    assert Project.open(project.folder).assets() == ("a.obj", "er/b.obj")
+
+
+def test_an_asset_outside_of_the_base_is_refused(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    write_table(tmp_path / "other/a.obj")
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text().replace('"../assets"]', '"../assets", "../other"]'))
+    with pytest.raises(ProjectError, match="lies outside"):
+        Project.open(project.folder)
+
+
+def test_a_project_is_not_made_twice(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    with pytest.raises(ProjectError, match="already"):
+        Project.create(project.folder, [tmp_path / "assets"])
+
+
+def test_a_folder_without_a_project_says_how_to_make_one(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match="meshforge new"):
+        Project.open(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('name = "tables"', "name = 3", "field name"),
+        ('assets = ["../assets"]', 'assets = ["../gone"]', "../gone"),
+        ("vocabulary = []", "vocabulary = [", "no TOML"),
+        ('orient = ""', 'orient = ""\nthresholds = {contact = 2}', "thresholds.contact"),
+    ],
+)
+def test_settings_that_do_not_fit_are_named(tmp_path: Path, old: str, new: str, message: str) -> None:
+    project = fresh(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text().replace(old, new))
+    with pytest.raises(ProjectError, match=message) as caught:
+        Project.open(project.folder)
+    assert "meshforge.toml" in caught.value.message
+
+
+def test_settings_are_changed_in_place(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text() + "\n[labelling] # mine\nmodel = 'x'\n")
+    before = toml.read_text()
+    project.set_vocabulary(["top", "leg"])
+    project.set_orientation(UP)
+    assert project.vocabulary == ("top", "leg")
+    assert project.orientation == UP
+    expected = before.replace("vocabulary = []", 'vocabulary = ["top", "leg"]')
+    assert toml.read_text() == expected.replace('orient = ""', 'orient = "+Z: Is(leg) -> Is(top)"')
+    project.set_orientation("orient +X: All -> Is(top)")
+    project.set_orientation(None)
+    assert project.orientation is None
+    with pytest.raises(ProjectError, match="orientation"):
+        project.set_orientation("up")
+    with pytest.raises(ProgramError):
+        project.set_vocabulary(["top", "top"])
+
+
+def test_labels_are_kept_by_id_and_come_back_with_the_mesh(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(["top", "leg"])
+    report = project.set_labels(SECOND, {"top": "top", "left_low": "leg"})
+    assert (report.taken, report.unlabelled) == (2, 4)
+    assert (project.folder / "labels" / f"{SECOND}.json").exists()
+    mesh = project.mesh(SECOND)
+    assert {h.name: h.source for h in mesh.hulls if h.label} == {"top": "user", "left_low": "user"}
+    project.set_labels(SECOND, {"top": None})
+    assert project.mesh(SECOND).named("top").label is None
+
+
+def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(["top", "leg", "misc"])
+    project.set_labels(FIRST, {"crumb": "leg"})
+    project.set_labels(FIRST, {"top": "leg"}, source="vlm", confidence=0.5)
+    reports = {report.asset: report for report in project.label_from_files()}
+    assert (reports[FIRST].taken, reports[FIRST].kept) == (5, 1)
+    mesh = project.mesh(FIRST)
+    assert (mesh.named("crumb").label, mesh.named("crumb").source) == ("leg", "user")
+    assert (mesh.named("top").label, mesh.named("top").source) == ("top", "file")
+    again = {report.asset: report for report in project.label_from_files()}
+    assert (again[FIRST].taken, again[FIRST].same, again[FIRST].kept) == (0, 5, 1)
+
+
+def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(["top", "leg", "misc"])
+    file = tmp_path / "given.json"
+    file.write_text(json.dumps({"hulls": {"left_lo": "leg", "top": "topp", "crumb": "misc"}}))
+    folder = tmp_path / "labels"
+    (folder / "table0").mkdir(parents=True)
+    file.rename(folder / f"{FIRST}.json")
+    (report,) = project.label_from_files(folder)
+    assert report.asset == FIRST and report.taken == 1
+    assert report.problems == (
+        "there is no hull 'left_lo'; did you mean 'left_low'?",
+        "top: the label 'topp' is not in the vocabulary; did you mean 'top'?",
+    )
+
+
+def test_a_project_without_a_vocabulary_takes_that_of_the_files(tmp_path: Path) -> None:
+    assert labelled(tmp_path).vocabulary == ("top", "leg", "misc")
+
+
+def test_labels_files_that_are_not_there_are_asked_for(tmp_path: Path) -> None:
+    write_table(tmp_path / "assets/t.obj", labels=False)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"])
+    with pytest.raises(ProjectError, match="no labels file for any asset"):
+        project.label_from_files()
+
+
+def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(["top"])
+    for labels in ({"top": "top", "topp": "top"}, {"top": "tap"}, {"nothing": None}):
+        with pytest.raises(ProjectError):
+            project.set_labels(FIRST, labels)
+    assert not (project.folder / "labels").exists()
+    with pytest.raises(ProjectError, match="Did you mean 'table0/model.obj'"):
+        project.set_labels("table0/modl.obj", {})
+
+
+def test_demonstrations_are_kept_as_the_steps_that_were_shown(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    steps = (*STEPS, Step(3, (), Delete()), Step(4, None, Replace("box"), "top"))
+    project.demonstrate(FIRST, steps)
+    path = project.folder / "demonstrations" / f"{FIRST}.json"
+    assert json.loads(path.read_text()) == {
+        "asset": FIRST,
+        "steps": [
+            {"rule": 1, "select": ["crumb"], "action": "Delete"},
+            {"rule": 2, "select": sorted(LEGS), "action": "Each(Merge)"},
+            {"rule": 3, "select": [], "action": "Delete"},
+            {"rule": 4, "select": None, "action": "Replace(box) as top"},
+        ],
+    }
+    assert project.steps(FIRST) == steps
+    assert list(project.demonstrations()) == [FIRST]
+    project.demonstrate(FIRST, ())
+    assert not path.exists() and project.demonstrations() == {}
+
+
+def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    path = project.folder / "demonstrations" / f"{FIRST}.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"author": "me"}))
+    project.demonstrate(FIRST, STEPS[:1])
+    assert json.loads(path.read_text())["author"] == "me"
+
+
+def test_a_demonstration_that_cannot_be_is_refused(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    with pytest.raises(ProjectError, match="no hull 'crum'"):
+        project.demonstrate(FIRST, [Step(1, {"crum"}, Delete())])
+    with pytest.raises(DemonstrationError, match="numbered"):
+        project.demonstrate(FIRST, [Step(2, {"crumb"}, Delete())])
+    project.demonstrate(FIRST, [*STEPS, Step(3, {"left_low~1"}, Delete())])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('{"asset": "x", "steps": [{"rule": 0, "select": null, "action": "Delete"}]}', "steps.0.rule"),
+        ('{"asset": "x", "steps": [{"rule": 1, "select": null, "action": "Delte"}]}', "'Delte' is no action"),
+        ('{"asset": "x"}', "field steps"),
+        ("{", "JSON"),
+    ],
+)
+def test_a_damaged_demonstration_is_named(tmp_path: Path, text: str, message: str) -> None:
+    project = demonstrated(tmp_path)
+    path = project.folder / "demonstrations" / f"{FIRST}.json"
+    path.write_text(text)
+    with pytest.raises(ProjectError, match=message) as caught:
+        project.steps(FIRST)
+    assert str(path) in caught.value.message
+
+
+def test_a_program_is_learned_and_kept(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    outcome = project.synthesize()
+    assert isinstance(outcome, Found)
+    assert (project.folder / "program.mf").read_text() == str(outcome.program)
+    assert project.program() == outcome.program == Program.parse(PROGRAM)
+
+
+def test_learning_need_not_be_accepting(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    assert isinstance(project.synthesize(accept=False), Found)
+    assert project.program() is None
+
+
+def test_nothing_is_accepted_where_no_program_was_found(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    project.demonstrate(FIRST, [Step(1, {"left_low"}, Delete())])
+    project.demonstrate(SECOND, [Step(1, {"right_low"}, Delete())])
+    assert isinstance(project.synthesize(), NoProgram)
+    assert project.program() is None
+
+
+def test_learning_without_demonstrations_says_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match="nothing is demonstrated"):
+        labelled(tmp_path).synthesize()
+
+
+def test_a_program_that_another_takes_the_place_of_stays_beside_it(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    mine = "# by hand\n" + PROGRAM
+    (project.folder / "program.mf").write_text(mine)
+    project.synthesize()
+    assert (project.folder / "program.previous.mf").read_text() == mine
+
+
+def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    edited = project.folder / "edited"
+    assert sorted(p.name for p in edited.glob("*/*.obj")) == ["model.obj"] * 3
+    assert {h.name: h.label for h in load(edited / THIRD).hulls} == {
+        "top": "top",
+        "left_low~1": "leg",
+        "right_low~1": "leg",
+    }
+    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 3
+    assert [word(o) for o in project.apply(workers=0, out=tmp_path / "else")] == ["edited"] * 3
+
+
+def test_applying_without_a_program_says_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match="meshforge synthesize"):
+        fresh(tmp_path).apply()
+
+
+def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    write_table(project.folder / "templates/knob.obj")
+    assert len(project.templates(["knob.obj"])["knob.obj"].shapes) == 6
+    with pytest.raises(ProgramError, match='"bar.obj" is not there'):
+        project.templates(["bar.obj"])
+    (project.folder / "templates/bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
+    with pytest.raises(ProgramError, match='"bar.obj" is not convex'):
+        project.templates(["bar.obj"])
+
+
+def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.correct(SECOND, ["left_low~1", "right_low~1"], Merge(), "top")
+    assert [word(o) for o in project.apply(workers=0)] == ["skipped", "edited", "skipped"]
+    mesh = load(project.folder / "edited" / SECOND)
+    assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
+    project.correct(SECOND, ["left_low~2"], Delete())
+    assert len(project.corrections(SECOND)) == 2
+    project.drop_corrections(SECOND)
+    assert project.corrections(SECOND) == ()
+
+
+def test_an_edit_by_hand_whose_hull_is_gone_or_changed_is_flagged_and_left_out(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.correct(FIRST, ["left_low~1"], Delete())
+    project.correct(SECOND, ["top"], Replace("box"))
+    (project.folder / "program.mf").write_text("labels top, leg, misc\nIs(misc) => Delete\n")
+    write_table(tmp_path / "assets" / SECOND, 3.0)
+    outcomes = {o.asset: o for o in project.apply(workers=0)}
+    assert getattr(outcomes[FIRST], "flags", None) == ("edit 1 by hand was left out: left_low~1 is gone",)
+    assert getattr(outcomes[SECOND], "flags", None) == ("edit 1 by hand was left out: top has another shape now",)
+    assert len(load(project.folder / "edited" / FIRST).hulls) == 5
+
+
+def test_an_edit_by_hand_in_a_turned_frame_leaves_the_other_hulls_alone(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    text = PROGRAM.replace("\nIs(misc)", "\norient +X: Is(leg) -> Is(top)\n\nIs(misc)")
+    (project.folder / "program.mf").write_text(text)
+    list(project.apply(workers=0))
+    before = load(project.folder / "edited" / FIRST)
+    project.correct(FIRST, ["top"], Delete())
+    list(project.apply(workers=0))
+    after = load(project.folder / "edited" / FIRST)
+    assert [h.name for h in after.hulls] == ["left_low~1", "right_low~1"]
+    for hull in after.hulls:
+        assert hull.vertices.tobytes() == before.named(hull.name).vertices.tobytes()
+
+
+def test_an_edit_by_hand_on_a_hull_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    with pytest.raises(ProjectError, match="no hull 'crumb'"):
+        project.correct(FIRST, ["crumb"], Delete())
+
+
+def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
+    write_urdf_table(tmp_path / "robots")
+    before = tree(tmp_path / "robots")
+    project = Project.create(tmp_path / "p", [tmp_path / "robots"])
+    project.label_from_files()
+    project.demonstrate("table.urdf", [Step(1, {"body/crumb"}, Delete())])
+    project.synthesize()
+    assert [word(o) for o in project.apply(workers=1)] == ["edited"]
+    assert tree(tmp_path / "robots") == before
+
+
+def test_a_project_among_its_assets_does_not_take_its_own_files_for_assets(tmp_path: Path) -> None:
+    write_table(tmp_path / "a.obj")
+    project = Project.create(tmp_path, [tmp_path], vocabulary=["top", "leg", "misc"])
+    project.label_from_files()
+    (project.folder / "program.mf").write_text(PROGRAM)
+    write_table(project.folder / "templates/knob.obj")
+    list(project.apply(workers=0))
+    assert Project.open(tmp_path).assets() == ("a.obj",)
+
+
+def test_an_unreadable_asset_is_left_out_of_learning_and_fails_in_applying(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    (tmp_path / "assets" / THIRD).write_text("nothing of use")
+    with pytest.raises(MeshForgeError):
+        project.mesh(THIRD)
+    project.synthesize()
+    assert [word(o) for o in project.apply(workers=0)] == ["edited", "edited", "failed"]

@@ -1,0 +1,183 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import ProjectError
+from meshforge.language import Delete
+from meshforge.project import AssetStatus, Project, Status
+from meshforge.synthesis import Step
+from tests.unit.batch.families import PROGRAM, write_table
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
+
+
+def of(project: Project) -> Status:
+    return project.status(workers=0)
+
+
+def asset(project: Project, name: str) -> AssetStatus:
+    return next(a for a in of(project).assets if a.id == name)
+
+
+def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> None:
+    commands = [of(fresh(tmp_path / "a")).next.command]
+    commands += [of(labelled(tmp_path / "b")).next.command, of(demonstrated(tmp_path / "c")).next.command]
+    commands += [of(learned(tmp_path / "d")).next.command, of(applied(tmp_path / "e")).next.command]
+    assert [(command or "").split()[:2] for command in commands] == [
+        ["meshforge", "label"],
+        ["meshforge", "demonstrate"],
+        ["meshforge", "synthesize"],
+        ["meshforge", "apply"],
+        ["meshforge", "check"],
+    ]
+
+
+def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
+    assert asset(demonstrated(tmp_path), FIRST) == AssetStatus(FIRST, 6, 6, demonstrated=True)
+    assert asset(Project.open(tmp_path / "tables"), THIRD) == AssetStatus(THIRD, 6, 6)
+    done = asset(applied(tmp_path / "more"), THIRD)
+    assert done == AssetStatus(THIRD, 6, 6, output="edited") and done.is_done
+
+
+def test_what_changed_since_the_output_was_made_is_named(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    write_table(tmp_path / "assets" / FIRST, 4.0)
+    project.set_labels(SECOND, {"crumb": "leg"})
+    (project.folder / "edited" / THIRD).unlink()
+    assert [a.stale for a in of(project).assets] == [("asset",), ("labels",), ("output",)]
+    (project.folder / "program.mf").write_text(PROGRAM.replace("Each(Merge)", "Delete"))
+    assert [a.stale for a in of(project).assets] == [("asset", "program"), ("labels", "program"), ("program", "output")]
+    assert of(project).next.command == f"meshforge apply {project.folder}"
+    list(project.apply(workers=0))
+    assert all(a.is_done for a in of(project).assets)
+
+
+def test_a_file_that_was_only_touched_is_not_stale(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    path = tmp_path / "assets" / FIRST
+    path.write_bytes(path.read_bytes())
+    assert asset(project, FIRST).stale == ()
+
+
+def test_an_edit_by_hand_makes_an_output_stale(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.correct(FIRST, ["top"], Delete())
+    assert asset(project, FIRST).stale == ("corrections",)
+
+
+def test_a_template_that_changed_makes_outputs_stale(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    (project.folder / "program.mf").write_text('labels top\nIs(top) => Replace("slab.obj")\n')
+    write_table(project.folder / "templates/slab.obj")
+    list(project.apply(workers=0))
+    assert asset(project, FIRST).stale == ()
+    write_table(project.folder / "templates/slab.obj", 2.0)
+    assert asset(project, FIRST).stale == ("templates",)
+
+
+def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    (project.folder / "labels" / f"{THIRD}.json").unlink()
+    list(project.apply(workers=0))
+    found = asset(project, THIRD)
+    assert found.output == "failed" and found.error and "no labels" in found.error
+    assert "fails on 1 of 3 assets, first on table2/model.obj" in of(project).next.say
+
+
+def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    (tmp_path / "assets" / SECOND).write_text("nothing of use")
+    found = of(project)
+    assert [a.hulls for a in found.assets] == [6, None, 6]
+    assert found.assets[1].error
+    write_table(tmp_path / "assets" / SECOND)
+    assert [a.hulls for a in of(project).assets] == [6, 6, 6]
+
+
+def test_a_learned_program_is_outdated_when_what_it_was_learned_from_changes(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    assert not of(project).outdated
+    project.demonstrate(SECOND, STEPS[:1])
+    assert of(project).outdated
+    assert of(project).next.command == f"meshforge synthesize {project.folder}"
+    (project.folder / "program.mf").write_text("labels top\nAll => Merge\n")
+    assert not of(project).outdated
+
+
+def test_what_is_kept_for_assets_that_are_gone_is_named(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    (tmp_path / "assets" / THIRD).unlink()
+    assert of(Project.open(project.folder)).lost == (THIRD,)
+
+
+def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review(FIRST, "accepted")
+    project.review(SECOND, "flagged", "left leg")
+    assert [a.review for a in of(project).assets] == ["accepted", "flagged", None]
+    assert "first table1/model.obj" in of(project).next.say
+    kept = json.loads((project.folder / "review.json").read_text())["assets"]
+    assert kept[SECOND]["verdict"] == "flagged" and kept[SECOND]["note"] == "left leg"
+    project.set_labels(FIRST, {"crumb": "leg"})
+    list(project.apply(workers=0))
+    assert [a.review for a in of(project).assets] == [None, "flagged", None]
+    project.review(SECOND, None)
+    assert project.reviews().keys() == {FIRST}
+
+
+def test_only_an_output_can_be_reviewed(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match="no output to be accepted"):
+        labelled(tmp_path).review(FIRST, "accepted")
+
+
+def test_a_damaged_memory_of_the_assets_is_made_anew(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    before = of(project)
+    (project.folder / ".meshforge" / "survey.json").write_text('{"software": 3')
+    assert of(project) == before
+
+
+def test_a_status_does_not_depend_on_the_number_of_workers(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    one = project.status(workers=2)
+    (project.folder / ".meshforge" / "survey.json").unlink()
+    assert of(project) == one
+
+
+def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
+    data = json.loads(json.dumps(of(applied(tmp_path)).to_json()))
+    assert data["assets"][0] == {
+        "asset": FIRST,
+        "hulls": 6,
+        "labelled": 6,
+        "doubtful": [],
+        "demonstrated": True,
+        "output": "edited",
+        "stale": [],
+        "error": None,
+        "flags": [],
+        "review": None,
+    }
+    assert data["next"]["command"].startswith("meshforge check")
+
+
+def test_an_open_step_counts_as_demonstrated(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    project.demonstrate(FIRST, [Step(1, None, Delete())])
+    assert asset(project, FIRST).demonstrated
+
+
+def test_labels_of_hulls_that_changed_or_are_gone_are_doubtful(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    path = tmp_path / "assets" / FIRST
+    path.write_text(path.read_text().replace("o top", "o board").replace("5.1", "6"))
+    found = asset(project, FIRST)
+    assert (found.labelled, found.doubtful) == (6, ("crumb",))
+    path.write_text(path.read_text().replace("o crumb", "o litter"))
+    found = asset(project, FIRST)
+    assert (found.labelled, found.doubtful) == (5, ("crumb",))
+    project.set_labels(FIRST, {"litter": "misc"})
+    assert asset(project, FIRST).labelled == 6
+    assert "crumb" in project.labels(FIRST).labels

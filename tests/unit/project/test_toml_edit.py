@@ -1,0 +1,77 @@
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from meshforge.errors import ProjectError
+from meshforge.project.toml_edit import Value, set_value
+
+TEXT = """\
+# our tables
+name = "tables" # never change
+
+vocabulary = [
+  "top", # the # board
+  "leg",
+]  # closed list
+orient = "+Z: Is('#')" # up
+
+[thresholds] # shares
+contact = 0.002
+
+[[note]]
+words = [
+  ["a"],
+]
+"""
+
+
+def test_only_the_value_changes_and_comments_stay() -> None:
+    assert set_value(TEXT, "orient", "+X # 1") == TEXT.replace('''"+Z: Is('#')"''', '"+X # 1"')
+    assert set_value(TEXT, "contact", 0.01, "thresholds") == TEXT.replace("0.002", "0.01")
+
+
+def test_an_array_of_several_lines_becomes_one_line_and_keeps_the_comment_behind_it() -> None:
+    edited = set_value(TEXT, "vocabulary", ["top"])
+    assert 'vocabulary = ["top"]  # closed list\norient' in edited
+
+
+def test_a_new_key_joins_those_above_it() -> None:
+    assert '# up\nbase = ".."\n\n[thresholds]' in set_value(TEXT, "base", "..")
+    assert "contact = 0.002\nextremity = 0.1\n\n[[note]]" in set_value(TEXT, "extremity", 0.1, "thresholds")
+
+
+def test_a_new_table_comes_last() -> None:
+    assert set_value(TEXT, "size", 2, "labelling") == TEXT + "\n[labelling]\nsize = 2\n"
+
+
+def test_none_takes_a_key_away() -> None:
+    assert set_value(TEXT, "name", None) == TEXT.replace('name = "tables" # never change\n', "")
+    assert set_value(TEXT, "absent", None) == TEXT
+
+
+def test_a_file_without_a_last_newline_is_completed() -> None:
+    assert set_value('a = "x"', "b", "y") == 'a = "x"\nb = "y"\n'
+
+
+def test_what_cannot_be_followed_is_refused_and_left_alone() -> None:
+    with pytest.raises(ProjectError, match="cannot be changed where it stands"):
+        set_value("thresholds = { contact = 0.1 }\n", "contact", 0.2, "thresholds")
+
+
+def test_an_indented_array_line_that_looks_like_a_table_is_none() -> None:
+    text = 'x = [\n[ "contact" ],\n]\ny = 1\n'
+    assert tomllib.loads(set_value(text, "y", 2)) == {"x": [["contact"]], "y": 2}
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    key=st.sampled_from(["name", "vocabulary", "orient", "fresh"]),
+    value=st.text(st.characters(exclude_categories=["Cs"])) | st.lists(st.text("ab\"'#\\é\n"), max_size=3),
+)
+def test_whatever_is_set_reads_back_and_the_rest_as_before(key: str, value: Value) -> None:
+    before, after = tomllib.loads(TEXT), tomllib.loads(set_value(TEXT, key, value))
+    assert after == {**before, key: value}
