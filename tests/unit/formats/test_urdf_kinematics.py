@@ -1,0 +1,92 @@
+"""Links and joints: where everything is at zero, and which trees are none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from meshforge.errors import AssetError
+from meshforge.geometry import Pose
+from tests.urdf_sample import link, read, robot, sample
+
+BALL = '<sphere radius="0.1"/>'
+A, B, C = (link(BALL, name=name) for name in "abc")
+
+
+def joint(parent: str, child: str, origin: str = "", kind: str = "fixed") -> str:
+    ends = f'<parent link="{parent}"/><child link="{child}"/>'
+    return f'<joint name="{parent}_{child}" type="{kind}">{ends}{origin}</joint>'
+
+
+@pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic", "floating", "planar", "ball"])
+def test_a_joint_of_any_kind_is_taken_at_zero(kind: str, tmp_path: Path) -> None:
+    text = robot(A, joint("b", "c", '<origin rpy="0 0 1.5707963267948966"/>', kind), B, C,
+                 joint("a", "b", '<origin xyz="1 2 3" rpy="1.5707963267948966 0 0"/>', kind))  # fmt: skip
+    asset = read(sample(tmp_path, text))
+    poses = asset.body_poses
+    assert list(poses) == ["a", "b", "c"]
+    expected = Pose.from_rpy([1, 2, 3], [np.pi / 2, 0, 0]) @ Pose.from_rpy([0, 0, 0], [0, 0, np.pi / 2])
+    np.testing.assert_allclose(poses["c"].rotation, expected.rotation, atol=1e-15)
+    np.testing.assert_allclose(poses["c"].translation, [1, 2, 3])
+    np.testing.assert_allclose(asset.geoms[2].shape.centroid, [1, 2, 3])
+
+
+def test_the_order_of_joints_and_links_does_not_matter(tmp_path: Path) -> None:
+    joints = [joint("a", "b", '<origin xyz="1 0 0"/>'), joint("b", "c", '<origin xyz="0 1 0"/>')]
+    first = read(sample(tmp_path, robot(A, B, C, *joints)))
+    last = read(sample(tmp_path, robot(*reversed(joints), C, B, A)))
+    assert {n: p.translation.tolist() for n, p in first.body_poses.items()} == {
+        n: p.translation.tolist() for n, p in last.body_poses.items()
+    }
+    assert last.body_poses["c"].translation.tolist() == [1, 1, 0]
+
+
+def test_several_roots_are_read_with_a_note(tmp_path: Path) -> None:
+    asset = read(sample(tmp_path, robot(A, B, C, joint("a", "b"))))
+    assert len(asset.geoms) == 3
+    assert [n for n in asset.notes if "2 links have no parent joint (a, c)" in n]
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ([], "there is no <link> in it"),
+        (["<link/>"], "cart.urdf:2: a <link> has no name"),
+        ([A, B, A], "link 'a' is there twice, first on line 2"),
+        ([A, joint("a", "bb"), B], "joint 'a_bb': its child link 'bb' is not there"),
+        ([A, joint("aa", "b"), B], "The nearest name of a link is 'a'"),
+        ([A, B, '<joint name="j"><child link="b"/></joint>'], "joint 'j' names no parent link"),
+        ([A, B, C, joint("a", "c"), joint("b", "c")], "link 'c' has two parents: joint 'a_c'"),
+        ([A, B, C, joint("a", "b"), joint("b", "c"), joint("c", "a")], "the joints form a cycle: a -> b -> c -> a"),
+        ([A, joint("a", "a")], "the joints form a cycle: a -> a"),
+        ([A, B, joint("a", "b", '<origin xyz="1 2"/>')], "<origin xyz='1 2'> does not hold 3 finite numbers"),
+        ([A, B, joint("a", "b", '<origin rpy="0 0 nan"/>')], "does not hold 3 finite numbers"),
+    ],
+)
+def test_links_and_joints_that_make_no_tree_are_refused_by_name(inside: list[str], said: str, tmp_path: Path) -> None:
+    with pytest.raises(AssetError) as error:
+        read(sample(tmp_path, robot(*inside)))
+    assert said in str(error.value)
+    assert "cart.urdf" in str(error.value)
+
+
+def test_a_chain_of_two_thousand_links_is_placed(tmp_path: Path) -> None:
+    links = [f'<link name="l{k}"/>' for k in range(2000)]
+    joints = [joint(f"l{k}", f"l{k + 1}", '<origin xyz="0 0 0.001"/>') for k in range(1999)]
+    asset = read(sample(tmp_path, robot(*reversed(links), *joints)))
+    np.testing.assert_allclose(asset.body_poses["l1999"].translation, [0, 0, 1.999])
+
+
+ANGLES = st.floats(-4, 4) | st.sampled_from([np.pi / 2, -np.pi / 2, 1.5707963, np.pi / 2 + 1e-11, np.pi, 0.0])
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.tuples(ANGLES, ANGLES, ANGLES))
+def test_roll_pitch_and_yaw_are_written_without_a_loss(rpy: tuple[float, float, float]) -> None:
+    pose = Pose.from_rpy([0, 0, 0], rpy)
+    again = Pose.from_rpy([0, 0, 0], pose.to_rpy())
+    np.testing.assert_allclose(again.rotation, pose.rotation, atol=1e-11)

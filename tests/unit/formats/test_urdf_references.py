@@ -1,0 +1,140 @@
+"""References to mesh files: where they lead, what is said when they lead nowhere, what must go along."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import AssetError
+from meshforge.formats.companions import companions
+from meshforge.formats.urdf.references import placement
+from tests.urdf_sample import THREE, link, put, read, robot, sample, write
+
+
+def _tree(tmp_path: Path, reference: str) -> Path:
+    """`pkg/urdf/cart.urdf` with a link that refers to a mesh, and `pkg/meshes/three.obj`."""
+    path = sample(tmp_path / "pkg" / "urdf", robot(link(f'<mesh filename="{reference}"/>')))
+    (tmp_path / "pkg" / "meshes").mkdir()
+    (tmp_path / "pkg" / "meshes" / "three.obj").write_text(THREE)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("reference", "place"),
+    [
+        ("package://pkg/meshes/three.obj", "pkg/meshes/three.obj"),
+        ("model://pkg/meshes/three.obj", "pkg/meshes/three.obj"),
+        ("../meshes/three.obj", "../meshes/three.obj"),
+        (" meshes/./three.obj ", "meshes/three.obj"),
+        ("meshes\\three.obj", "meshes/three.obj"),
+    ],
+)
+def test_a_reference_is_found_and_found_again_in_the_output(reference: str, place: str, tmp_path: Path) -> None:
+    asset = read(_tree(tmp_path, reference))
+    assert len(asset.geoms) == 3
+    output = write(asset)
+    assert list(output.copies) == [place]
+    again = read(put(output, tmp_path / "out" / "deep" / "cart.urdf"))
+    assert len(again.geoms) == 3
+    assert str(tmp_path / "out") in str(again.files[0])
+
+
+@pytest.mark.parametrize("form", ["{}", "file://{}", "file:{}", "file://localhost{}"])
+def test_an_absolute_reference_stays_where_it_is_with_a_note(form: str, tmp_path: Path) -> None:
+    reference = form.format(tmp_path / "pkg" / "meshes" / "three.obj")
+    asset = read(_tree(tmp_path, reference))
+    assert len(asset.geoms) == 3
+    output = write(asset)
+    assert output.copies == {}
+    assert "is an absolute reference: the file is used where it is, not copied" in output.notes[0]
+
+
+def test_a_package_is_found_in_given_roots_which_come_first(tmp_path: Path) -> None:
+    path = _tree(tmp_path, "package://other/three.obj")
+    (tmp_path / "roots" / "other").mkdir(parents=True)
+    mesh = tmp_path / "roots" / "other" / "three.obj"
+    mesh.write_text(THREE)
+    for root in (tmp_path / "roots", tmp_path / "roots" / "other"):
+        asset = read(path, root)
+        assert asset.files == (mesh,)
+        assert write(asset).copies == {"other/three.obj": mesh}
+
+
+def test_a_folder_is_a_package_of_the_name_in_its_package_xml(tmp_path: Path) -> None:
+    path = _tree(tmp_path, "package://cart_description/meshes/three.obj")
+    (tmp_path / "pkg" / "package.xml").write_text("<package><name> cart_description </name></package>")
+    assert read(path).files == (tmp_path / "pkg" / "meshes" / "three.obj",)
+
+
+def test_a_missing_collision_mesh_says_what_where_and_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(AssetError) as error:
+        read(_tree(tmp_path, "meshes/tree.obj"))
+    text = str(error.value)
+    assert "cart.urdf:3: the mesh 'meshes/tree.obj' of collision 'a/geom0' is not there" in text
+    assert f"Looked for {tmp_path / 'pkg' / 'urdf' / 'meshes' / 'tree.obj'}." in text
+    assert "A file of a similar name is there: " in text
+    assert "three.obj. Put it there, or correct the reference." in text
+
+
+@pytest.mark.parametrize(
+    ("reference", "said"),
+    [
+        ("package://nowhere/a.stl", "Give the folder that holds it as a package root"),
+        ("package://pkg/a.stl", "but holds no such file"),
+        ("http://example.org/a.stl", "Addresses are not followed"),
+    ],
+)
+def test_the_remedy_fits_the_kind_of_reference(reference: str, said: str, tmp_path: Path) -> None:
+    path = _tree(tmp_path, reference)
+    text = path.read_text().replace("</link>", f'</link><link name="b">{link(f"<mesh filename={reference!r}/>")[15:]}')
+    path.write_text(text)
+    with pytest.raises(AssetError) as error:
+        read(path)
+    assert said in str(error.value)
+    assert "(and 1 more like it)" in str(error.value)
+
+
+def test_a_missing_visual_mesh_is_only_recorded(tmp_path: Path) -> None:
+    visual = '<link name="b"><visual><geometry><mesh filename="gone.dae"/></geometry></visual></link>'
+    asset = read(sample(tmp_path, robot(link('<sphere radius="1"/>'), visual)))
+    assert asset.missing == ("gone.dae",)
+    assert write(asset).copies == {}
+
+
+def test_files_are_the_meshes_with_their_materials_and_textures(tmp_path: Path) -> None:
+    path = sample(tmp_path, robot(link('<mesh filename="meshes/three.obj"/>'),
+                                  '<material name="m"><texture filename="wood.png"/></material>'))  # fmt: skip
+    meshes = tmp_path / "meshes"
+    (meshes / "three.obj").write_text("mtllib three.mtl\nmtllib gone.mtl\n" + THREE)
+    maps = "newmtl m\nmap_Kd -s 1 1 1 skins/oak.png\nmap_Bump  old oak.png\nmap_Ks gone.png\n"
+    (meshes / "three.mtl").write_text(maps)
+    (meshes / "skins").mkdir()
+    for image in (meshes / "skins" / "oak.png", meshes / "old oak.png", tmp_path / "wood.png"):
+        image.write_bytes(b"png")
+    names = ["three.obj", "three.mtl", "skins/oak.png", "old oak.png"]
+    asset = read(path)
+    assert asset.files == (*(meshes / name for name in names), tmp_path / "wood.png")
+    assert list(write(asset).copies) == [*(f"meshes/{name}" for name in names), "wood.png"]
+
+
+def test_companions_of_collada_and_gltf_are_their_images_and_buffers(tmp_path: Path) -> None:
+    for name in ("a b.png", "c.bin", "d.png"):
+        (tmp_path / name).write_bytes(b"x")
+    (tmp_path / "m.dae").write_text("<init_from>a%20b.png</init_from><init_from><ref>file://d.png</ref></init_from>")
+    uris = '{"buffers": [{"uri": "c.bin"}, {}], "images": [{"uri": "a%20b.png"}, {"uri": "data:,x"}, {"uri": "gone"}]}'
+    (tmp_path / "m.gltf").write_text(uris)
+    chunk = uris.encode()
+    (tmp_path / "m.glb").write_bytes(b"glTF" + b"\0" * 8 + len(chunk).to_bytes(4, "little") + b"JSON" + chunk + b"BIN")
+    (tmp_path / "broken.gltf").write_text("[1, 2")
+    (tmp_path / "list.gltf").write_text("[1, 2]")
+    assert list(companions(tmp_path / "m.dae")) == ["a b.png", "d.png"]
+    assert list(companions(tmp_path / "m.gltf")) == ["c.bin", "a b.png"]
+    assert list(companions(tmp_path / "m.glb")) == ["c.bin", "a b.png"]
+    assert all(companions(tmp_path / name) == {} for name in ("broken.gltf", "list.gltf", "none.obj", "c.bin"))
+
+
+def test_a_place_is_below_the_output_folder_or_none() -> None:
+    assert placement("a/../b/c.stl") == "b/c.stl"
+    assert placement("/a/b.stl") is None
+    assert placement("https://example.org/b.stl") is None
