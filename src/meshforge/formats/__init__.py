@@ -1,7 +1,9 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.loading import labels_beside, load, load_many, read
 from meshforge.formats.meshfile import RawSurface
+from meshforge.formats.placing import placed
 from meshforge.formats.registry import FORMATS, SUFFIXES, format_of
 from meshforge.formats.saving import Saved, save
 from meshforge.formats.triangles import pieces_of, read_triangles
@@ -15,7 +17,12 @@ __all__ = [
     "ReadOptions",
     "Saved",
     "format_of",
+    "labels_beside",
+    "load",
+    "load_many",
     "pieces_of",
+    "placed",
+    "read",
     "read_triangles",
     "save",
 ]

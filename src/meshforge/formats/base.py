@@ -25,19 +25,25 @@ class Output:
     text or bytes of each new file by its path relative to the folder of the main file; copies: files of the
     input, by the same kind of path. `save` puts them on disk atomically.
     notes: what the format could not hold, or holds in another form (a capsule written as a hull mesh).
+    names: of geoms that the written file reads back under another name, that name (formats without names).
     """
 
     main: bytes
     made: dict[str, bytes] = field(default_factory=dict)
     copies: dict[str, Path] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    names: dict[str, str] = field(default_factory=dict)
 
 
 class Format(ABC):
-    """One file format: reads an asset with its source document, writes it back with edited geoms."""
+    """One file format: reads an asset with its source document, writes it back with edited geoms.
+
+    is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
+    """
 
     name: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
+    is_folder: ClassVar[bool] = False
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:

@@ -6,14 +6,19 @@ from pathlib import Path
 
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.base import Format
+from meshforge.formats.folder import Folder
+from meshforge.formats.obj import Obj
+from meshforge.formats.ply import Ply
+from meshforge.formats.stl import Stl
 from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.wrl import Wrl
 
 _HEAD = 4096  # bytes shown to a format that shares its suffix with another
 
-
-FORMATS: tuple[Format, ...] = (UrdfFormat(),)
+FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
+FORMATS: tuple[Format, ...] = (UrdfFormat(), *FOLDER.members, FOLDER)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
-"""The suffixes of all files that can be read, lower case, with the dot."""
+"""The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 
 
 def format_of(path: Path) -> Format:
@@ -21,24 +26,30 @@ def format_of(path: Path) -> Format:
 
     Raises AssetError: there is no such file, or it is of no known format.
     """
+    if path.is_dir():
+        return FOLDER
     if not path.exists():
         raise AssetError("there is no such file", where=str(path))
-    head = b"" if path.is_dir() else _head(path)
     for known in _of_suffix(path):
-        if known.sniffs(path, head):
+        if known.sniffs(path, _head(path)):
             return known
     raise _unknown(path)
 
 
 def format_for(path: Path, own: str) -> Format:
-    """The format of a file that is to be written: the one named `own` where the suffix fits it, else by suffix."""
+    """The format of a file that is to be written: the one named `own` where the suffix fits it, else by suffix.
+
+    A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
+    """
     found = _of_suffix(path)
     for known in found:
         if known.name == own:
             return known
-    if not found:
-        raise _unknown(path)
-    return found[0]
+    if found:
+        return found[0]
+    if own == FOLDER.name or path.is_dir() or not path.suffix:
+        return FOLDER
+    raise _unknown(path)
 
 
 def _of_suffix(path: Path) -> list[Format]:

@@ -3,68 +3,113 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.asset import Asset
+from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.errors import AssetError
 from meshforge.files import write_atomically
 from meshforge.formats.base import Output
-from meshforge.formats.registry import format_for
+from meshforge.formats.copying import copy_atomically, same_content
+from meshforge.formats.registry import FOLDER, format_for
+from meshforge.geometry import Pose
 from meshforge.symbolic import SymbolicMesh
+
+Content = bytes | Path
+"""What a file is to hold: these bytes, or what another file holds."""
 
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """What was written: the main file, all files of its tree, and what the format could not hold."""
+    """What was written: the main file or folder, all files of its tree, and what the format could not hold.
+
+    names: of hulls that the file reads back under another name, that name.
+    """
 
     path: Path
     files: tuple[Path, ...]
     notes: tuple[str, ...] = ()
+    names: Mapping[str, str] = field(default_factory=dict)
 
 
 def save(what: SymbolicMesh | Asset, out: str | Path, *, link: bool = False, overwrite: bool = False) -> Saved:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
+    Every file that the asset refers to goes along. A path without suffix is a folder of one file a hull.
     link: files that are only copied become hard links; overwrite: existing files may be replaced.
-    Raises AssetError: a file of the input, or another file that exists, would be overwritten.
+    Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
+    overwritten.
     """
-    asset = what.lowered() if isinstance(what, SymbolicMesh) else what
+    asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
     out = Path(out)
     known = format_for(out, asset.format)
     output = known.write(asset, out.name) if known.name == asset.format else known.create(asset, out.name)
-    plan = _plan(output, out)
-    inputs = {p.resolve() for p in (asset.path, *asset.files)}
-    for target, content in plan:
-        _refuse(target, content, inputs, overwrite)
-    for target, content in plan:
+    plan = _plan(output, out, known.is_folder)
+    _refuse(plan, asset, overwrite)
+    extra = _extra(plan, out, overwrite) if known.is_folder else []
+    for target, content in plan.items():
         _put(target, content, link)
-    return Saved(out, tuple(target for target, _ in plan), output.notes)
+    for path in extra:
+        path.unlink()
+    return Saved(out, tuple(plan), output.notes, output.names)
 
 
-def _plan(output: Output, out: Path) -> list[tuple[Path, bytes | Path]]:
-    beside: dict[str, bytes | Path] = {**output.copies, **output.made}
-    return [*((Path(os.path.normpath(out.parent / name)), c) for name, c in beside.items()), (out, output.main)]
+def _of_memory(mesh: SymbolicMesh) -> Asset:
+    """An asset of the hulls of a mesh that was not read from a file."""
+    bodies = dict.fromkeys(hull.body for hull in mesh.hulls)
+    geoms = tuple(Geom(hull.name, hull.body, hull.shape) for hull in mesh.hulls)
+    return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
 
 
-def _refuse(target: Path, content: bytes | Path, inputs: set[Path], overwrite: bool) -> None:
-    if not target.exists() or _same(target, content):
-        return
-    if target.resolve() in inputs:
-        raise AssetError("this file belongs to the input", where=str(target), remedy="Write to another folder.")
-    if not overwrite:
-        raise AssetError("this file exists already", where=str(target), remedy="Pass overwrite, or write elsewhere.")
+def _plan(output: Output, out: Path, is_folder: bool) -> dict[Path, Content]:
+    """What each file is to hold, the main file last."""
+    folder = out if is_folder else out.parent
+    beside: dict[str, Content] = {**output.copies, **output.made}
+    plan: dict[Path, Content] = {Path(os.path.normpath(folder / name)): content for name, content in beside.items()}
+    if not is_folder:
+        plan.pop(Path(os.path.normpath(out)), None)
+        plan[out] = output.main
+    return plan
 
 
-def _same(target: Path, content: bytes | Path) -> bool:
-    if isinstance(content, Path):
-        return target.samefile(content) or target.read_bytes() == content.read_bytes()
-    return target.read_bytes() == content
+def _refuse(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:
+    """Raise AssetError where a file would be overwritten that must not be."""
+    inputs = {path.resolve() for path in (asset.path, *asset.files)}
+    for target, content in plan.items():
+        if target.is_dir():
+            raise AssetError("there is a folder of this name", where=str(target), remedy="Write elsewhere.")
+        if not target.exists() or same_content(target, content):
+            continue
+        if target.resolve() in inputs:
+            raise AssetError("this file belongs to the input", where=str(target), remedy="Write to another folder.")
+        if not overwrite:
+            raise AssetError(
+                "there is such a file already, with other content",
+                where=str(target),
+                remedy="Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere.",
+            )
 
 
-def _put(target: Path, content: bytes | Path, link: bool) -> None:
-    if target.exists() and _same(target, content):
-        return
-    if isinstance(content, Path):
-        content = content.read_bytes()
-    write_atomically(target, content)
+def _extra(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Path]:
+    """Mesh files in a folder that are not of the asset which is written there; they would count as its hulls."""
+    found = [path for path in FOLDER.mesh_files(out) if path not in plan] if out.is_dir() else []
+    if found and not overwrite:
+        raise AssetError(
+            f"this folder has other mesh files in it, such as {found[0].name}",
+            where=str(out),
+            remedy="Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True).",
+        )
+    return found
+
+
+def _put(target: Path, content: Content, link: bool) -> None:
+    try:
+        if target.exists() and same_content(target, content):
+            return
+        if isinstance(content, bytes):
+            write_atomically(target, content)
+        else:
+            copy_atomically(content, target, link=link)
+    except OSError as error:
+        raise AssetError(f"cannot be written: {error.strerror}", where=str(target)) from error

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile import RawSurface
+from meshforge.formats.meshfile import RawSurface, joined
 from meshforge.geometry import Piece, pieces
 
 MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
@@ -70,9 +68,5 @@ def pieces_of(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
     """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
     if not surfaces:
         return []
-    shared = all(s.vertices is surfaces[0].vertices for s in surfaces)
-    starts = np.cumsum([0, *(0 if shared else len(s.vertices) for s in surfaces)])
-    vertices = surfaces[0].vertices if shared else np.concatenate([s.vertices for s in surfaces])
-    faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
-    groups = np.repeat(np.arange(len(surfaces)), [len(s.faces) for s in surfaces])
-    return pieces(vertices, faces, name=name, groups=groups)
+    soup = joined(surfaces)
+    return pieces(soup.vertices, soup.faces, name=name, groups=soup.group)

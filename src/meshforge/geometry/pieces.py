@@ -81,7 +81,7 @@ class _Reader:
         self.placed = welded_ids(vertices)[faces]  # corners by place
         self.grouped = _in_groups(self.placed, group)  # corners by group and place
         self.indexed = _in_groups(faces, group)  # corners by group and index
-        self.points = np.empty((int(self.placed.max()) + 1, 3))
+        self.points = np.zeros((int(self.placed.max()) + 1, 3))
         self.points[self.placed] = vertices[faces]
 
     def read(self) -> list[_Part]:
@@ -92,13 +92,16 @@ class _Reader:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
         opaque = [part for part in found if part.verdict.shape is None]
         faces = np.sort(np.concatenate([part.faces for part in opaque]))
-        near = nearly_welded(self.points, self.placed[faces], _NEAR * float(np.ptp(self.points, axis=0).max()))
+        near = nearly_welded(self.points, self.placed[faces], _NEAR * self._size())
         if near is None:
             return found
         mended = [self._judged(part, near) for part in _sub(faces, by_vertices(near[self.placed[faces]]))]
         hulls = [part for part in mended if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
+
+    def _size(self) -> float:
+        return float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
 
     def _touching(self, faces: Ints) -> list[_Part]:
         """All that touches: as whole, or group by group."""

@@ -1,5 +1,5 @@
 """Mesh files as triangles: one reader for each kind, which know nothing of hulls."""
 
-from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.formats.meshfile.surface import RawSurface, Soup, checked, joined
 
-__all__ = ["RawSurface", "checked"]
+__all__ = ["RawSurface", "Soup", "checked", "joined"]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.formats.meshfile.surface import RawSurface, Soup, checked
 from meshforge.geometry import Floats, Ints
 
 Group = tuple[str, str]
@@ -32,6 +32,11 @@ class ObjText:
     face_at: Ints
     face_group: Ints
     groups: tuple[Group, ...]
+
+    def soup(self, where: str) -> Soup:
+        """All triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
+        checked([RawSurface(None, self.vertices, self.faces)], where)
+        return Soup(self.vertices, self.faces, self.face_group, tuple(group_names(self.groups)))
 
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
@@ -71,7 +76,7 @@ def group_names(groups: tuple[Group, ...]) -> list[str | None]:
 def parse_obj(data: bytes, where: str) -> ObjText:
     """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
     statements = statements_of(data)
-    words = [s.split(None, 1)[0] if s.strip() else b"" for s in statements]
+    words = [keyword(s) for s in statements]
     vertex_at = np.array([k for k, word in enumerate(words) if word == b"v"], dtype=np.int64)
     vertices = _vertices(statements, vertex_at, where)
     face_at, faces = _faces(statements, words, vertex_at, where)
@@ -94,6 +99,12 @@ def parse_obj(data: bytes, where: str) -> ObjText:
 def line_of(statements: tuple[bytes, ...] | list[bytes], index: int) -> int:
     """The line on which a statement starts, from 1."""
     return 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
+
+
+def keyword(statement: bytes) -> bytes:
+    """The first word of a statement, none where it is empty."""
+    words = statement.split(None, 1)
+    return words[0] if words else b""
 
 
 def arguments(statement: bytes) -> list[bytes]:

@@ -45,3 +45,23 @@ def fans(polygons: Iterable[Sequence[int]]) -> Ints:
     """The triangles (m, 3) of polygons, each cut into a fan about its first corner."""
     triangles = [(p[0], b, c) for p in polygons for b, c in itertools.pairwise(p[1:])]
     return np.array(triangles, dtype=np.int64).reshape(-1, 3)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Soup:
+    """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`."""
+
+    vertices: Floats
+    faces: Ints
+    group: Ints
+    names: tuple[str | None, ...]
+
+
+def joined(surfaces: Sequence[RawSurface]) -> Soup:
+    """Surfaces as one soup, a group each."""
+    shared = all(s.vertices is surfaces[0].vertices for s in surfaces)
+    starts = np.cumsum([0, *(0 if shared else len(s.vertices) for s in surfaces)])
+    vertices = surfaces[0].vertices if shared else np.concatenate([s.vertices for s in surfaces])
+    faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
+    group = np.repeat(np.arange(len(surfaces)), [len(s.faces) for s in surfaces])
+    return Soup(vertices, faces, group, tuple(s.name for s in surfaces))

@@ -1,0 +1,94 @@
+"""A folder of mesh files as one asset: one body, the pieces of all files its hulls, named after the files."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from meshforge.asset import Asset, Body, Document
+from meshforge.errors import AssetError
+from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.folder_tree import Member, Tree
+from meshforge.formats.parts import Part, as_parts, member_names, natural
+from meshforge.formats.plain import BODY, PlainFormat
+from meshforge.geometry import Pose
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FolderDocument(Document):
+    """The files of a folder, in natural order."""
+
+    members: tuple[Member, ...]
+
+
+class Folder(Format):
+    """Folders of plain mesh files; files below them and files of other kinds do not count."""
+
+    name = "folder"
+    suffixes = ()
+    is_folder = True
+
+    def __init__(self, members: Sequence[PlainFormat]) -> None:
+        self.members = tuple(members)
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        files = self.mesh_files(path)
+        if not files:
+            raise AssetError("there is no mesh file in this folder", where=str(path))
+        assets = [self.format_of(file).read(file, options) for file in files]
+        members = [Member(file.name, asset, {}) for file, asset in zip(files, assets, strict=True)]
+        names = member_names([m.file for m in members], [m.document for m in members])
+        members = [replace(m, names=found) for m, found in zip(members, names, strict=True)]
+        pairs = [(member.names, member.asset) for member in members]
+        return Asset(
+            path=path,
+            format=self.name,
+            bodies=(Body(BODY, Pose.identity()),),
+            geoms=tuple(replace(g, name=names[g.name]) for names, asset in pairs for g in asset.geoms),
+            document=FolderDocument(tuple(members)),
+            opaque=tuple(replace(o, name=names[o.name]) for names, asset in pairs for o in asset.opaque),
+            files=tuple(dict.fromkeys(f for asset in assets for f in (asset.path, *asset.files))),
+        )
+
+    def mesh_files(self, folder: Path) -> list[Path]:
+        """The mesh files of a folder, in natural order."""
+        files = [f for f in folder.iterdir() if f.is_file() and not f.name.startswith(".")]
+        return sorted((f for f in files if self._knows(f)), key=lambda f: natural(f.name))
+
+    def _knows(self, path: Path) -> bool:
+        return any(path.suffix.lower() in member.suffixes for member in self.members)
+
+    def format_of(self, path: Path) -> PlainFormat:
+        """The format of a member. Raises StopIteration for a file of another kind."""
+        return next(member for member in self.members if path.suffix.lower() in member.suffixes)
+
+    def write(self, asset: Asset, name: str) -> Output:
+        document = asset.document
+        if not isinstance(document, FolderDocument):
+            raise self._cannot_create(asset)
+        own = {name for member in document.members for name in member.names.values()}
+        kept = {g.name for g in asset.geoms if g.parent is None} & own | {o.name for o in asset.opaque}
+        tree = Tree(self.format_of)
+        for member in document.members:
+            tree.keep(member, kept)
+        suffix = self._usual_suffix(document)
+        parts, notes = as_parts(g for g in asset.geoms if g.name not in kept)
+        for part in parts:
+            tree.add(part, suffix)
+        return tree.output(notes, {g.name for g in asset.geoms})
+
+    def _usual_suffix(self, document: FolderDocument) -> str:
+        """The suffix of most files that can be written, as they write it."""
+        counts = Counter(Path(m.file).suffix for m in document.members if self.format_of(Path(m.file)).writable)
+        return counts.most_common(1)[0][0] if counts else ".obj"
+
+    def create(self, asset: Asset, name: str) -> Output:
+        parts, notes = as_parts(asset.geoms)
+        parts += tuple(Part(o.name, o.surface) for o in asset.opaque if o.surface)
+        unseen = tuple(f"{o.name} is left out: {o.reason}" for o in asset.opaque if not o.surface)
+        tree = Tree(self.format_of)
+        for part in parts:
+            tree.add(part, ".obj")
+        return tree.output((*notes, *unseen), {g.name for g in asset.geoms})

@@ -1,0 +1,59 @@
+"""Reading assets, alone or many, with the labels that lie beside them."""
+
+from __future__ import annotations
+
+import glob
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from meshforge.asset import Asset
+from meshforge.errors import AssetError
+from meshforge.formats.base import ReadOptions
+from meshforge.formats.registry import SUFFIXES, format_of
+from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
+
+
+def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
+    """The asset in a file, or in a folder of mesh files. Raises AssetError."""
+    path = Path(path)
+    return format_of(path).read(path, options or ReadOptions())
+
+
+def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:
+    """The symbolic mesh of a file, with the labels of a labels file; without one, of the file beside it if present.
+
+    Raises AssetError: the asset or the labels cannot be read.
+    """
+    path = Path(path)
+    mesh = SymbolicMesh.of(read(path))
+    beside = Path(labels) if labels is not None else labels_beside(path)
+    if labels is None and not beside.is_file():
+        return mesh
+    return follow_labels(read_labels(beside), mesh).mesh
+
+
+def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicMesh]:
+    """The symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked for.
+
+    Raises AssetError at once where a pattern matches no asset.
+    """
+    several = [patterns] if isinstance(patterns, str | Path) else list(patterns)
+    paths = sorted({path for pattern in several for path in _matches(str(pattern))})
+    return (load(path) for path in paths)
+
+
+def labels_beside(path: Path) -> Path:
+    """Where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder `table`."""
+    stem = path.name if path.is_dir() or path.suffix.lower() not in SUFFIXES else path.stem
+    return path.with_name(f"{stem}.labels.json")
+
+
+def _matches(pattern: str) -> list[Path]:
+    if Path(pattern).exists():
+        return [Path(pattern)]
+    found = [Path(p) for p in glob.glob(pattern, recursive=True)]  # noqa: PTH207  absolute patterns too
+    known = [p for p in found if p.is_file() and p.suffix.lower() in SUFFIXES]
+    if not known:
+        problem = "no file matches" if not found else "none of the files it matches is an asset"
+        raise AssetError(problem, where=pattern, remedy=f"Known suffixes: {', '.join(SUFFIXES)}.")
+    return known

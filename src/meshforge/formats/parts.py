@@ -1,0 +1,124 @@
+"""Names of pieces, shapes as triangles to write, and what a written file reads back as."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.asset import Document, Geom, Surface, unique_names
+from meshforge.errors import AssetError
+from meshforge.geometry import Box, Ints, Piece, Polytope
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlainDocument(Document):
+    """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
+
+    groups: how many groups of the file have faces.
+    """
+
+    data: bytes
+    names: tuple[str, ...]
+    owner: Ints
+    groups: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Part:
+    """Triangles to be written under a name."""
+
+    name: str
+    surface: Surface
+
+
+def piece_names(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
+    """A unique name for each piece: its group's, `geomK` where that has none, with `#k` where it has several pieces."""
+    unnamed = {k: f"geom{n}" for n, k in enumerate(k for k, name in enumerate(groups) if not name)}
+    several = Counter(piece.group for piece in pieces)
+    seen: Counter[int] = Counter()
+    names = []
+    for piece in pieces:
+        name = groups[piece.group] or unnamed[piece.group]
+        names.append(f"{name}#{seen[piece.group]}" if several[piece.group] > 1 else name)
+        seen[piece.group] += 1
+    return unique_names(names)
+
+
+def member_names(files: Sequence[str], documents: Sequence[PlainDocument]) -> list[dict[str, str]]:
+    """For each file of a folder, the name in the folder of each of its pieces.
+
+    That is the file's stem where it has one piece, else the stem and the number of the piece, or the stem and the
+    piece's own name where the file has several groups.
+    """
+    stems = unique_names(Path(file).stem for file in files)
+    found = []
+    for stem, document in zip(stems, documents, strict=True):
+        names = document.names
+        if len(names) == 1:
+            found.append([stem])
+        elif document.groups > 1:
+            found.append([f"{stem}/{name}" for name in names])
+        else:
+            found.append([f"{stem}#{k}" for k in range(len(names))])
+    unique = iter(unique_names(name for names in found for name in names))
+    return [{piece: next(unique) for piece in document.names} for document in documents]
+
+
+def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
+    """A key that sorts names as people do: `2` before `10`."""
+    words = re.findall(r"\d+|\D+", name)
+    return (*((not word.isdigit(), int(word) if word.isdigit() else 0, word) for word in words),)
+
+
+def as_parts(geoms: Iterable[Geom]) -> tuple[tuple[Part, ...], tuple[str, ...]]:
+    """Geoms as triangles, and notes on those that lose by it."""
+    parts, round_ones = [], Counter[str]()
+    for geom in geoms:
+        shape = geom.shape.tessellated()
+        parts.append(Part(geom.name, Surface(shape.vertices, shape.faces)))
+        if not isinstance(geom.shape, Polytope | Box):
+            round_ones[geom.shape.kind] += 1
+    notes = tuple(
+        f"{count} {kind}{'s' * (count > 1)} written as hull meshes: mesh files have no primitives"
+        for kind, count in sorted(round_ones.items())
+    )
+    return tuple(parts), notes
+
+
+def read_back(
+    names: Sequence[str], owner: Ints, wanted: Sequence[str], hulls: Collection[str], found: Collection[str], where: str
+) -> dict[str, str]:
+    """The hulls that read back under another name, with that name.
+
+    names, owner (m,): the pieces of the written file and whose each triangle is; wanted (m,): whose it should be;
+    hulls: those of `wanted` that are hulls; found: the pieces that read back as hulls.
+    Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as something else.
+    """
+    if len(owner) != len(wanted):
+        raise AssetError("the written file would lose triangles", where=where)
+    back: dict[str, set[int]] = {}
+    for name, piece in zip(wanted, owner.tolist(), strict=True):
+        back.setdefault(name, set()).add(piece)
+    shared = Counter(piece for pieces in back.values() for piece in pieces)
+    for name in hulls:
+        held = back.get(name, set())
+        if len(held) != 1 or any(shared[k] > 1 or names[k] not in found for k in held):
+            raise AssetError(
+                f"the hull {name} cannot be told apart from others in this file",
+                where=where,
+                remedy="Write an OBJ, which has groups, or a folder of files.",
+            )
+    read = {name: names[min(back[name])] for name in back if name in hulls}
+    return {name: now for name, now in read.items() if now != name}
+
+
+def renaming(names: Mapping[str, str]) -> tuple[str, ...]:
+    """A note on hulls that the file holds under other names."""
+    if not names:
+        return ()
+    shown = ", ".join(f"{old} is now {new}" for old, new in list(names.items())[:3])
+    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
+    return (f"this format has no names for hulls, they are counted anew: {shown}{more}",)

@@ -1,0 +1,152 @@
+"""What the plain mesh formats have in common: a file is one body, its convex pieces are the hulls.
+
+A writer hands over the new file and whose each triangle should be; reading the file back tells whether it holds
+that, and under which names.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.asset import Asset, Body, Geom, Opaque, Surface
+from meshforge.errors import AssetError, GeometryError
+from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.companions import companions
+from meshforge.formats.meshfile import Soup
+from meshforge.formats.parts import Part, PlainDocument, as_parts, piece_names, read_back, renaming
+from meshforge.formats.triangles import contents
+from meshforge.geometry import Piece, Pose, pieces
+
+BODY = "body"
+"""The name of the one body of a plain mesh file."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Edit:
+    """What is to become of a file: pieces that go, parts that come behind the others.
+
+    explicit: every piece that stays is to be named in the file, as far as the format can, lest names change.
+    """
+
+    document: PlainDocument
+    path: Path
+    gone: frozenset[str]
+    parts: tuple[Part, ...]
+    explicit: bool = False
+
+    @property
+    def stays(self) -> npt.NDArray[np.bool_]:
+        """Whether each triangle (m,) stays."""
+        kept = np.array([name not in self.gone for name in self.document.names], dtype=bool)
+        return kept[self.document.owner]
+
+    @property
+    def owners(self) -> list[str]:
+        """Whose each triangle of the edited file should be."""
+        kept = [self.document.names[k] for k in self.document.owner[self.stays]]
+        return kept + owners(self.parts)
+
+
+def owners(parts: Sequence[Part]) -> list[str]:
+    """Whose each triangle of a file of these parts should be."""
+    return [part.name for part in parts for _ in part.surface.faces]
+
+
+class PlainFormat(Format):
+    """A format of mesh files without structure; writable: whether it can hold an edit."""
+
+    writable: ClassVar[bool] = True
+
+    @abstractmethod
+    def soup(self, data: bytes, path: Path) -> Soup:
+        """The triangles in the bytes of a file. Raises AssetError."""
+
+    @abstractmethod
+    def edited(self, edit: Edit) -> bytes:
+        """The bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
+
+    @abstractmethod
+    def made(self, parts: Sequence[Part]) -> bytes:
+        """The bytes of a new file of these parts."""
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        document, found = self.taken_apart(contents(path), path)
+        named = list(zip(document.names, found, strict=True))
+        return Asset(
+            path=path,
+            format=self.name,
+            bodies=(Body(BODY, Pose.identity()),),
+            geoms=tuple(Geom(name, BODY, piece.shape) for name, piece in named if piece.shape),
+            document=document,
+            opaque=tuple(
+                Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces))
+                for name, piece in named
+                if not piece.shape
+            ),
+            files=tuple(dict.fromkeys(companions(path).values())),
+        )
+
+    def taken_apart(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
+        """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
+        soup = self.soup(data, path)
+        try:
+            found = pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
+        except GeometryError as error:
+            raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
+        owner = np.zeros(len(soup.faces), dtype=np.int64)
+        for k, piece in enumerate(found):
+            owner[piece.face_indices] = k
+        groups = len(np.unique(soup.group))
+        return PlainDocument(data, tuple(piece_names(found, soup.names)), owner, groups), found
+
+    def write(self, asset: Asset, name: str) -> Output:
+        document = asset.document
+        if not isinstance(document, PlainDocument):
+            raise self._cannot_create(asset)
+        opaque = {piece.name for piece in asset.opaque}
+        kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
+        gone = frozenset(n for n in document.names if n not in kept and n not in opaque)
+        new = [geom for geom in asset.geoms if geom.name not in kept]
+        beside = companions(asset.path)
+        if not gone and not new:
+            return Output(document.data, copies=beside)
+        parts, notes = as_parts(new)
+        data, names = self._settled(Edit(document, asset.path, gone, parts), kept | {p.name for p in parts})
+        return Output(data, copies=beside, notes=(*notes, *renaming(names)), names=names)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        parts, notes = as_parts(asset.geoms)
+        hulls = {part.name for part in parts}
+        parts += tuple(Part(o.name, o.surface) for o in asset.opaque if o.surface)
+        unseen = tuple(f"{o.name} is left out: {o.reason}" for o in asset.opaque if not o.surface)
+        if not parts:
+            raise AssetError("there is no hull to write", where=str(asset.path))
+        data = self.made(parts)
+        names = self._checked(data, Path(name), owners(parts), hulls, asset.path)
+        return Output(data, notes=(*notes, *unseen, *renaming(names)), names=names)
+
+    def _settled(self, edit: Edit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
+        """The edited file, and the names that read back otherwise; with explicit names where that mends them."""
+        if not edit.owners:
+            raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
+        data = self.edited(edit)
+        names = self._checked(data, edit.path, edit.owners, hulls, edit.path)
+        if names:
+            data = self.edited(replace(edit, explicit=True))
+            names = self._checked(data, edit.path, edit.owners, hulls, edit.path)
+        return data, names
+
+    def _checked(
+        self, data: bytes, path: Path, wanted: Sequence[str], hulls: Collection[str], where: Path
+    ) -> dict[str, str]:
+        """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
+        document, found = self.taken_apart(data, path)
+        back = {name for name, piece in zip(document.names, found, strict=True) if piece.shape}
+        return read_back(document.names, document.owner, wanted, hulls, back, str(where))

@@ -1,0 +1,99 @@
+"""PLY: the pieces of the one surface are the hulls, counted in file order; other properties are kept."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.meshfile import Soup, joined
+from meshforge.formats.meshfile.ply import INDICES, PlyText, Rows, parse_ply
+from meshforge.formats.parts import Part
+from meshforge.formats.plain import Edit, PlainFormat
+from meshforge.formats.ply_rows import ended, made_row, renumbered
+from meshforge.geometry import Floats, Ints
+
+_HEADER = """ply
+format binary_little_endian 1.0
+comment made by MeshForge
+element vertex {}
+property double x
+property double y
+property double z
+element face {}
+property list uchar int vertex_indices
+end_header
+"""
+
+
+class Ply(PlainFormat):
+    """PLY files; new ones are binary, in double precision."""
+
+    name = "ply"
+    suffixes = (".ply",)
+
+    def soup(self, data: bytes, path: Path) -> Soup:
+        return joined(parse_ply(data, str(path)).surfaces(str(path)))
+
+    def edited(self, edit: Edit) -> bytes:
+        return _Editor(parse_ply(edit.document.data, str(edit.path)), edit).written()
+
+    def made(self, parts: Sequence[Part]) -> bytes:
+        vertices, faces = _stacked(parts, 0)
+        rows = np.zeros(len(faces), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
+        rows["count"], rows["corners"] = 3, faces
+        head = _HEADER.format(len(vertices), len(faces)).encode()
+        return head + vertices.astype("<f8").tobytes() + rows.tobytes()
+
+
+def _stacked(parts: Sequence[Part], start: int) -> tuple[Floats, Ints]:
+    """All vertices (n, 3) of parts and their faces (m, 3), numbered from `start`."""
+    vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)]
+    for part in parts:
+        faces.append(part.surface.faces + start)
+        vertices.append(part.surface.vertices + 0.0)
+        start += len(part.surface.vertices)
+    return np.concatenate(vertices), np.concatenate(faces)
+
+
+class _Editor:
+    """Writes the rows of a file that stay, with new vertex numbers, and rows for the parts."""
+
+    def __init__(self, text: PlyText, edit: Edit) -> None:
+        self.text = text
+        self.edit = edit
+        others = [r.element.name for r in text.rows if r.element.name not in ("vertex", "face") and r.element.rows]
+        if others:
+            problem = f"it has rows of {others[0]}, which may count on vertices that the edit moves"
+            raise AssetError(problem, where=str(edit.path), remedy="Convert it to OBJ first.")
+        self.kept = np.ones(len(text.vertices), dtype=bool)
+        self.kept[np.unique(text.faces[~edit.stays])] = False
+        self.kept[np.unique(text.faces[edit.stays])] = True
+        self.number = np.cumsum(self.kept) - 1
+        self.gone = set(text.face_at[~edit.stays].tolist())
+        self.vertices, self.faces = _stacked(edit.parts, int(self.kept.sum()))
+
+    def written(self) -> bytes:
+        head = self.edit.document.data[: self.text.header.size]
+        body = b""
+        for rows in self.text.rows:
+            written = list(self._rows(rows))
+            count = b"element %s %d" % (rows.element.name.encode(), len(written))
+            head = re.sub(rb"(?m)^element\s+%s\s+\d+" % rows.element.name.encode(), count, head, count=1)
+            body += b"".join(written)
+        return head + body
+
+    def _rows(self, rows: Rows) -> Iterator[bytes]:
+        data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
+        cut = [data[start:stop] for start, stop in rows.spans.tolist()]
+        if rows.element.name == "vertex":
+            yield from (ended(row, order) for row, keep in zip(cut, self.kept.tolist(), strict=True) if keep)
+            yield from (made_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
+        elif rows.element.name == "face":
+            yield from (
+                renumbered(row, properties, order, self.number) for k, row in enumerate(cut) if k not in self.gone
+            )
+            yield from (made_row(dict.fromkeys(INDICES, face), properties, order) for face in self.faces.tolist())
