@@ -4,12 +4,13 @@ from meshforge.formats.base import Format, Output, ReadOptions
 from meshforge.formats.loading import labels_beside, load, load_many, read
 from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.placing import placed
-from meshforge.formats.registry import FORMATS, SUFFIXES, format_of
+from meshforge.formats.registry import FORMATS, MESH_SUFFIXES, SUFFIXES, format_of
 from meshforge.formats.saving import Saved, save
 from meshforge.formats.triangles import pieces_of, read_triangles
 
 __all__ = [
     "FORMATS",
+    "MESH_SUFFIXES",
     "SUFFIXES",
     "Format",
     "Output",

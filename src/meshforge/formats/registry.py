@@ -19,6 +19,8 @@ FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
 FORMATS: tuple[Format, ...] = (UrdfFormat(), *FOLDER.members, FOLDER)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
+MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
+"""Those of plain mesh files, which may be parts of other assets, or pieces of a folder."""
 
 
 def format_of(path: Path) -> Format:
