@@ -18,7 +18,7 @@ def explain(node: Rule | Orient | Extractor) -> str:
     match node:
         case Rule(extractor, action, label):
             given = f"; what is made is labelled {_word(label)}" if label is not None else ""
-            sentence = f"{_deed(action, explain(extractor))}{given}."
+            sentence = f"{_deed(action, _subject(extractor))}{given}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
             return _turn(node)
@@ -34,6 +34,11 @@ def explain(node: Rule | Orient | Extractor) -> str:
             return f"{_operand(left)}, except {_operand(right, left)}"
         case _:
             assert_never(node)
+
+
+def _subject(extractor: Extractor) -> str:
+    """The phrase before a verb: an insertion is closed by a comma."""
+    return explain(extractor) + "," * isinstance(extractor, Intersect | Diff)
 
 
 def _that(part: Attach | Geo) -> str:
@@ -80,7 +85,7 @@ def _turn(orient: Orient) -> str:
 def _deed(action: Action, hulls: str) -> str:
     """What an action does to `hulls`; a sentence without its end."""
     if isinstance(action, Each):
-        return f"each connected group of {hulls} is {_done(action.action, 'its')}"
+        return f"each connected group of {hulls.removeprefix('the ')} is {_done(action.action, 'its')}"
     parts = ", one for each body" if action.by_body else ""
     return f"{hulls} are {_done(action, 'their')}{parts}"
 

@@ -1,18 +1,20 @@
 """Pictures of symbolic meshes for labelling, reports and terminals: rays and arithmetic, no display needed."""
 
 from meshforge.views.camera import VIEWS, Up, View
-from meshforge.views.coloring import COLOR_BY, ColorBy, label_colors
+from meshforge.views.coloring import COLOR_BY, UNSURE, ColorBy, label_colors
 from meshforge.views.compare import before_after, compare, difference, joint_bounds
 from meshforge.views.encode import png, webp, write_png
-from meshforge.views.palette import LABEL_COLORS, UNLABELLED, label_color
+from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, UNLABELLED, label_color
 from meshforge.views.picture import render
 from meshforge.views.sheet import sheet
 from meshforge.views.visibility import id_buffer, visible_hulls
 
 __all__ = [
     "COLOR_BY",
+    "DIFFERENCE_COLORS",
     "LABEL_COLORS",
     "UNLABELLED",
+    "UNSURE",
     "VIEWS",
     "ColorBy",
     "Up",

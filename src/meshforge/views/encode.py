@@ -23,7 +23,7 @@ def png(image: Image) -> bytes:
 def webp(image: Image, quality: int = 82) -> bytes:
     """The picture as a small WebP file, transparency kept."""
     stream = BytesIO()
-    image.save(stream, "WEBP", quality=quality, alpha_quality=90, method=4)
+    image.save(stream, "WEBP", quality=quality, alpha_quality=90, method=2)
     return stream.getvalue()
 
 

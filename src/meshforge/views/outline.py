@@ -7,25 +7,26 @@ import numpy.typing as npt
 
 from meshforge.geometry import Ints
 from meshforge.views.scene import Scene
+from meshforge.views.stage import Hits
 
 Lines = npt.NDArray[np.uint8]
 CREASE, BORDER, SILHOUETTE = 1, 2, 3
 _SHARP = np.cos(np.radians(24.0))  # edges flatter than this are left out: they are tessellation, not form
 
 
-def lines(scene: Scene, triangle: Ints, item: Ints, width: int) -> Lines:
-    """The strongest line through each pixel (h, w), 0 where there is none, drawn `width` pixels wide.
-
-    triangle, item: (h, w), what each pixel shows, -1 for nothing.
-    """
+def lines(hits: Hits, width: int) -> Lines:
+    """The strongest line through each pixel (h, w), 0 where there is none, drawn `width` pixels wide."""
+    whole = np.zeros(hits.item.shape, np.uint8)
+    triangle, item = hits.triangle[hits.window], hits.item[hits.window]
     found = np.zeros(item.shape, np.uint8)
     for axis in (0, 1):
         a, b = along(axis)
-        steps = _steps(scene, triangle[a], triangle[b], item[a], item[b])
+        steps = _steps(hits.scene, triangle[a], triangle[b], item[a], item[b])
         np.maximum(found[a], steps, out=found[a])
         if width > 1:
             np.maximum(found[b], steps, out=found[b])
-    return _widened(found, width - 2)
+    whole[hits.window] = _widened(found, width - 2)
+    return whole
 
 
 def along(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, slice]]:

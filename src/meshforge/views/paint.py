@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from meshforge.geometry import Ints
 from meshforge.views.camera import Camera, Singles
 from meshforge.views.corners import sky
+from meshforge.views.film import Film, Painted, spots
 from meshforge.views.ground import ground_shadow
 from meshforge.views.light import lit
 from meshforge.views.outline import Lines, lines
@@ -24,14 +24,6 @@ _SAME_DEPTH = 5e-4  # shells this little behind a solid thing count as before it
 _SHADE = 0.36  # how dark the ground is where it sees no sky
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Painted:
-    """A drawing: pixels (h, w, 4), premultiplied, in 0..1; items (h, w), the solid things seen, -1 for none."""
-
-    pixels: Singles
-    items: Ints
-
-
 def paint(layers: Sequence[Layer], stage: Stage, camera: Camera, fine: int) -> Painted:
     """The drawing, of the camera's size, from `fine` times as many rays along each side.
 
@@ -39,27 +31,25 @@ def paint(layers: Sequence[Layer], stage: Stage, camera: Camera, fine: int) -> P
     """
     close = camera.finer(fine)
     solid = cast(layers[0], stage, close)
-    rgb = np.zeros((*solid.item.shape, 3), np.float32)
-    alpha = ground_shadow(solid.scene, stage, close) * np.float32(_SHADE)
+    film = Film(ground_shadow(solid.scene, stage, close) * np.float32(_SHADE))
     width = max(2, round(1.1 * fine * min(unit(camera.size), 2.0)))
-    _draw_solid(rgb, alpha, layers[0], solid, stage, close)
-    _ink(rgb, alpha, lines(solid.scene, solid.triangle, solid.item, width))
+    _draw_solid(film, layers[0], solid, stage, close)
+    _ink(film, lines(solid, width))
     for layer in layers[1:]:
         hits = cast(layer, stage, close)
         share = _shares(layer, hits, solid, close)
-        _draw_shell(rgb, alpha, layer, hits, share, stage, close)
-        _ink_shell(rgb, alpha, layer, hits, np.where(_beyond(layer, solid), 0.7, 1.6 * share).clip(0, 1), width)
-    return Painted(_reduced(rgb, alpha, fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
+        _draw_shell(film, layer, hits, share, stage, close)
+        _ink_shell(film, layer, hits, np.where(_beyond(layer, solid), 0.7, 1.6 * share).clip(0, 1), width)
+    return Painted(film.reduced(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
 
 
-def _draw_solid(rgb: Singles, alpha: Singles, layer: Layer, hits: Hits, stage: Stage, camera: Camera) -> None:
-    rows, columns = np.nonzero(hits.item >= 0)
+def _draw_solid(film: Film, layer: Layer, hits: Hits, stage: Stage, camera: Camera) -> None:
+    rows, columns = spots(hits.item >= 0)
     color = _surface(layer, hits, stage, camera, rows, columns)
     openness = sky(hits, camera, rows, columns)
     color *= (1 - _CORNER * (1 - openness))[:, None]
     color += (1 - color) * (0.55 * _hatching(layer, hits)[rows, columns])[:, None]
-    rgb[rows, columns] = color
-    alpha[rows, columns] = 1.0
+    film.over(rows, columns, color)
 
 
 def _surface(layer: Layer, hits: Hits, stage: Stage, camera: Camera, rows: Ints, columns: Ints) -> Singles:
@@ -80,7 +70,7 @@ def _shares(layer: Layer, hits: Hits, solid: Hits, camera: Camera) -> Singles:
     """How much of a shell each pixel (h, w) shows."""
     share = np.zeros(hits.item.shape, np.float32)
     share[hits.item >= 0] = layer.before
-    rows, columns = np.nonzero((hits.item >= 0) & (solid.item >= 0))
+    rows, columns = spots((hits.item >= 0) & (solid.item >= 0))
     farther = hits.depth(camera, rows, columns) > solid.depth(camera, rows, columns) + _SAME_DEPTH
     share[rows[farther], columns[farther]] = layer.behind
     share[_hatching(layer, hits)] *= 0.45
@@ -103,37 +93,21 @@ def _hatching(layer: Layer, hits: Hits) -> Any:
     return gap & np.isin(hits.item, sorted(layer.hatched))
 
 
-def _draw_shell(
-    rgb: Singles, alpha: Singles, layer: Layer, hits: Hits, share: Singles, stage: Stage, camera: Camera
-) -> None:
-    rows, columns = np.nonzero(share > 0)
+def _draw_shell(film: Film, layer: Layer, hits: Hits, share: Singles, stage: Stage, camera: Camera) -> None:
+    rows, columns = spots(share > 0)
     color = _surface(layer, hits, stage, camera, rows, columns)
-    _over(rgb, alpha, rows, columns, color, share[rows, columns])
+    film.over(rows, columns, color, share[rows, columns])
 
 
-def _ink(rgb: Singles, alpha: Singles, drawn: Lines) -> None:
+def _ink(film: Film, drawn: Lines) -> None:
     """Lays dark lines over the picture."""
-    rows, columns = np.nonzero(drawn)
-    _over(rgb, alpha, rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
+    rows, columns = spots(drawn)
+    film.over(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
 
 
-def _ink_shell(rgb: Singles, alpha: Singles, layer: Layer, hits: Hits, share: Singles, width: int) -> None:
+def _ink_shell(film: Film, layer: Layer, hits: Hits, share: Singles, width: int) -> None:
     """Lays the lines of a shell over the picture, in its own darkened colours, as strong as `share` (h, w)."""
-    drawn = lines(hits.scene, hits.triangle, hits.item, width)
-    rows, columns = np.nonzero((drawn > 0) & (hits.item >= 0))
+    drawn = lines(hits, width)
+    rows, columns = spots((drawn > 0) & (hits.item >= 0))
     color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
-    _over(rgb, alpha, rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])
-
-
-def _over(rgb: Singles, alpha: Singles, rows: Ints, columns: Ints, color: Singles, share: Singles) -> None:
-    """Colours (n, 3) over premultiplied pixels."""
-    keep = 1 - share
-    rgb[rows, columns] = rgb[rows, columns] * keep[:, None] + color * share[:, None]
-    alpha[rows, columns] = alpha[rows, columns] * keep + share
-
-
-def _reduced(rgb: Singles, alpha: Singles, fine: int) -> Singles:
-    """The mean (h, w, 4) of each block of pixels, premultiplied."""
-    whole = np.concatenate([rgb, alpha[..., None]], axis=2)
-    total = sum(whole[r::fine, c::fine] for r in range(fine) for c in range(fine))
-    return np.asarray(total / np.float32(fine * fine))
+    film.over(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])

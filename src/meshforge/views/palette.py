@@ -17,6 +17,8 @@ LABEL_COLORS = (
 farthest from those before it, as seen by normal, deuteranopic and protanopic eyes, grey kept free."""
 UNLABELLED = "#B4B9C0"
 REMOVED, MADE, KEPT = "#D5401A", "#0FA47A", "#C9CED6"
+DIFFERENCE_COLORS = {"removed": REMOVED, "made": MADE, "kept": KEPT}
+"""Of the hulls in a picture of differences."""
 SELECTED, PALE = "#E8760A", "#D9DDE3"
 CONFIDENCE = ("#C4472B", "#EFA94A", "#EFE3A0", "#7FB7C9", "#2B6CA3")
 """From no confidence to full: red to blue, light in the middle, told apart by every eye."""

@@ -12,6 +12,8 @@ from meshforge.views.camera import Camera, Up
 from meshforge.views.roundness import Skin
 from meshforge.views.scene import Scene, build, rays
 
+_BORDER = 8  # pixels about what can be seen, so that its outline has room
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Layer:
@@ -63,11 +65,12 @@ def upright(up: Up) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hits:
-    """What the pixels of a picture show: triangle and item (h, w), -1 for nothing."""
+    """What the pixels of a picture show: triangle and item (h, w), -1 for nothing; nothing outside the window."""
 
     scene: Scene
     triangle: Ints
     item: Ints
+    window: tuple[slice, slice]
 
     def points(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
         """Where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
@@ -86,19 +89,20 @@ def cast(layer: Layer, stage: Stage, camera: Camera) -> Hits:
     width, height = camera.size
     triangle = np.full((height, width), -1, np.int64)
     if len(scene.corners) == 0:
-        return Hits(scene, triangle, triangle.copy())
+        return Hits(scene, triangle, triangle.copy(), (slice(0, 0), slice(0, 0)))
     start = float((scene.corners @ camera.axes[2]).max()) + 0.1
     x, y = _window(scene, camera)
     origins, directions = rays(camera, np.arange(x.start, x.stop), np.arange(y.start, y.stop), start)
     seen = scene.embree.run(origins, directions, query="INTERSECT")
     triangle[y, x] = seen.reshape(y.stop - y.start, x.stop - x.start)
-    item = np.append(scene.item, -1).astype(np.int64)[triangle]
-    return Hits(scene, triangle, item)
+    item = np.full(triangle.shape, -1, np.int64)
+    item[y, x] = np.append(scene.item, -1)[triangle[y, x]]
+    return Hits(scene, triangle, item, (y, x))
 
 
 def _window(scene: Scene, camera: Camera) -> tuple[slice, slice]:
     """The columns and rows that the scene can be seen in."""
     points = camera.pixels(scene.corners.reshape(-1, 3))
-    low = np.clip(np.floor(points.min(axis=0)).astype(int) - 1, 0, camera.size)
-    high = np.clip(np.ceil(points.max(axis=0)).astype(int) + 2, low, camera.size)
+    low = np.clip(np.floor(points.min(axis=0)).astype(int) - _BORDER, 0, camera.size)
+    high = np.clip(np.ceil(points.max(axis=0)).astype(int) + 1 + _BORDER, low, camera.size)
     return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))

@@ -12,7 +12,8 @@ from meshforge.geometry import Aabb, Floats
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.views.camera import Up, View, look
 from meshforge.views.coloring import Coloring
-from meshforge.views.paint import Painted, paint
+from meshforge.views.film import Painted
+from meshforge.views.paint import paint
 from meshforge.views.palette import UNLABELLED, rgb
 from meshforge.views.roundness import Skin, skin
 from meshforge.views.stage import Layer, Stage, upright

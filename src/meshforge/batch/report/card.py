@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from meshforge.batch.report.asset import ReportAsset
+from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
 from meshforge.batch.report.pictures import SIZE, Pictures
 from meshforge.batch.report.words import change, counted
@@ -13,8 +14,8 @@ from meshforge.language import Program, RuleTrace, show
 _NAMES = 60  # of hulls in one cell of the table; the rest is counted
 
 
-def card(asset: ReportAsset, program: Program, pictures: Pictures | None) -> Node:
-    """The article about one asset."""
+def card(asset: ReportAsset, program: Program, pictures: Pictures | None, colors: Mapping[str, str]) -> Node:
+    """The article about one asset; colors: of the labels."""
     marks = "demonstrated" if asset.demonstrated else ""
     return tag(
         "article",
@@ -22,7 +23,7 @@ def card(asset: ReportAsset, program: Program, pictures: Pictures | None) -> Nod
         _stage(asset, pictures) if pictures else None,
         tag("p", asset.error, class_="error") if asset.error else None,
         *(tag("p", note, class_="note") for note in asset.notes),
-        _details(asset, program),
+        _details(asset, program, colors),
         class_="asset",
         data_name=asset.name.lower(),
         data_kind=f"{asset.status} {marks}".strip(),
@@ -74,19 +75,20 @@ def _image(source: str, text: str, kind: str) -> Node:
     return tag("img", src=source, alt=text, width=width, height=height, class_=kind, loading="lazy")
 
 
-def _details(asset: ReportAsset, program: Program) -> Child:
+def _details(asset: ReportAsset, program: Program, colors: Mapping[str, str]) -> Child:
     if not asset.trace:
         return None
     head = tag("tr", *(tag("th", name, scope="col") for name in ("", "rule", "selected", "made")))
-    rows = [_row(trace, program) for trace in asset.trace]
+    rows = [_row(trace, program, colors) for trace in asset.trace]
     active = sum(bool(t.selected) for t in asset.trace)
     summary = tag("summary", f"{active} of {counted(len(asset.trace), 'rule')} selected something")
     return tag("details", summary, tag("table", tag("thead", head), tag("tbody", *rows)))
 
 
-def _row(trace: RuleTrace, program: Program) -> Node:
+def _row(trace: RuleTrace, program: Program, colors: Mapping[str, str]) -> Node:
     rule = program.rules[trace.rule - 1] if trace.rule <= len(program.rules) else None
-    text = tag("td", tag("code", show(rule)) if rule else None, tag("p", trace.note) if trace.note else None)
+    code = tag("code", *colored(show(rule), colors)) if rule else None
+    text = tag("td", code, tag("p", trace.note) if trace.note and trace.selected else None)
     return tag(
         "tr",
         tag("th", str(trace.rule), scope="row"),
@@ -100,6 +102,6 @@ def _row(trace: RuleTrace, program: Program) -> Node:
 def _names(names: Sequence[str]) -> list[Child]:
     """The count, and the names behind it."""
     if not names:
-        return ["none"]
+        return ["–"]
     listed = ", ".join(names[:_NAMES]) + (f" and {len(names) - _NAMES} more" if len(names) > _NAMES else "")
     return [tag("b", str(len(names))), " ", tag("span", listed)]

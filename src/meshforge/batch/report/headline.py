@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from meshforge.batch.report.asset import ReportAsset, Status
 from meshforge.batch.report.html import Node, tag
 from meshforge.batch.report.words import change, duration
+from meshforge.views import DIFFERENCE_COLORS, UNSURE
 
 STATUSES: tuple[Status, ...] = ("edited", "unchanged", "skipped", "failed")
 
@@ -40,7 +41,22 @@ def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled:
     entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items()]
     if before[None] or after[None]:
         entries.append(_entry("no label", unlabelled, before[None], after[None]))
+    meshes = [m for a in assets for m in (a.before, a.after) if m]
+    if any(h.confidence is not None and h.confidence < UNSURE for m in meshes for h in m.hulls):
+        entries.append(tag("li", tag("span", "hatched: an unsure label")))
     return tag("ul", *entries, class_="legend")
+
+
+def legend_of_changes(assets: Sequence[ReportAsset]) -> Node:
+    """What the colours of the pictures of changes mean, and how many hulls are of each kind."""
+    pairs = [(a.before, a.after) for a in assets if a.before and a.after]
+    gone = sum(h.name not in after.index for before, after in pairs for h in before.hulls)
+    made = sum(h.name not in before.index for before, after in pairs for h in after.hulls)
+    kept = sum(h.name in before.index for before, after in pairs for h in after.hulls)
+    rows = [
+        _entry(word, DIFFERENCE_COLORS[word], n, n) for word, n in (("removed", gone), ("made", made), ("kept", kept))
+    ]
+    return tag("ul", *rows, class_="legend of-changes")
 
 
 def _entry(name: str, color: str, before: int, after: int) -> Node:

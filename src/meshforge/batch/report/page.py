@@ -8,7 +8,7 @@ from pathlib import Path
 
 from meshforge.batch.report.asset import ReportAsset
 from meshforge.batch.report.card import card
-from meshforge.batch.report.headline import headline, legend
+from meshforge.batch.report.headline import headline, legend, legend_of_changes
 from meshforge.batch.report.html import Node, document, tag
 from meshforge.batch.report.pictures import pictures
 from meshforge.batch.report.program_panel import program_panel
@@ -44,7 +44,7 @@ def write_report(
     chosen = _pictured(assets, pictured)
     cards = []
     for k, asset in enumerate(assets):
-        cards.append(card(asset, program, pictures(asset, vocabulary, up) if k in chosen else None))
+        cards.append(card(asset, program, pictures(asset, vocabulary, up) if k in chosen else None, colors))
         if progress:
             progress()
     main = tag(
@@ -55,6 +55,7 @@ def write_report(
             "section",
             tag("h2", "Assets"),
             legend(assets, colors, UNLABELLED),
+            legend_of_changes(assets),
             tools(assets),
             tag("div", *cards, class_="grid"),
         ),

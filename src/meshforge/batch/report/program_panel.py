@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from meshforge.batch.report.asset import ReportAsset
+from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
 from meshforge.batch.report.words import counted
-from meshforge.language import ACTIONS, OPERATORS, Program, explain, show, show_label
-
-_TOKEN = re.compile(
-    r'(?P<text>"(?:[^"\\]|\\.)*")|(?P<direction>[+-][XYZ]\b)|(?P<number>\d[\d.eE+-]*)|(?P<word>[^\W\d]\w*)|=>|->'
-)
-_KEYWORDS = frozenset({"labels", "orient", "contact", "extremity", "snap", "as"})
+from meshforge.language import Program, explain, show, show_label
 
 
 def program_panel(program: Program, assets: Sequence[ReportAsset], colors: Mapping[str, str]) -> Node:
@@ -29,30 +24,6 @@ def program_panel(program: Program, assets: Sequence[ReportAsset], colors: Mappi
             tag("tr", tag("th", str(number), scope="row"), body, tag("td", *_did(number, assets), class_="did"))
         )
     return tag("section", tag("h2", "Program"), tag("table", *rows, class_="program"), id_="program")
-
-
-def colored(text: str, colors: Mapping[str, str]) -> Iterator[Child]:
-    """Program text, each token in an element of its kind; labels are underlined in their colours."""
-    written = {show_label(label): color for label, color in colors.items()}
-    done = 0
-    for match in _TOKEN.finditer(text):
-        yield text[done : match.start()]
-        token, done = match.group(), match.end()
-        if token in written:
-            yield tag("span", token, class_="label", style=f"--c:{written[token]}")
-        else:
-            yield tag("span", token, class_=_kind(match, token))
-    yield text[done:]
-
-
-def _kind(match: re.Match[str], token: str) -> str:
-    if token in OPERATORS:
-        return "operator"
-    if token in ACTIONS:
-        return "action"
-    if token in _KEYWORDS or match.lastgroup is None:
-        return "keyword"
-    return match.lastgroup
 
 
 def _header(program: Program) -> Iterator[tuple[str, str | None]]:
