@@ -10,7 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from meshforge.batch.correction import Correction
-from meshforge.batch.folder import MESH_SUFFIXES
+from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
 
@@ -60,7 +60,8 @@ def source_files(path: Path) -> list[Path]:
     """The main file of an asset, or the mesh files of a folder of pieces."""
     if not path.is_dir():
         return [path]
-    return sorted(file for file in path.iterdir() if file.suffix.lower() in MESH_SUFFIXES)
+    files = (file for file in path.iterdir() if not file.name.startswith("."))
+    return sorted(file for file in files if file.suffix.lower() in MESH_SUFFIXES)
 
 
 def software() -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.asset import Asset
@@ -41,15 +41,16 @@ def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
 
 
 def written(plan: Draft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], *, link: bool) -> Draft:
-    """The output, with the labels of the edited mesh beside it.
+    """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
     saved = save(mesh, main, link=link)
-    _check_back(main, mesh)
-    if mesh.labels:
-        write_labels(labels_beside(main), mesh, vocabulary)
+    written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
+    _check_back(main, written)
+    if written.labels:
+        write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
     return Draft(plan.folder, plan.main, digests, saved.notes)

@@ -26,7 +26,6 @@ from meshforge.formats import read
 from meshforge.language import RunResult
 from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
 
-
 _NAMED = 5  # so many hulls are named in a note
 
 

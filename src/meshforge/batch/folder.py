@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.errors import MeshForgeError
-from meshforge.formats import SUFFIXES, read
+from meshforge.formats import MESH_SUFFIXES, SUFFIXES, read
 
 STATE = ".meshforge"
 """The folder in an output of `apply` or in a project that holds what MeshForge needs to know about it."""
@@ -14,8 +14,6 @@ SETTINGS = "meshforge.toml"
 """The file that makes a folder a project."""
 OWN_FOLDERS = ("templates", "labels", "demonstrations", "corrections", "prepared", "edited")
 """The folders of a project that hold no assets of the user."""
-MESH_SUFFIXES = (".obj", ".stl", ".ply", ".wrl")
-"""Files that hold geometry only, so that other files may be made of them."""
 
 
 def assets_in(folder: Path) -> list[Path]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from meshforge.batch.digests import file_digest
 from meshforge.batch.draft import Draft
 from meshforge.batch.edit import Worked
+from meshforge.batch.folder import STATE
 from meshforge.batch.outcome import Edited, Failed, Outcome, Unchanged
 from meshforge.batch.stamp import Inputs, Stamp, all_stamps, read_stamp
 
@@ -24,6 +25,8 @@ class Ledger:
         self._pending = set(pending)
         self._files: dict[str, dict[str, str]] = {}  # digests by file name, of each asset
         self._writers: dict[str, dict[str, None]] = {}  # the assets that wrote each file
+        for draft in (out / STATE).rglob("*.tmp"):  # of a killed run; the caller holds the lock, so nobody writes it
+            draft.unlink()
         for stamp in all_stamps(out):
             self._record(stamp.asset, stamp.outputs)
 

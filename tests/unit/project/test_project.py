@@ -153,7 +153,7 @@ def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
         with pytest.raises(ProjectError):
             project.set_labels(FIRST, labels)
     assert not (project.folder / "labels").exists()
-    with pytest.raises(ProjectError, match="Did you mean 'table0/model.obj'"):
+    with pytest.raises(ProjectError, match=r"Did you mean 'table0/model\.obj'"):
         project.set_labels("table0/modl.obj", {})
 
 
@@ -269,10 +269,10 @@ def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> 
     project = labelled(tmp_path)
     write_table(project.folder / "templates/knob.obj")
     assert len(project.templates(["knob.obj"])["knob.obj"].shapes) == 6
-    with pytest.raises(ProgramError, match='"bar.obj" is not there'):
+    with pytest.raises(ProgramError, match=r'"bar\.obj" is not there'):
         project.templates(["bar.obj"])
     (project.folder / "templates/bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
-    with pytest.raises(ProgramError, match='"bar.obj" is not convex'):
+    with pytest.raises(ProgramError, match=r'"bar\.obj" is not convex'):
         project.templates(["bar.obj"])
 
 

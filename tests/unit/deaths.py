@@ -1,0 +1,52 @@
+"""Dying in the midst of work: a forked process that ends, as if killed, just before its k-th rename."""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
+
+
+def deaths(work: Callable[[], object]) -> Iterator[int]:
+    """Do the work again and again in a process that dies before its first rename, its second, and so on.
+
+    Gives the number of renames after each death; ends when the work came to its end.
+    """
+    rename = 0
+    while not _survives(work, rename):
+        yield rename
+        rename += 1
+
+
+def _survives(work: Callable[[], object], rename: int) -> bool:
+    child = os.fork()
+    if child == 0:
+        _work_and_die(work, rename)
+    _, status = os.waitpid(child, 0)
+    code = os.waitstatus_to_exitcode(status)
+    assert code in (0, 9), f"the work failed with exit code {code}"
+    return code == 0
+
+
+def _work_and_die(work: Callable[[], object], renames: int) -> None:
+    real, done = Path.replace, 0
+
+    def replace(self: Path, target: Path) -> Path:
+        nonlocal done
+        if done == renames:
+            os._exit(9)  # nothing is flushed, no `finally` runs, as under SIGKILL
+        done += 1
+        return real(self, target)
+
+    Path.replace = replace  # type: ignore[method-assign, assignment]
+    try:
+        work()
+    except BaseException:
+        traceback.print_exc()
+        os._exit(1)
+    os._exit(0)

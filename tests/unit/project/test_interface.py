@@ -1,0 +1,79 @@
+"""The Python interface: quick to import, complete, and it runs as its page says."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import meshforge as mf
+from tests.unit.batch.families import write_urdf_table
+
+HEAVY = (
+    "numpy",
+    "scipy",
+    "trimesh",
+    "coal",
+    "manifold3d",
+    "lxml",
+    "lark",
+    "pydantic",
+    "pebble",
+    "mujoco",
+    "PIL",
+    "rich",
+)
+
+
+def test_importing_it_loads_nothing_heavy() -> None:
+    code = f"import sys, meshforge; print([name for name in {HEAVY} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_every_name_it_offers_is_there() -> None:
+    for name in mf.__all__:
+        assert getattr(mf, name).__name__ == name
+    assert set(mf.__all__) <= set(dir(mf))
+
+
+def test_a_name_it_does_not_offer_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        mf.nothing  # noqa: B018
+
+
+def test_the_whole_loop_in_python(tmp_path: Path) -> None:
+    path = write_urdf_table(tmp_path / "assets" / "one")
+    write_urdf_table(tmp_path / "assets" / "two")
+
+    table = mf.load(path, labels=path.with_suffix(".labels.json"))
+    family = list(mf.load_many(str(tmp_path / "assets/**/*.urdf")))
+    assert len(family) == 2
+    hull = table.hulls[0]
+    assert (hull.name, hull.label, hull.body) == ("body/top", "top", "body")
+    assert hull.vertices.shape == (8, 3) and hull.faces.shape == (12, 3)
+    assert hull.aabb.size.tolist() == pytest.approx([2, 1, 0.1])
+    assert hull.volume == pytest.approx(0.2) and hull.primitive is not None
+    assert table.contacts == {(0, 1), (0, 2)} and table.neighbours(0) == {1, 2}
+
+    text = "labels top, leg, misc\n\nIs(misc) => Delete\n"
+    program = mf.Program.parse(text)
+    assert str(program) == text
+    assert program.rules[0].extractor.select(table) == {3}
+    result = program.run(table, templates={})
+    assert [(t.rule, t.selected, t.made) for t in result.trace] == [(1, ("body/crumb",), ())]
+    mf.save(result.mesh, tmp_path / "out/table.urdf")
+    assert [h.name for h in mf.load(tmp_path / "out/table.urdf").hulls] == ["body/top", "body/left", "body/right"]
+
+    demos = [mf.Demonstration(table, [mf.Step(rule=1, select={"body/crumb"}, action=mf.Delete())])]
+    learned = mf.synthesize(demos, batch=family, orient=None, confirm=lambda _: False)
+    assert learned.status == "found" and learned.program
+    assert str(learned.program.rules[0]) == "Is(misc) => Delete"
+    assert (len(learned.readings), learned.repairs, learned.question) == (1, (), None)
+
+
+def test_errors_are_one_family_and_name_the_file(tmp_path: Path) -> None:
+    with pytest.raises(mf.MeshForgeError, match=r"absent\.urdf"):
+        mf.load(tmp_path / "absent.urdf")

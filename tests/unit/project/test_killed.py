@@ -1,0 +1,70 @@
+"""A change to a project that is killed has happened whole, or not at all."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.language import Delete, Merge, Program
+from meshforge.project import Project
+from meshforge.synthesis import Step
+from tests.unit.batch.families import tree
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.project.tables import FIRST, applied, fresh
+
+CHANGES: dict[str, Callable[[Project], object]] = {
+    "vocabulary": lambda p: p.set_vocabulary(["top", "leg", "misc", "more"]),
+    "labels": lambda p: p.set_labels(FIRST, {"crumb": "leg"}),
+    "demonstration": lambda p: p.demonstrate(FIRST, [Step(1, {"crumb"}, Delete())]),
+    "correction": lambda p: p.correct(FIRST, ["top"], Delete()),
+    "review": lambda p: p.review(FIRST, "accepted"),
+    "program": lambda p: p.accept(Program.parse("labels top\nAll => Merge\n")),
+}
+
+
+def kept(project: Project) -> dict[str, bytes]:
+    """The files of a project, drafts of killed writers aside."""
+    return {name: data for name, data in tree(project.folder).items() if not name.endswith(".tmp")}
+
+
+@needs_fork
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_killed_change_has_happened_or_not(tmp_path: Path, name: str) -> None:
+    project = applied(tmp_path)
+    before = kept(project)
+    died = 0
+    for renames in deaths(lambda: CHANGES[name](project)):
+        died += 1
+        after = kept(project)
+        changed = {path for path in before | after if before.get(path) != after.get(path)}
+        assert changed <= {"program.previous.mf"} if renames else not changed
+    assert died
+    assert kept(project) != before
+
+
+def test_writers_at_one_time_lose_nothing(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(["top", "leg"])
+    names = [hull.name for hull in project.mesh(FIRST).hulls]
+    threads = [
+        threading.Thread(target=lambda name=name: Project.open(project.folder).set_labels(FIRST, {name: "leg"}))
+        for name in names
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert {hull.name: hull.label for hull in project.mesh(FIRST).hulls} == dict.fromkeys(names, "leg")
+
+
+def test_edits_by_hand_at_one_time_are_all_kept(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    threads = [threading.Thread(target=lambda: project.correct(FIRST, ["top"], Merge())) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(project.corrections(FIRST)) == 3
