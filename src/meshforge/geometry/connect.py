@@ -73,6 +73,23 @@ def closed_components(corners: Ints, component: Ints) -> Ints:
     return np.flatnonzero(closed)
 
 
+def closed_runs(corners: Ints) -> Ints:
+    """The run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of them.
+
+    Programs write solid by solid, so this tells solids apart that share places in a file without groups.
+    """
+    edges, _ = _edges(corners)
+    ids, first = row_ids(*edges.T)
+    marks = np.random.default_rng(0).integers(1, 2**63, len(first), dtype=np.uint64)
+    marks[edges[first, 0] == edges[first, 1]] = 0
+    of_edge = marks[ids].reshape(3, -1)
+    open_edges = np.bitwise_xor.accumulate(of_edge[0] ^ of_edge[1] ^ of_edge[2])
+    ends = (open_edges == 0) & (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    run = np.concatenate([[0], np.cumsum(ends)[:-1]])
+    last = max(int(ends.sum()) - int(open_edges[-1] == 0), 0)
+    return np.asarray(np.minimum(run, last), dtype=np.int64)
+
+
 def is_simple(corners: Ints) -> bool:
     """Whether no edge has more than two triangles."""
     edges, _ = _edges(corners)

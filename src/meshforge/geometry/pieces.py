@@ -16,6 +16,7 @@ from meshforge.geometry.connect import (
     by_edges,
     by_vertices,
     closed_components,
+    closed_runs,
     distinct_faces,
     is_simple,
     nearly_welded,
@@ -118,29 +119,42 @@ class _Reader:
         if not closed.all():
             parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
         if len(parts) == 1:
-            return self._edges(faces)
-        return self._better([p for part in parts for p in self._edges(part)], faces)
+            return self._surface(faces)
+        return self._better([p for part in parts for p in self._surface(part)], faces)
 
-    def _edges(self, faces: Ints) -> list[_Part]:
-        """One surface: as whole, or by the solids that meet in its edges and corners."""
+    def _surface(self, faces: Ints) -> list[_Part]:
+        """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
         whole = self._judged(faces)
+        if whole.verdict.shape is not None and is_simple(self.placed[faces]):
+            return [whole]
+        runs = _sub(faces, closed_runs(self.placed[faces]))
+        solids = [self._solids(run) for run in runs] if len(runs) > 1 else []
+        if solids and all(solids):
+            return _without_backs([part for run in solids for part in run])
+        return self._solids(faces, whole) or [whole]
+
+    def _solids(self, faces: Ints, whole: _Part | None = None) -> list[_Part]:
+        """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
+        whole = whole or self._judged(faces)
         corners = self.placed[faces]
         if whole.verdict.shape is not None and is_simple(corners):
             return [whole]
         proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
         inward = volume_and_centroid(self.points, corners)[0] < 0
         component = by_edges(self.points, corners[proper], inward)
-        if component.max(initial=0) == 0:
-            return [whole]
-        if len(closed_components(corners[proper], component)) <= component.max():
-            return [whole]
         parts = self._with_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
-        solids = []
+        closed = len(closed_components(corners[proper], component)) == len(parts) > 1
+        solids = self._all_hulls(parts) if closed else []
+        return _without_backs(solids) or ([whole] if whole.verdict.shape else [])
+
+    def _all_hulls(self, parts: list[Ints]) -> list[_Part]:
+        """The parts judged, none where one of them is no hull."""
+        judged = []
         for part in parts:
-            solids.append(self._judged(part))
-            if solids[-1].verdict.shape is None:
-                return [whole]
-        return _without_backs(solids)
+            judged.append(self._judged(part))
+            if judged[-1].verdict.shape is None:
+                return []
+        return judged
 
     def _with_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
         """The parts, each with the faces without area that lie at one of its corners."""
