@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, assert_never
+from typing import Any, Literal, assert_never
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,10 @@ class Failed:
 Outcome = Edited | Unchanged | Failed | Skipped
 
 
-def status(outcome: Outcome) -> str:
+Word = Literal["edited", "unchanged", "failed", "skipped"]
+
+
+def status(outcome: Outcome) -> Word:
     """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
     match outcome:
         case Edited():

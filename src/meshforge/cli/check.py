@@ -33,10 +33,11 @@ def check(
     from meshforge.formats import load
 
     failed = False
-    for path in expand(assets):
+    found = expand(assets)
+    for path in found:
         error, findings = None, ()
         try:
-            findings = findings_of(load(path, labels=labels_for(path, labels)), engine)
+            findings = findings_of(load(path, labels=labels_for(path, labels, found.base)), engine)
         except MeshForgeError as problem:
             error = problem.message
         failed |= error is not None or any(f.severity == "error" for f in findings)

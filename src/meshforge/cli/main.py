@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -42,9 +43,14 @@ def application() -> typer.Typer:
     )
     for name in COMMANDS:
         command: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
-        app.command(name)(command)
+        app.command(name, short_help=_clause(command.__doc__ or ""))(command)
     app.callback()(_version_option)
     return app
+
+
+def _clause(doc: str) -> str:
+    """The first clause of a docstring, which fits one line of the list of commands."""
+    return re.split(r"[;:.]", doc.strip(), maxsplit=1)[0]
 
 
 def _version_option(

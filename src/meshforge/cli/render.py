@@ -40,7 +40,7 @@ def render(
         views=_views(views),
         color_by=color_by or ("label" if mesh.labels else "hull"),
         size=_pixels(size),
-        ghost=visuals or None,
+        ghost=tuple(visuals) or None,
         labels=names,
     )
     write_png(out, image)

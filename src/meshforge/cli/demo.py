@@ -1,0 +1,129 @@
+"""`meshforge demo`: the whole loop on the bundled family of tables."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from meshforge.batch import Outcome
+    from meshforge.batch.report import ReportAsset
+    from meshforge.language import Program
+    from meshforge.project import Project
+
+OURS = ".meshforge-demo"
+"""The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
+
+
+def demo(
+    out: Annotated[Path, typer.Option("-o", "--out", help="Folder to make.")] = Path("meshforge-demo"),
+    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")] = None,
+) -> None:
+    """The whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report."""
+    from time import perf_counter
+
+    from meshforge.batch.report import write_report
+    from meshforge.cli.output import progress, remark
+
+    project = _begun(out)
+    shown = project.demonstrations()
+    _say(f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}")
+    _say(f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}")
+    lesson = project.synthesize()
+    program = project.program()
+    if program is None:  # the bundled demonstrations always have a program; a changed install might not
+        remark("no program was found; see: meshforge synthesize " + str(project.folder))
+        raise typer.Exit(1)
+    _say(f"From these two, MeshForge learned a program in {sum(lesson.seconds.values()):.2f} s:\n")
+    typer.echo("".join(f"    {line}\n" for line in str(program).splitlines()))
+    started = perf_counter()
+    with progress(len(project.assets()), "editing") as advance:
+        outcomes = list(project.apply(workers=workers, progress=advance))
+    seconds = perf_counter() - started
+    assets = _compared(project, program, outcomes)
+    with progress(len(assets), "drawing") as advance:
+        report = out / "report.html"
+        about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
+        write_report(
+            report, title="Tables", program=program, assets=assets, seconds=seconds, about=about, progress=advance
+        )
+    _told(assets, seconds, project, report)
+    raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
+
+
+def _begun(out: Path) -> Project:
+    """A fresh project of the bundled tables below `out`, labelled and demonstrated."""
+    from meshforge.errors import UsageError
+    from meshforge.project import Project
+    from meshforge.samples import TABLES
+
+    if out.exists() and any(out.iterdir()) and not (out / OURS).exists():
+        raise UsageError("this folder holds something else", where=str(out), remedy="Choose another: demo --out DIR")
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    (out / OURS).touch()
+    (out / "assets").mkdir()
+    for source in sorted(TABLES.glob("table_*")):
+        shutil.copyfile(source, out / "assets" / source.name)
+    pattern, orient = out / "assets" / "*.obj", "+Z: Is(leg) -> Is(panel)"
+    words = ("panel", "leg", "handle", "drawer", "misc")
+    project = Project.create(out / "project", [pattern], name="tables", vocabulary=words, orient=orient)
+    shutil.copytree(TABLES / "templates", project.folder / "templates")
+    shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
+    project.label_from_files()
+    return project
+
+
+def _compared(project: Project, program: Program, outcomes: Sequence[Outcome]) -> list[ReportAsset]:
+    """Each table before and after, standing upright."""
+    from meshforge.batch import Failed, status
+    from meshforge.batch.report import ReportAsset
+    from meshforge.formats import load
+    from meshforge.language import RuleTrace, stage
+
+    shown, assets = project.demonstrations(), []
+    for outcome in outcomes:
+        before, name = project.mesh(outcome.asset), outcome.asset
+        if isinstance(outcome, Failed):
+            assets.append(ReportAsset(name, before, status="failed", error=outcome.error, demonstrated=name in shown))
+            continue
+        upright, pose = stage(before, program.orient, program.contact)
+        after = load(outcome.out)
+        standing = replace(after, hulls=tuple(hull.moved(pose) for hull in after.hulls))
+        trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
+        assets.append(
+            ReportAsset(
+                name, upright, standing, trace, status(outcome), demonstrated=name in shown, notes=outcome.notes
+            )
+        )
+    return assets
+
+
+def _told(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
+    from meshforge.checks import check
+
+    edited = [asset for asset in assets if asset.after and asset.counts]
+    before, after = (sum(asset.counts[k] for asset in edited if asset.counts) for k in (0, 1))
+    wrong = sum(any(f.severity == "error" for f in check(asset.after)) for asset in edited if asset.after)
+    legal = "every hull legal" if not wrong else f"{wrong} with illegal hulls"
+    _say(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
+    if len(edited) < len(assets):
+        _say(f"{len(assets) - len(edited)} failed; the report says why.")
+    _say(f"Edited tables, each in the file format it came in: {_short(project.folder / 'edited')}")
+    _say(f"Before, after, and what each rule did: {_short(report)}")
+    _say(f"Look around: meshforge status {_short(project.folder)}")
+
+
+def _short(path: Path) -> Path:
+    """A path as a person here would type it."""
+    path, here = path.absolute(), Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def _say(text: str) -> None:
+    typer.echo(text)
