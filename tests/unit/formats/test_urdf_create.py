@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from meshforge.asset import Asset, Body, Document, Geom, Opaque, Surface
+from meshforge.formats.base import Output
 from meshforge.formats.urdf import UrdfFormat
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
@@ -22,10 +23,10 @@ def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaqu
     return Asset(Path("x.foo"), "foo", tuple(Body(n, p) for n, p in bodies.items()), made, Document(), opaque)
 
 
-def created(asset: Asset, tmp_path: Path) -> tuple[Asset, Path, tuple[str, ...]]:
+def created(asset: Asset, tmp_path: Path) -> tuple[Asset, Path, Output]:
     output = UrdfFormat().create(asset, "new.urdf")
     path = put(output, tmp_path / "new.urdf")
-    return read(path), path, output.notes
+    return read(path), path, output
 
 
 CART = foreign(
@@ -41,7 +42,7 @@ CART = foreign(
 
 
 def test_bodies_hulls_and_names_come_back(tmp_path: Path) -> None:
-    again, _, notes = created(CART, tmp_path)
+    again, _, output = created(CART, tmp_path)
     assert [b.name for b in again.bodies] == [b.name for b in CART.bodies]
     assert [g.name for g in again.geoms] == [g.name for g in CART.geoms]
     for name, pose in CART.body_poses.items():
@@ -52,8 +53,8 @@ def test_bodies_hulls_and_names_come_back(tmp_path: Path) -> None:
         assert new.shape.kind == shape.kind
         np.testing.assert_allclose(new.shape.aabb.min, shape.aabb.min, atol=1e-12)
         np.testing.assert_allclose(new.shape.aabb.max, shape.aabb.max, atol=1e-12)
-    assert [n for n in notes if "URDF has no capsule: 'lid/rod'" in n]
-    assert [n for n in notes if "masses, joints and visuals are not carried over" in n]
+    assert [n for n in output.notes if "URDF has no capsule: 'lid/rod'" in n]
+    assert [n for n in output.notes if "masses, joints and visuals are not carried over" in n]
 
 
 def test_all_engines_load_it(tmp_path: Path) -> None:
@@ -66,9 +67,10 @@ def test_all_engines_load_it(tmp_path: Path) -> None:
 
 def test_a_plain_mesh_becomes_one_link(tmp_path: Path) -> None:
     plain = foreign({"body": Pose.identity()}, [("part 1", "body", BLOCK), ("part#2", "body", BLOCK.tessellated())])
-    again, path, _ = created(plain, tmp_path)
+    again, path, output = created(plain, tmp_path)
     assert [b.name for b in again.bodies] == ["body"]
     assert [g.name for g in again.geoms] == ["body/part 1", "body/part#2"]
+    assert output.names == {"part 1": "body/part 1", "part#2": "body/part#2"}
     assert (tmp_path / "new--part_2.obj").is_file()
     assert b"<joint" not in path.read_bytes()
 
@@ -85,10 +87,10 @@ def test_opaque_pieces_are_meshes_as_they_are_unless_they_are_flat(flat: bool, t
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0 if flat else 1]], dtype=float)
     surface = Surface(points, np.array([[0, 2, 1], [0, 1, 3]]))
     opaque = [Opaque("lid/open", "lid", "open", surface), Opaque("lid/floor", "lid", "a plane has no end")]
-    again, _, notes = created(foreign({"lid": Pose.identity()}, [("lid/a", "lid", BLOCK)], *opaque), tmp_path)
+    again, _, output = created(foreign({"lid": Pose.identity()}, [("lid/a", "lid", BLOCK)], *opaque), tmp_path)
     assert [o.name for o in again.opaque] == ([] if flat else ["lid/open"])
-    assert "opaque 'lid/floor' is left out: a plane has no end" in notes
-    assert [n for n in notes if "'lid/open'" in n] == [
+    assert "opaque 'lid/floor' is left out: a plane has no end" in output.notes
+    assert [n for n in output.notes if "'lid/open'" in n] == [
         "opaque 'lid/open' is left out: open"
         if flat
         else "opaque 'lid/open' is written as a mesh, of which engines take the convex hull"

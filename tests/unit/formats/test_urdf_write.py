@@ -188,6 +188,19 @@ def test_opaque_pieces_stay_and_go_only_when_they_are_replaced(tmp_path: Path) -
     assert "meshes/corner.obj" not in write(prepared).copies
 
 
+def test_a_flat_piece_that_stays_behind_alone_is_noted(tmp_path: Path) -> None:
+    path = sample(tmp_path, robot(link('<mesh filename="meshes/three.obj"/>')))
+    flat = "v 5 0 2\nv 6 0 2\nv 5 1 2\nf 25 26 27\n"
+    (tmp_path / "meshes" / "three.obj").write_text(THREE + flat)
+    asset = read(path)
+    assert write(asset).notes == ()
+    edited = without(asset, "a/geom0#0")
+    expected = "flat piece 'a/geom0#3' stays, now in a file of its own, which MuJoCo refuses"
+    assert write(edited).notes == (expected,)
+    again = rewritten(edited, tmp_path)
+    assert [o.name for o in again.opaque] == ["a/geom0#3"]
+
+
 def test_repeated_names_stay_what_they_were_read_as(tmp_path: Path) -> None:
     ball = '<collision name="x"><geometry><sphere radius="1"/></geometry></collision>'
     three = '<collision name="x"><geometry><mesh filename="meshes/three.obj"/></geometry></collision>'

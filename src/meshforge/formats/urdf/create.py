@@ -12,9 +12,10 @@ from meshforge.formats.base import Output
 from meshforge.formats.urdf.elements import fresh, mesh_tag, origin_tag
 from meshforge.formats.urdf.hull_files import HullFiles
 from meshforge.formats.urdf.made import Maker
+from meshforge.formats.urdf.shapes import is_flat
 from meshforge.formats.urdf.slots import Slot, settle
 from meshforge.formats.urdf.splice import escaped
-from meshforge.geometry import FLATNESS, Floats, Pose, principal_extents
+from meshforge.geometry import Pose
 
 _LEAD = b"    "
 _UNKNOWN = (
@@ -36,29 +37,24 @@ def create_urdf(asset: Asset, name: str) -> Output:
         slots[geom.body].append(maker.slot(geom, asset.body_poses[geom.body], None, _LEAD))
     for opaque in asset.opaque:
         slots[opaque.body] += _opaque(opaque, asset.body_poses[opaque.body], maker)
-    lost = settle([slot for own in slots.values() for slot in own])
+    names = settle([slot for own in slots.values() for slot in own])
     root, joints = _joints(asset.bodies)
     links = [_link(link, slots.get(link, [])) for link in (slots if root in slots else [root, *slots])]
     head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escaped(stem)]
-    notes = [*maker.notes, *(f"{name!r} reads back under another name" for name in lost), _UNKNOWN]
-    return Output(b"\n".join([*head, *links, *joints, b"</robot>", b""]), dict(maker.files.made), notes=tuple(notes))
+    main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
+    return Output(main, dict(maker.files.made), notes=(*maker.notes, _UNKNOWN), names=names)
 
 
 def _opaque(opaque: Opaque, root_t_link: Pose, maker: Maker) -> list[Slot]:
     """The element of an opaque piece; none, with a note, where it has no surface, or a flat one that engines refuse."""
     surface = opaque.surface
-    if surface is None or not len(surface.faces) or _is_flat(surface.vertices):
+    if surface is None or not len(surface.faces) or is_flat(surface.vertices):
         maker.notes.append(f"opaque {opaque.name!r} is left out: {opaque.reason}")
         return []
     vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
     tag = mesh_tag(maker.files.add(opaque.name, "", vertices, surface.faces))
     maker.notes.append(f"opaque {opaque.name!r} is written as a mesh, of which engines take the convex hull")
     return [Slot(opaque.body, (opaque.name,), text=fresh(Pose.identity(), tag, _LEAD, b"\n"))]
-
-
-def _is_flat(vertices: Floats) -> bool:
-    extents = principal_extents(vertices)[2]
-    return bool(extents.min() <= FLATNESS * extents.max())
 
 
 def _joints(bodies: Sequence[Body]) -> tuple[str, list[bytes]]:

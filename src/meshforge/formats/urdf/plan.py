@@ -13,7 +13,7 @@ from meshforge.formats.urdf.elements import refiled
 from meshforge.formats.urdf.hull_files import folder_of
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.robot import collisions
-from meshforge.formats.urdf.shapes import geometry_of
+from meshforge.formats.urdf.shapes import geometry_of, is_flat
 from meshforge.formats.urdf.slots import Slot
 from meshforge.formats.urdf.splice import indent
 from meshforge.formats.urdf.tree import Element
@@ -69,6 +69,8 @@ class Plan:
         reference = mesh.attributes["filename"]
         piece = self._pieces_in(reference)[k]
         made = self.maker.files.add(name, folder_of(reference), piece.vertices, piece.faces)
+        if piece.shape is None and is_flat(piece.vertices):
+            self.maker.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
         edits = refiled(self.maker.data, element, made)
         return Slot(link, (name,), element.attributes.get("name"), element, edits)
 

@@ -11,7 +11,19 @@ from meshforge.asset import Surface
 from meshforge.errors import AssetError
 from meshforge.formats.urdf.numbers import floats, shown
 from meshforge.formats.urdf.tree import Element
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Piece, Pose, Shape, Sphere
+from meshforge.geometry import (
+    FLATNESS,
+    Box,
+    Capsule,
+    Cylinder,
+    Floats,
+    Ints,
+    Piece,
+    Pose,
+    Shape,
+    Sphere,
+    principal_extents,
+)
 
 KINDS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
 """The elements of a `<geometry>` that engines know."""
@@ -89,3 +101,9 @@ def mesh_parts(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[
 def placed(vertices: Floats, faces: Ints, linear: Floats, offset: Floats) -> Surface:
     """A surface under x -> linear @ x + offset; a reflection turns its faces round."""
     return Surface(vertices @ linear.T + offset, faces if np.linalg.det(linear) > 0 else faces[:, ::-1])
+
+
+def is_flat(vertices: Floats) -> bool:
+    """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
+    extents = principal_extents(vertices)[2]
+    return bool(extents.min() <= FLATNESS * extents.max())

@@ -46,20 +46,22 @@ class Slot:
         return without_comments(text) if self.copy else text
 
 
-def settle(slots: Sequence[Slot]) -> list[str]:
+def settle(slots: Sequence[Slot]) -> dict[str, str]:
     """Name the elements, given in the order of the output, that would else read back under other names.
 
-    Returns the names that cannot be had all the same: where an author gave an element the name of another's piece.
+    Returns the names that cannot be had all the same, with what they read back as: a hull of a format whose names do
+    not begin with the body, or an element that its author called like a piece of another.
     """
     for _ in range(4):
-        for slot in _misread(slots):
+        for slot, _names in _misread(slots):
             slot.name = _attribute_for(slot)
-    return [name for slot in _misread(slots) for name in slot.names]
+    return {wanted: name for slot, names in _misread(slots) for wanted, name in zip(slot.names, names, strict=True)}
 
 
-def _misread(slots: Sequence[Slot]) -> list[Slot]:
+def _misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
+    """The elements that read back under other names, with these."""
     read = piece_names([(slot.link, slot.name, len(slot.names)) for slot in slots])
-    return [slot for slot, names in zip(slots, read, strict=True) if names != slot.names]
+    return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
 
 
 def _attribute_for(slot: Slot) -> str:

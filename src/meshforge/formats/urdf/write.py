@@ -34,12 +34,11 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     files.avoid(references(robot))
     maker = Maker(text.data, newline(text.data), files, _mesh_folder(robot))
     plan = Plan(asset, document, robot, maker)
-    lost = settle(plan.slots)
+    names = settle(plan.slots)
     data = spliced(text.data, _splices(plan))
     main = document.source if data == text.data else text.encoded(data)
     copies, far = _copies(robot_of(data, str(asset.path)), document.resolver, set(files.made))
-    notes = [*maker.notes, *(f"{name!r} reads back under another name" for name in lost), *far]
-    return Output(main, dict(files.made), copies, tuple(notes))
+    return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
 def _mesh_folder(robot: Element) -> str:
