@@ -1,0 +1,45 @@
+"""Small surfaces for tests: boxes and what is done to them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from meshforge.geometry import Floats, Ints
+
+Soup = tuple[Floats, Ints]
+
+CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+TRIANGLES = np.array([t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))], dtype=np.int64)
+
+
+def box(low: Sequence[float] = (0, 0, 0), size: Sequence[float] = (1, 1, 1)) -> Soup:
+    """A closed box from its low corner, wound outwards: 8 vertices, 12 triangles, two a side in a row."""
+    return np.asarray(low, dtype=float) + CORNERS * np.asarray(size, dtype=float), TRIANGLES.copy()
+
+
+def together(*soups: Soup) -> Soup:
+    """Soups as one, vertices of each their own."""
+    starts = np.cumsum([0, *(len(v) for v, _ in soups)])
+    faces = [f + start for (_, f), start in zip(soups, starts, strict=False)]
+    return np.concatenate([v for v, _ in soups]), np.concatenate(faces)
+
+
+def unindexed(soup: Soup) -> Soup:
+    """The same triangles, each with corners of its own, as an STL has them."""
+    vertices, faces = soup
+    return vertices[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
+
+
+def welded(soup: Soup) -> Soup:
+    """The same triangles with one vertex for each place."""
+    vertices, faces = soup
+    places, number = np.unique(vertices, axis=0, return_inverse=True)
+    return places, number.reshape(-1)[faces]
+
+
+def turned(soup: Soup) -> Soup:
+    """The same triangles wound the other way."""
+    return soup[0], soup[1][:, ::-1].copy()
