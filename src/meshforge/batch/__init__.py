@@ -18,6 +18,7 @@ from meshforge.batch.job import AssetJob, Mass, Task, jobs, labels_for
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
 from meshforge.batch.pool import Lost, isolated
+from meshforge.batch.report import ReportAsset, write_report
 from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
 
@@ -35,6 +36,7 @@ __all__ = [
     "Lost",
     "Mass",
     "Outcome",
+    "ReportAsset",
     "RuleLine",
     "Skipped",
     "Stamp",
@@ -64,4 +66,5 @@ __all__ = [
     "status",
     "template_folders",
     "text_digest",
+    "write_report",
 ]

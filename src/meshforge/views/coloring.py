@@ -14,6 +14,7 @@ from meshforge.views.palette import (
     PALE,
     SELECTED,
     UNLABELLED,
+    apart,
     candidates,
     confidence_color,
     label_color,
@@ -122,6 +123,6 @@ def _apart(mesh: SymbolicMesh, known: Mapping[str, Floats]) -> Floats:
             pick = int(np.argmax((np.minimum(near / _NEIGHBOUR, 0.06) + nearest) * _WORTH**uses))
             chosen[k] = pool[pick]
             uses[pick] += 1
-        gap_to[k] = np.linalg.norm(seen - perceived(chosen[k : k + 1]), axis=2).min(axis=0)
+        gap_to[k] = apart(seen, perceived(chosen[k : k + 1]))
         nearest = np.minimum(nearest, gap_to[k])
     return chosen

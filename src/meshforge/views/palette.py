@@ -53,13 +53,21 @@ def perceived(colors: Floats) -> Floats:
     return np.array([np.cbrt(s @ _TO_CONES.T) @ _TO_LAB.T for s in seen])
 
 
+def apart(seen: Floats, other: Floats) -> Floats:
+    """How different perceived colours (3, n, 3) are from one other (3, 1, 3): for most eyes, and for the worst."""
+    gaps = np.linalg.norm(seen - other, axis=2)
+    difference: Floats = 0.5 * gaps[0] + 0.5 * gaps.min(axis=0)
+    return difference
+
+
 @cache
 def candidates() -> tuple[Floats, Floats]:
-    """Friendly colours of even strength (n, 3) that hulls are given, and how they are perceived (3, n, 3)."""
-    lightness, chroma, hue = np.meshgrid([0.68, 0.77, 0.86], [0.07, 0.12], np.arange(30) * (np.pi / 15))
+    """Friendly colours of even strength (n, 3), a blue first, that hulls are given; and how each is perceived."""
+    lightness, chroma, hue = np.meshgrid([0.68, 0.77, 0.86], [0.07, 0.12], 4.4 + np.arange(30) * (np.pi / 15))
     lab = np.stack([lightness, chroma * np.cos(hue), chroma * np.sin(hue)], axis=-1).reshape(-1, 3)
     linear = (lab @ np.linalg.inv(_TO_LAB).T) ** 3 @ np.linalg.inv(_TO_CONES).T
-    muddy = ((hue > 0.8) & (hue < 2.3) & (lightness < 0.75)).ravel()  # dark yellows
+    angle = hue % (2 * np.pi)
+    muddy = ((angle > 0.8) & (angle < 2.3) & (lightness < 0.75)).ravel()  # dark yellows
     linear = linear[((linear >= 0) & (linear <= 1)).all(axis=1) & ~muddy]
     colors = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055)
     return colors, perceived(colors)

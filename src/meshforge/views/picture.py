@@ -100,8 +100,15 @@ def _check(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:
 
 
 def _count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str:
-    count = f"{len(mesh.hulls)} hull{'' if len(mesh.hulls) == 1 else 's'}"
-    return count if highlight is None else f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
+    count = _counted(len(mesh.hulls), "hull")
+    if highlight is not None:
+        return f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
+    opaque = len(mesh.asset.opaque) if mesh.asset else 0
+    return f"{count}, {_counted(opaque, 'piece')} that cannot be edited" if opaque else count
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _marks(mesh: SymbolicMesh, labels: bool | Mapping[str, str]) -> dict[int, str]:

@@ -42,7 +42,7 @@ def subject(
     solid = Layer(skins, coloring.colors, hatched=coloring.hatched)
     layers, shells = [solid], [s for s in map(skin, ghost) if len(s.faces)]
     if shells:
-        layers.append(Layer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.22))
+        layers.append(Layer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.3))
     picked = [k for k, h in enumerate(mesh.hulls) if h.name in lifted]
     if picked:
         layers.append(Layer([skins[k] for k in picked], coloring.colors[picked], before=0.0, behind=0.38))
