@@ -109,7 +109,9 @@ def keyword(statement: bytes) -> bytes:
 
 def arguments(statement: bytes) -> list[bytes]:
     """The words after the keyword, without a comment at the end."""
-    return statement.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").split(b"#", 1)[0].split()[1:]
+    if b"\\" in statement:
+        statement = re.sub(rb"\\\r?\n?", b" ", statement)
+    return statement.split(b"#", 1)[0].split()[1:]
 
 
 def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:

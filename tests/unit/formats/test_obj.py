@@ -1,0 +1,239 @@
+"""OBJ: reading its dialects, and edits that leave the rest of the text alone."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError
+from meshforge.formats import read, save
+from meshforge.geometry import Box, Pose, Shape, convex_hull
+from tests.soups import QUADS, Soup, box
+
+
+def vertex_lines(soup: Soup) -> str:
+    return "".join(f"v {x:g} {y:g} {z:g}\n" for x, y, z in soup[0])
+
+
+def quad_lines(start: int, form: str = "{0}") -> str:
+    return "".join("f " + " ".join(form.format(c + start) for c in quad) + "\n" for quad in QUADS)
+
+
+def written(path: Path, text: str | bytes) -> Path:
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def two_legs(first: str = "o left leg\n", second: str = "o right leg\n") -> str:
+    return (
+        f"# a table\nmtllib table.mtl\n{first}{vertex_lines(box())}vn 0 0 1\nusemtl oak\n{quad_lines(1, '{0}//1')}"
+        f"# the other\n{second}{vertex_lines(box((3, 0, 0)))}usemtl pine\ns off\n{quad_lines(9, '{0}//1')}"
+    )
+
+
+def names(asset: Asset) -> list[str]:
+    return [geom.name for geom in asset.geoms]
+
+
+def made(name: str, parent: str, shape: Shape | None = None) -> Geom:
+    return Geom(name, "body", shape or convex_hull(box((0, 5, 0), (0.1, 0.2, 0.3))[0]), parent)
+
+
+def edited(path: Path, out: Path, drop: Collection[str] = (), add: tuple[Geom, ...] = ()) -> tuple[Asset, str]:
+    """The asset that an edit is read back as, and the text."""
+    asset = read(path)
+    save(asset.with_geoms([g for g in asset.geoms if g.name not in drop] + list(add)), out)
+    return read(out), out.read_bytes().decode()
+
+
+DIALECTS = {
+    "quads": vertex_lines(box()) + quad_lines(1),
+    "one polygon over two lines": vertex_lines(box()) + quad_lines(1).replace("f 1 2", "f 1 \\\n 2"),
+    "corners with texture and normal": vertex_lines(box()) + "vt 0 0\nvn 0 0 1\n" + quad_lines(1, "{0}/1/1"),
+    "numbers from the end": vertex_lines(box())
+    + "".join("f " + " ".join(str(c - 8) for c in quad) + "\n" for quad in QUADS),
+    "colours": vertex_lines(box()).replace("\n", " 0.1 0.2 0.3\n") + quad_lines(1),
+    "comments and blanks": "# v 9 9 9\n\n" + vertex_lines(box()).replace("\n", "  # corner\n") + "\t" + quad_lines(1),
+    "faces first": quad_lines(1) + vertex_lines(box()),
+    "lines and points": vertex_lines(box()) + "l 1 2 3\np 1\n" + quad_lines(1),
+}
+
+
+@pytest.mark.parametrize("text", DIALECTS.values(), ids=DIALECTS.keys())
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_every_dialect_of_a_box_is_a_box(tmp_path: Path, text: str, end: str) -> None:
+    asset = read(written(tmp_path / "a.obj", text.replace("\n", end)))
+    assert [(g.name, g.body) for g in asset.geoms] == [("geom0", "body")]
+    assert asset.geoms[0].shape.volume == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        ("o left leg\n", "o right leg\n", ["left leg", "right leg"]),
+        ("g  f 1 2 3 / odd # name \n", "g v\n", ["f 1 2 3 / odd # name", "v"]),
+        ("o A\ng A_mesh\n", "o B\ng B_mesh\n", ["A", "B"]),
+        ("o A\ng x\n", "g y\n", ["A/x", "A/y"]),
+        ("o A\n", "o A\n", ["A#0", "A#1"]),
+        ("", "o A\n", ["geom0", "A"]),
+        ("", "", ["geom0#0", "geom0#1"]),
+        ("o\n", "g \n", ["geom0#0", "geom0#1"]),
+        ("o a#1\n", "o a\n", ["a#1", "a"]),
+    ],
+)
+def test_hulls_are_named_after_objects_and_groups(tmp_path: Path, first: str, second: str, expected: list[str]) -> None:
+    assert names(read(written(tmp_path / "a.obj", two_legs(first, second)))) == expected
+
+
+BROKEN = {
+    "a vertex that is not there": (vertex_lines(box()) + "f 1 2 9\n", "a.obj:9: a face names vertex 9, the file has 8"),
+    "vertex zero": (vertex_lines(box()) + "\nf 0 1 2\n", "a.obj:10: a face names vertex 0"),
+    "too far from the end": (vertex_lines(box()) + "f -1 -2 -9\n", "a.obj:9: a face names vertex -9"),
+    "a word for a number": ("v 0 0 0\nv 0 0 zero\n", "a.obj:2: a vertex needs three numbers"),
+    "two numbers": ("v 0 0 0\nv 0 0\n", "a.obj:2: a vertex needs three numbers"),
+    "a word for a corner": (vertex_lines(box()) + "f a b c\n", "a.obj:9: a face needs vertex numbers"),
+    "not a number": (vertex_lines(box()).replace("v 1 1 1", "v 1 nan 1") + quad_lines(1), "not a finite number"),
+    "infinite": (vertex_lines(box()).replace("v 1 1 1", "v 1 1 1e999") + quad_lines(1), "not a finite number"),
+    "nothing": ("", "there is no triangle in this file"),
+    "no faces": (vertex_lines(box()), "there is no triangle in this file"),
+    "bytes": (bytes(range(256)) * 9, "there is no triangle in this file"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), BROKEN.values(), ids=BROKEN.keys())
+def test_a_broken_file_is_refused_with_its_name_and_line(tmp_path: Path, text: str | bytes, message: str) -> None:
+    with pytest.raises(AssetError) as error:
+        read(written(tmp_path / "a.obj", text))
+    assert message in str(error.value)
+    assert "a.obj" in str(error.value)
+
+
+def test_an_edit_that_changes_nothing_gives_the_same_bytes(tmp_path: Path) -> None:
+    text = two_legs().replace("\n", "\r\n").encode() + b"# no line end \xff"
+    asset = read(written(tmp_path / "a.obj", text))
+    save(asset.with_geoms(reversed(asset.geoms)), tmp_path / "b.obj")
+    assert (tmp_path / "b.obj").read_bytes() == text
+
+
+def test_a_deleted_hull_takes_its_faces_vertices_and_group_line_along(tmp_path: Path) -> None:
+    asset, text = edited(written(tmp_path / "a.obj", two_legs()), tmp_path / "b.obj", drop={"left leg"})
+    assert names(asset) == ["right leg"]
+    assert text == (
+        f"# a table\nmtllib table.mtl\nvn 0 0 1\nusemtl oak\n# the other\no right leg\n{vertex_lines(box((3, 0, 0)))}"
+        f"usemtl pine\ns off\n{quad_lines(1, '{0}//1')}"
+    )
+
+
+def test_relative_numbers_stay_relative(tmp_path: Path) -> None:
+    first = vertex_lines(box()) + "o a\n" + quad_lines(-8).replace(" -0", " -8")
+    second = vertex_lines(box((3, 0, 0))) + "o b\n" + quad_lines(-8)
+    _, text = edited(written(tmp_path / "a.obj", first + second), tmp_path / "b.obj", drop={"a"})
+    assert text == second
+
+
+def test_hulls_of_one_group_keep_their_names_when_one_goes(tmp_path: Path) -> None:
+    source = written(tmp_path / "a.obj", two_legs("o legs\n", "") + vertex_lines(box((6, 0, 0))) + quad_lines(17))
+    assert names(read(source)) == ["legs#0", "legs#1", "legs#2"]
+    asset, text = edited(source, tmp_path / "b.obj", drop={"legs#1"})
+    assert names(asset) == ["legs#0", "legs#2"]
+    assert "o legs\n" not in text
+
+
+def test_hulls_without_a_group_keep_their_names_when_one_goes(tmp_path: Path) -> None:
+    asset, _ = edited(written(tmp_path / "a.obj", two_legs("", "")), tmp_path / "b.obj", drop={"geom0#0"})
+    assert names(asset) == ["geom0#1"]
+
+
+def test_a_group_keeps_its_name_when_the_other_of_its_object_goes(tmp_path: Path) -> None:
+    asset, _ = edited(written(tmp_path / "a.obj", two_legs("o A\ng x\n", "g y\n")), tmp_path / "b.obj", drop={"A/x"})
+    assert names(asset) == ["A/y"]
+
+
+def test_a_made_hull_is_an_object_of_its_own_in_full_precision(tmp_path: Path) -> None:
+    new = made("left leg~1", "left leg", convex_hull(np.random.default_rng(2).normal(size=(9, 3)) / 3 + 7))
+    asset, text = edited(written(tmp_path / "a.obj", two_legs()), tmp_path / "b.obj", add=(new,))
+    assert text.startswith(two_legs())
+    assert names(asset) == ["left leg", "right leg", "left leg~1"]
+    assert set(map(tuple, asset.geoms[2].shape.vertices.tolist())) == set(map(tuple, new.shape.vertices.tolist()))
+
+
+def test_a_made_primitive_is_written_as_a_mesh_and_noted(tmp_path: Path) -> None:
+    from meshforge.geometry import Sphere
+
+    asset = read(written(tmp_path / "a.obj", two_legs()))
+    shapes = (Box(Pose.of_translation([0, 5, 0]), np.array([0.5, 1, 1])), Sphere(Pose.of_translation([9, 9, 9]), 1.0))
+    new = [made(f"left leg~{k}", "left leg", shape) for k, shape in enumerate(shapes, start=1)]
+    saved = save(asset.with_geoms([*asset.geoms, *new]), tmp_path / "b.obj")
+    assert saved.notes == ("1 sphere written as hull meshes: mesh files have no primitives",)
+    assert read(tmp_path / "b.obj").geoms[2].shape.volume == pytest.approx(4)
+
+
+def test_a_made_hull_may_touch_a_kept_one_at_its_very_vertices(tmp_path: Path) -> None:
+    new = made("left leg~1", "left leg", convex_hull(box((1, 0, 0))[0]))
+    asset, _ = edited(written(tmp_path / "a.obj", two_legs()), tmp_path / "b.obj", add=(new,))
+    assert [g.shape.volume for g in asset.geoms] == pytest.approx([1, 1, 1])
+
+
+def test_made_vertices_have_colours_where_the_file_has_them(tmp_path: Path) -> None:
+    source = written(tmp_path / "a.obj", DIALECTS["colours"])
+    _, text = edited(source, tmp_path / "b.obj", add=(made("geom0~1", "geom0"),))
+    assert {len(line.split()) for line in text.splitlines() if line.startswith("v ")} == {7}
+
+
+def test_line_ends_of_windows_are_kept_and_used(tmp_path: Path) -> None:
+    source = written(tmp_path / "a.obj", two_legs().replace("\n", "\r\n"))
+    _, text = edited(source, tmp_path / "b.obj", {"left leg"}, (made("left leg~1", "left leg"),))
+    assert text.count("\r\n") == text.count("\n") == text.count("\r")
+
+
+def test_vertices_of_lines_and_points_stay(tmp_path: Path) -> None:
+    source = written(tmp_path / "a.obj", two_legs() + "l 1 16\np -16\n")
+    _, text = edited(source, tmp_path / "b.obj", drop={"left leg"})
+    assert "v 0 0 0\n" in text
+    assert text.endswith("l 1 9\np -9\n")
+
+
+def test_opaque_pieces_stay_as_they_are(tmp_path: Path) -> None:
+    flat = "o lid\nv 0 0 9\nv 1 0 9\nv 1 1 9\nf 17 18 19\n"
+    source = written(tmp_path / "a.obj", two_legs() + flat)
+    asset, text = edited(source, tmp_path / "b.obj", drop={"left leg"})
+    assert [(o.name, o.reason) for o in asset.opaque] == [("lid", "flat")]
+    assert text.endswith("o lid\nv 0 0 9\nv 1 0 9\nv 1 1 9\nf 9 10 11\n")
+
+
+def test_an_edit_that_leaves_nothing_is_refused(tmp_path: Path) -> None:
+    asset = read(written(tmp_path / "a.obj", two_legs()))
+    with pytest.raises(AssetError, match="the edit leaves nothing in this file"):
+        save(asset.with_geoms([]), tmp_path / "b.obj")
+    assert not (tmp_path / "b.obj").exists()
+
+
+def test_free_form_surfaces_are_read_past_but_not_edited(tmp_path: Path) -> None:
+    asset = read(written(tmp_path / "a.obj", two_legs() + "curv 0 1 1 2 3\n"))
+    save(asset, tmp_path / "b.obj")
+    with pytest.raises(AssetError, match="free-form"):
+        save(asset.with_geoms(asset.geoms[1:]), tmp_path / "c.obj")
+
+
+@pytest.mark.parametrize("name", ["body/leg#3", "geom0", "Tischbein links", " padded ", "two\nlines", "end\\", "f 1 2"])
+def test_a_new_file_reads_back_the_names_it_is_given_or_says_so(tmp_path: Path, name: str) -> None:
+    asset = replace(read(written(tmp_path / "a.obj", two_legs())), format="other")
+    saved = save(asset.with_geoms([replace(asset.geoms[0], name=name), asset.geoms[1]]), tmp_path / "b.obj")
+    assert names(read(tmp_path / "b.obj")) == [saved.names.get(name, name), "right leg"]
+    assert bool(saved.names) == (name.strip() != name or "\n" in name or "\\" in name)
+
+
+def test_materials_and_their_textures_go_along(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    source = written(tmp_path / "in" / "a.obj", two_legs())
+    (tmp_path / "in" / "table.mtl").write_text("newmtl oak\nmap_Kd wood/oak.png\n")
+    (tmp_path / "in" / "wood").mkdir()
+    (tmp_path / "in" / "wood" / "oak.png").write_bytes(b"png")
+    save(read(source), tmp_path / "out" / "b.obj")
+    assert (tmp_path / "out" / "wood" / "oak.png").read_bytes() == b"png"
+    assert (tmp_path / "out" / "table.mtl").exists()
