@@ -1,0 +1,100 @@
+"""The whole loop on real OBJ bottles: seven files, 1 to 7 hulls each, two demonstrations, from the command line."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.formats import load
+from tests.corpus_path import corpus
+from tests.loop.command import meshforge
+from tests.loop.labels import write_labels
+
+CAPS = {
+    "bleach_cleanser": (2,),
+    "blue_moon": (),
+    "cleanser": (1, 2, 3),
+    "conditioner": (),
+    "magic_clean": (3, 4, 5, 6),
+    "repellent": (1,),
+    "shampoo": (),
+}
+PROGRAM = """\
+labels body, cap
+
+Is(body) => Merge
+Is(cap)  => Replace(cylinder)
+"""
+
+
+@pytest.fixture(scope="module")
+def bottles(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the assets, and a project that has learned from two of them and was applied to all."""
+    folder = tmp_path_factory.mktemp("bottles")
+    (folder / "assets").mkdir()
+    for name, cap in CAPS.items():
+        path = folder / "assets" / f"{name}.obj"
+        shutil.copyfile(corpus("soap_bottles", "pybullet-URDF-models", name, "collision.obj"), path)
+        write_labels(path, {"cap": cap}, rest="body")
+    meshforge("new", "bottles", "assets/*.obj", "--vocabulary", "body,cap", cwd=folder)
+    meshforge("label", "bottles", cwd=folder)
+    for name, body in (("magic_clean", 3), ("cleanser", 1)):
+        names = [hull.name for hull in load(folder / "assets" / f"{name}.obj").hulls]
+        steps = [f"{', '.join(names[:body])} => Merge", f"{', '.join(names[body:])} => Replace(cylinder)"]
+        meshforge("demonstrate", "bottles", f"{name}.obj", *steps, cwd=folder)
+    meshforge("synthesize", "bottles", cwd=folder)
+    meshforge("apply", "bottles", cwd=folder)
+    return folder
+
+
+def test_two_bottles_teach_the_program(bottles: Path) -> None:
+    assert (bottles / "bottles" / "program.mf").read_text() == PROGRAM
+
+
+def test_every_bottle_comes_back_as_one_body_and_one_cap(bottles: Path) -> None:
+    for name, cap in CAPS.items():
+        after = load(bottles / "bottles" / "edited" / f"{name}.obj")
+        assert sorted(hull.label or "" for hull in after.hulls) == (["body", "cap"] if cap else ["body"])
+
+
+def test_a_bottle_of_one_hull_comes_back_byte_for_byte(bottles: Path) -> None:
+    for name in ("blue_moon", "conditioner", "shampoo"):
+        before, after = bottles / "assets" / f"{name}.obj", bottles / "bottles" / "edited" / f"{name}.obj"
+        assert after.read_bytes() == before.read_bytes()
+
+
+def test_check_and_diff_tell_about_the_edit(bottles: Path, tmp_path: Path) -> None:
+    meshforge("check", "bottles/edited", "--engine", "mujoco", cwd=bottles)
+    words = ("diff", "assets/cleanser.obj", "bottles/edited/cleanser.obj", "--json", "-o", tmp_path / "diff.png")
+    changes = meshforge(*words, cwd=bottles).json
+    assert changes["hulls"] == {"before": 4, "after": 2}
+    assert len(changes["removed"]) == 3
+    assert len(changes["made"]) == 1
+    assert (tmp_path / "diff.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("name", list(CAPS))
+def test_engines_and_trimesh_see_the_hulls_of_an_edited_bottle(bottles: Path, name: str) -> None:
+    import mujoco
+    import pybullet
+    import trimesh
+
+    path = bottles / "bottles" / "edited" / f"{name}.obj"
+    after = load(path)
+    scene = trimesh.load_scene(path, split_object=True, group_material=False)
+    assert sum(len(mesh.split(only_watertight=True)) for mesh in scene.geometry.values()) == len(after.hulls)
+    assert after.aabb is not None
+    assert scene.bounds.tolist() == pytest.approx([*after.aabb.min, *after.aabb.max]) or scene.bounds == pytest.approx(
+        [[*after.aabb.min], [*after.aabb.max]], abs=1e-6
+    )
+    client = pybullet.connect(pybullet.DIRECT)
+    try:
+        shape = pybullet.createCollisionShape(pybullet.GEOM_MESH, fileName=str(path), physicsClientId=client)
+        assert shape >= 0
+    finally:
+        pybullet.disconnect(client)
+    text = f"""<mujoco><asset><mesh name="m" file="{path}"/></asset>
+        <worldbody><geom type="mesh" mesh="m"/></worldbody></mujoco>"""
+    assert mujoco.MjModel.from_xml_string(text).nmesh == 1

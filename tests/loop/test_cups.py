@@ -1,0 +1,100 @@
+"""The whole loop on real URDF cups: five files, 14 to 62 hulls each, two demonstrations, from the command line."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.formats import load
+from meshforge.geometry import same_shape
+from tests.corpus_path import corpus
+from tests.loop.command import meshforge
+from tests.loop.labels import write_labels
+from tests.urdf_engines import bullet, mujoco_model
+
+COARSE = {"handle": (0, 1), "base": (2, 3, 4, 5)}
+FINE = {"handle": (42, 43, 44, 45), "base": (0, 1, 2, 3, 4, 11, 12, 17, 18, 27, 28, 38, 39)}
+MUG = {"handle": (0, 1, 2, 3, 4, 5), "base": (6, 23, 31, 32, 39, 40, 46, 47, 51, 60, 61)}
+CUPS = {"blue_cup": COARSE, "green_cup": FINE, "mug": MUG, "orange_cup": FINE, "yellow_cup": COARSE}
+PROGRAM = """\
+labels base, wall, handle
+
+Is(base)                                       => Merge
+Diff(Is(handle), Attach(Is(handle), Is(wall))) => Replace(capsule, tight)
+"""
+
+
+@pytest.fixture(scope="module")
+def cups(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the assets, and a project that has learned from two of them and was applied to all."""
+    folder = tmp_path_factory.mktemp("cups")
+    for name, parts in CUPS.items():
+        shutil.copytree(corpus("cups_mugs", "pybullet-URDF-models", name), folder / "assets" / name)
+        write_labels(folder / "assets" / name / "model.urdf", parts, rest="wall")
+    meshforge("new", "cups", "assets/**/*.urdf", "--vocabulary", "base,wall,handle", cwd=folder)
+    meshforge("label", "cups", "--with", "file", cwd=folder)
+    _demonstrate(folder, "green_cup", base=FINE["base"], grip=(43, 45))
+    _demonstrate(folder, "mug", base=MUG["base"], grip=(0, 1))
+    meshforge("synthesize", "cups", cwd=folder)
+    meshforge("apply", "cups", cwd=folder)
+    return folder
+
+
+def _demonstrate(folder: Path, asset: str, base: tuple[int, ...], grip: tuple[int, ...]) -> None:
+    names = [", ".join(f"baseLink/geom0#{k}" for k in hulls) for hulls in (base, grip)]
+    steps = [f"{names[0]} => Merge", f"{names[1]} => Replace(capsule, tight)"]
+    meshforge("demonstrate", "cups", f"{asset}/model.urdf", *steps, cwd=folder)
+
+
+def test_two_cups_teach_the_program(cups: Path) -> None:
+    assert (cups / "cups" / "program.mf").read_text() == PROGRAM
+
+
+def test_every_cup_comes_back_with_one_base_and_one_grip(cups: Path) -> None:
+    for name, parts in CUPS.items():
+        before = load(cups / "assets" / name / "model.urdf")
+        after = load(cups / "cups" / "edited" / name / "model.urdf")
+        grip = 0 if parts is COARSE else 1  # of the coarse cups, both handle hulls touch the wall
+        made = [hull for hull in after.hulls if hull.label in ("base", "handle") and hull.source == "edit"]
+        assert len(made) == 1 + grip
+        assert len(after.hulls) == len(before.hulls) - len(parts["base"]) + 1 - grip
+        kept = [hull for hull in after.hulls if hull.source != "edit"]
+        near = 1e-9 * before.diagonal
+        assert all(same_shape(hull.shape, before.named(hull.name).shape, near) for hull in kept)
+
+
+def test_a_second_run_has_nothing_to_do_and_the_status_says_so(cups: Path) -> None:
+    again = meshforge("apply", "cups", "--json", cwd=cups).lines
+    assert [line["status"] for line in again] == ["skipped"] * 5
+    status = meshforge("status", "cups", "--json", cwd=cups).json
+    assert all(asset["output"] == "edited" and not asset["stale"] for asset in status["assets"])
+
+
+def test_the_program_runs_on_its_own_on_the_same_files(cups: Path, tmp_path: Path) -> None:
+    words = ("apply", "cups/program.mf", "assets/**/*.urdf", "--out", tmp_path / "out", "--workers", "1")
+    assert meshforge(*words, cwd=cups).out.rstrip().splitlines()[-1].startswith("5 assets: 5 edited")
+    for name in CUPS:
+        ours, theirs = (root / name / "model.urdf" for root in (tmp_path / "out", cups / "cups" / "edited"))
+        assert ours.read_bytes() == theirs.read_bytes()
+
+
+@pytest.mark.parametrize("name", list(CUPS))
+def test_engines_load_the_edited_cups_with_the_masses_they_had(cups: Path, name: str) -> None:
+    before, after = cups / "assets" / name / "model.urdf", cups / "cups" / "edited" / name / "model.urdf"
+    hulls = len(load(after).hulls)
+    assert [len(shapes) for shapes in bullet(after)["shapes"]] == [hulls]
+    assert bullet(after)["dynamics"] == bullet(before)["dynamics"]
+    assert mujoco_model(after).ngeom == hulls
+    np.testing.assert_array_equal(mujoco_model(after).body_mass, mujoco_model(before).body_mass)
+    np.testing.assert_array_equal(mujoco_model(after).body_inertia, mujoco_model(before).body_inertia)
+
+
+@pytest.mark.parametrize("name", list(CUPS))
+def test_an_unedited_write_back_is_the_same_file(cups: Path, name: str, tmp_path: Path) -> None:
+    source = cups / "assets" / name / "model.urdf"
+    meshforge("convert", source, tmp_path / "model.urdf", cwd=cups)
+    assert (tmp_path / "model.urdf").read_bytes() == source.read_bytes()
+    assert (tmp_path / "collision.obj").read_bytes() == (source.parent / "collision.obj").read_bytes()
