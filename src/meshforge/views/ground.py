@@ -24,7 +24,7 @@ def ground_shadow(scene: Scene, stage: Stage, camera: Camera) -> Singles:
     from scipy.ndimage import map_coordinates
 
     width, height = camera.size
-    if camera.axes[2] @ stage.upright < 0.05:
+    if camera.axes[2] @ stage.upright < 0.05 or len(scene.corners) == 0:
         return np.zeros((height, width), np.float32)
     shadow, low, cell = _on_ground(scene, stage)
     rows, columns = np.mgrid[0 : -(-height // _STEP), 0 : -(-width // _STEP)] * _STEP + (_STEP - 1) / 2
