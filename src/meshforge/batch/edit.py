@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from meshforge.asset import Asset
 from meshforge.batch.correction import replay
@@ -50,7 +51,7 @@ def edit(work: tuple[Task, AssetJob]) -> Worked:
         inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
         return _edited(task, job, asset, inputs, started)
     except Exception as error:  # a failed asset never stops the others
-        return Worked(Failed(job.id, _told(error, job), time.perf_counter() - started), inputs)
+        return Worked(Failed(job.id, told(error, job.path), time.perf_counter() - started), inputs)
 
 
 def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
@@ -92,7 +93,7 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*asset.notes, *_label_notes(followed), *draft.notes),
+        notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
     )
     return Worked(outcome, inputs, None if task.dry_run else draft)
@@ -100,6 +101,12 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
 
 def _lines(result: RunResult) -> tuple[RuleLine, ...]:
     return tuple(RuleLine(line.rule, line.selected, line.made, line.note) for line in result.trace)
+
+
+def _opaque_notes(asset: Asset) -> tuple[str, ...]:
+    """What the program cannot have seen."""
+    names = [piece.name for piece in asset.opaque]
+    return (f"no convex hulls, so left as they are: {_some(names)} ({asset.opaque[0].reason})",) if names else ()
 
 
 def _label_notes(followed: Followed) -> tuple[str, ...]:
@@ -125,13 +132,12 @@ def _same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
     )
 
 
-def _told(error: Exception, job: AssetJob) -> str:
+def told(error: Exception, path: Path) -> str:
+    """The message of whatever went wrong with an asset."""
     match error:
         case MeshForgeError():
-            return error.at(str(job.path)).message
+            return error.at(str(path)).message
         case OSError(filename=str() as name, strerror=str() as why):
             return f"{name}: {why}"
         case _:
-            return (
-                f"{job.path}: {type(error).__name__}: {error}\n  This is a fault of MeshForge; please report the asset."
-            )
+            return f"{path}: {type(error).__name__}: {error}\n  This is a fault of MeshForge; please report the asset."

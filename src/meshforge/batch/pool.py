@@ -11,9 +11,12 @@ from concurrent.futures import Future, TimeoutError
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from meshforge.errors import MeshForgeError
+
+if TYPE_CHECKING:
+    from pebble import ProcessPool
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -76,7 +79,7 @@ def _pooled(
     try:
         while True:
             while len(waiting) < AHEAD * workers and (item := next(rest, _END)) is not _END:
-                future: Future[Result] = pool.schedule(function, args=[item], timeout=timeout)
+                future = _scheduled(pool, function, item, timeout)
                 if done:
                     future.add_done_callback(lambda _: done())
                 waiting.append(future)
@@ -90,6 +93,15 @@ def _pooled(
 
 
 _END: Any = object()
+
+
+def _scheduled(
+    pool: ProcessPool, function: Callable[[Item], Result], item: Item, timeout: float | None
+) -> Future[Result]:
+    try:
+        return pool.schedule(function, args=[item], timeout=timeout)
+    except RuntimeError as error:  # the pool has given up
+        raise _no_workers(error) from error
 
 
 def _context() -> Any:
@@ -114,11 +126,15 @@ def _outcome(future: Future[Result], timeout: float | None) -> Result | Lost:
         return Lost(f"it took longer than {timeout:g} seconds and was stopped", timeout or 0.0)
     except ProcessExpired as error:
         return Lost(f"its worker process died ({_death(error.exitcode)})")
-    except (BrokenProcessPool, RuntimeError) as error:
-        raise MeshForgeError(
-            f"worker processes do not start: {error}",
-            remedy="In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0.",
-        ) from error
+    except BrokenProcessPool as error:
+        raise _no_workers(error) from error
+
+
+def _no_workers(error: Exception) -> MeshForgeError:
+    return MeshForgeError(
+        f"worker processes do not start: {error}",
+        remedy="In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0.",
+    )
 
 
 def _death(code: int | None) -> str:

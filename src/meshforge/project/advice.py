@@ -27,8 +27,11 @@ def advice(
     vocabulary: Sequence[str],
     rules: int | None,
     outdated: bool,
+    problem: str | None,
 ) -> Advice:
     """The first thing that is missing on the way from assets to edited assets; paths: of the assets by id."""
+    if problem:
+        return Advice(f"The program cannot be applied: {problem}")
     return (
         _labels(folder, assets, vocabulary)
         or _demonstrations(folder, paths, assets, rules)

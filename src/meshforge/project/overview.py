@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
+from meshforge.errors import MeshForgeError
+from meshforge.language import Program
 from meshforge.project.advice import advice
 from meshforge.project.applying import jobs, task
 from meshforge.project.learning import is_outdated
@@ -19,30 +21,32 @@ if TYPE_CHECKING:
 
 
 def status(project: Project, workers: int | None, progress: Callable[[], None] | None) -> Status:
-    """How far everything is. Raises ProjectError or ProgramError for a file of the project that cannot be read."""
-    settings, program = project.settings, project.program()
+    """How far everything is. Raises ProjectError for a file of the project that cannot be read."""
+    settings, work, reviews = project.settings, jobs(project), project.reviews()
     facts = survey(project.found, project.layout.survey, workers=workers, progress=progress)
-    work, reviews = jobs(project), project.reviews()
-    what = task(project, program, work) if program else None
+    program, what, problem = _program(project, work)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
     outdated = program is not None and is_outdated(project, program)
     rules = len(program.rules) if program else None
-    return Status(
-        name=settings.name,
-        assets=assets,
-        vocabulary=settings.vocabulary,
-        rules=rules,
-        outdated=outdated,
-        lost=_lost(project),
-        next=advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, outdated),
-    )
+    advised = advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, outdated, problem)
+    return Status(settings.name, assets, settings.vocabulary, rules, outdated, problem, _lost(project), advised)
+
+
+def _program(project: Project, work: tuple[AssetJob, ...]) -> tuple[Program | None, Task | None, str | None]:
+    """The program, what applying it means, and why it cannot be applied."""
+    program = None
+    try:
+        program = project.program()
+        return program, task(project, program, work) if program else None, None
+    except MeshForgeError as error:
+        return program, None, error.message
 
 
 def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, review: Review | None) -> AssetStatus:
     stamp = read_stamp(project.layout.edited, job.id)
-    labels = project.labels(job.id)
-    doubtful = () if facts.error else _doubtful(labels, facts)
     failed = stamp.error if stamp and stamp.status == "failed" else None
+    labels, unreadable = _labels(project, job)
+    doubtful = () if facts.error else _doubtful(labels, facts)
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),
@@ -51,10 +55,18 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
         demonstrated=project.layout.demonstration(job.id).exists(),
         output=_state(stamp),
         stale=_stale(stamp, job, facts, what),
-        error=facts.error or failed,
+        error=facts.error or unreadable or failed,
         flags=stamp.flags if stamp else (),
         review=review.verdict if review and review.output == output_digest(stamp) else None,
     )
+
+
+def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
+    """The labels of an asset, and why they cannot be read."""
+    try:
+        return project.labels(job.id), None
+    except MeshForgeError as error:
+        return LabelFile(), error.message
 
 
 def _doubtful(labels: LabelFile, facts: Facts) -> tuple[str, ...]:

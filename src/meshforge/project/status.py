@@ -41,7 +41,7 @@ class AssetStatus:
 @dataclass(frozen=True, slots=True)
 class Status:
     """A project. rules: of the program, None where there is none; outdated: whether it was learned from other
-    demonstrations, labels or settings than there are now.
+    demonstrations, labels or settings than there are now. problem: why the program cannot be applied at all.
 
     lost: ids that have labels, demonstrations or corrections, but no asset.
     """
@@ -51,6 +51,7 @@ class Status:
     vocabulary: tuple[str, ...]
     rules: int | None
     outdated: bool
+    problem: str | None
     lost: tuple[str, ...]
     next: Advice
 
@@ -65,6 +66,7 @@ class Status:
             "vocabulary": list(self.vocabulary),
             "rules": self.rules,
             "outdated": self.outdated,
+            "problem": self.problem,
             "assets": [_asset_json(asset) for asset in self.assets],
             "lost": list(self.lost),
             "next": {"say": self.next.say, "command": self.next.command},

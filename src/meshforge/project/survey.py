@@ -8,8 +8,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files
-from meshforge.errors import MeshForgeError
+from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files, told
 from meshforge.files import write_atomically
 from meshforge.formats import read
 from meshforge.geometry import digest
@@ -92,10 +91,8 @@ def _facts(work: tuple[Path, Path]) -> Facts:
             files=asset_digests(path, asset.files, base),
             times=times,
         )
-    except MeshForgeError as error:
-        return Facts(error=error.at(str(path)).message)
-    except OSError as error:
-        return Facts(error=f"{error.filename}: {error.strerror}")
+    except Exception as error:  # one asset never hides the others
+        return Facts(error=told(error, path))
 
 
 def _name(path: Path, base: Path) -> str:

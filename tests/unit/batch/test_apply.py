@@ -24,6 +24,7 @@ from meshforge.batch import (
 from meshforge.errors import MeshForgeError, UsageError
 from meshforge.formats import load
 from meshforge.language import Program
+from meshforge.symbolic import write_labels
 from tests.unit.batch.families import PROGRAM, obj, tree, write_table, write_tables, write_urdf_table
 
 
@@ -248,3 +249,26 @@ def test_a_folder_of_pieces_is_edited_as_one_asset(tmp_path: Path, out: Path) ->
     assert words(run(tmp_path / "pieces", out, program)) == ["skipped"]
     (tmp_path / "pieces/more.obj").write_text(obj({"more": ((20, 0, 0), (21, 1, 1))}))
     assert words(run(tmp_path / "pieces", out, program)) == ["edited"]
+
+
+def test_what_the_program_cannot_see_and_labels_that_do_not_fit_are_noted(tmp_path: Path, out: Path) -> None:
+    path = write_table(tmp_path / "assets" / "t.obj")
+    run(tmp_path / "assets", out)
+    (tmp_path / "assets" / "t.labels.json").write_bytes((out / "t.labels.json").read_bytes())
+    leaf = "o leaf\nv 0 0 9\nv 1 0 9\nv 0 1 9.5\nv 1 1 9\nf 49 50 51\nf 52 50 51\n"
+    path.write_text(path.read_text().replace("o crumb", "o litter") + leaf)
+    (edited,) = run(tmp_path / "assets", out)
+    assert isinstance(edited, Unchanged)
+    opaque, gone = edited.notes[:2]
+    assert opaque.startswith("no convex hulls, so left as they are: leaf (")
+    assert gone == "labels of hulls that are gone were left out: left_low~1, right_low~1"
+
+
+def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> None:
+    path = write_table(tmp_path / "assets" / "t.obj")
+    labels = path.with_suffix(".labels.json")
+    write_labels(labels, load(path), ("top", "leg", "misc"))
+    path.write_text(path.read_text().replace("o crumb", "o litter"))
+    (edited,) = run(tmp_path / "assets", out)
+    assert isinstance(edited, Edited) and edited.rules[0].selected == ("litter",)
+    assert edited.notes == ("labels followed renamed hulls: crumb to litter",)

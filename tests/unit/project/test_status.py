@@ -181,3 +181,21 @@ def test_labels_of_hulls_that_changed_or_are_gone_are_doubtful(tmp_path: Path) -
     project.set_labels(FIRST, {"litter": "misc"})
     assert asset(project, FIRST).labelled == 6
     assert "crumb" in project.labels(FIRST).labels
+
+
+def test_a_program_that_cannot_be_applied_is_told_first(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    (project.folder / "program.mf").write_text('labels top\nIs(top) => Replace("slab.obj")\n')
+    found = of(project)
+    assert found.problem and '"slab.obj" is not there' in found.problem
+    assert found.rules == 1 and found.problem in found.next.say
+    (project.folder / "program.mf").write_text("nonsense")
+    assert of(project).rules is None and "program.mf:1:1" in (of(project).problem or "")
+
+
+def test_damaged_labels_of_one_asset_do_not_hide_the_others(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    (project.folder / "labels" / f"{SECOND}.json").write_text("{")
+    found = of(project)
+    assert [a.labelled for a in found.assets] == [6, 0, 6]
+    assert found.assets[1].error and "no JSON" in found.assets[1].error
