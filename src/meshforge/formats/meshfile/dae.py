@@ -27,11 +27,11 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
         raise AssetError("entities are not read", where=where)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # pycollada's own calls of numpy
+            warnings.simplefilter("ignore", PendingDeprecationWarning)  # pycollada counts on numpy.matrix
             document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
-        unit = float(document.assetInfo.unitmeter or 1.0)
-        nodes = document.scene.nodes if document.scene else []
-        found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
+            unit = float(document.assetInfo.unitmeter or 1.0)
+            nodes = document.scene.nodes if document.scene else []
+            found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
         raise AssetError(f"this Collada file cannot be read: {error}", where=where) from error
     return checked(found, where)

@@ -1,0 +1,136 @@
+"""Small mesh files of every kind for tests, each holding the same surface."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+from collections.abc import Callable
+
+import numpy as np
+
+from tests.soups import Soup
+
+
+def obj(soup: Soup) -> bytes:
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in soup[0].tolist()]
+    lines += [f"f {a} {b} {c}" for a, b, c in (soup[1] + 1).tolist()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def stl_binary(soup: Soup, title: bytes = b"title") -> bytes:
+    rows = [struct.pack("<12fH", 0, 0, 0, *t.ravel(), 7) for t in soup[0][soup[1]]]
+    return title.ljust(80) + struct.pack("<I", len(rows)) + b"".join(rows)
+
+
+def stl_ascii(soup: Soup, name: str = "part") -> bytes:
+    rows = [
+        "  facet normal 0 0 0\n    outer loop\n"
+        + "".join(f"      vertex {x!r} {y!r} {z!r}\n" for x, y, z in triangle)
+        + "    endloop\n  endfacet\n"
+        for triangle in soup[0][soup[1]].tolist()
+    ]
+    return f"solid {name}\n{''.join(rows)}endsolid {name}\n".encode()
+
+
+def ply(soup: Soup, order: str = "ascii", *, extra: bool = False) -> bytes:
+    """A PLY; extra: with colours behind the coordinates and a quality for each face."""
+    colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n" if extra else ""
+    quality = "property float quality\n" if extra else ""
+    head = (
+        f"ply\nformat {order} 1.0\ncomment made for a test\nelement vertex {len(soup[0])}\n"
+        f"property float x\nproperty float y\nproperty float z\n{colors}"
+        f"element face {len(soup[1])}\nproperty list uchar int vertex_indices\n{quality}end_header\n"
+    ).encode()
+    if order == "ascii":
+        rows = [f"{x:g} {y:g} {z:g}" + " 10 20 30" * extra for x, y, z in soup[0].tolist()]
+        rows += [f"3 {a} {b} {c}" + " 0.125" * extra for a, b, c in soup[1].tolist()]
+        return head + ("\n".join(rows) + "\n").encode()
+    mark = "<" if "little" in order else ">"
+    body = b"".join(struct.pack(f"{mark}3f", *v) + b"\x0a\x14\x1e" * extra for v in soup[0])
+    tail = struct.pack(f"{mark}f", 0.125) * extra
+    return head + body + b"".join(struct.pack(f"{mark}B3i", 3, *f) + tail for f in soup[1].tolist())
+
+
+def wrl(soup: Soup) -> bytes:
+    points = ", ".join(f"{x!r} {y!r} {z!r}" for x, y, z in soup[0].tolist())
+    corners = ", ".join(f"{a}, {b}, {c}, -1" for a, b, c in soup[1].tolist())
+    return (
+        "#VRML V2.0 utf8\n# a comment\nGroup {\n children [ Shape { appearance Appearance { material Material {} }\n"
+        f" geometry IndexedFaceSet {{ solid TRUE coord DEF co Coordinate {{ point [ {points} ] }}\n"
+        f" coordIndex [ {corners} ] }} }} ]\n}}\n"
+    ).encode()
+
+
+def dae(soup: Soup, *, unit: float = 1.0, node: str = "") -> bytes:
+    """A Collada file; node: elements of its node ahead of the geometry, such as a transform."""
+    points = " ".join(map(repr, soup[0].ravel().tolist()))
+    corners = " ".join(map(str, soup[1].ravel().tolist()))
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="some" meter="{unit}"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g" name="shape"><mesh>
+<source id="p"><float_array id="pa" count="{soup[0].size}">{points}</float_array><technique_common>
+<accessor source="#pa" count="{len(soup[0])}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="{len(soup[1])}"><input semantic="VERTEX" source="#v" offset="0"/><p>{corners}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n" name="part">{node}<instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode()
+
+
+def gltf_tree(soup: Soup, **node: object) -> tuple[dict[str, object], bytes]:
+    """The JSON of a glTF file without its buffer, and the buffer."""
+    points, corners = soup[0].astype("<f4").tobytes(), soup[1].astype("<u2").tobytes()
+    tree: dict[str, object] = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "part", "mesh": 0, **node}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": len(soup[0]), "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": soup[1].size, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": len(points)},
+            {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners)},
+        ],
+    }
+    return tree, points + corners
+
+
+def gltf(soup: Soup, **node: object) -> bytes:
+    tree, buffer = gltf_tree(soup, **node)
+    uri = "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
+    return json.dumps({**tree, "buffers": [{"byteLength": len(buffer), "uri": uri}]}).encode()
+
+
+def glb(soup: Soup, **node: object) -> bytes:
+    tree, buffer = gltf_tree(soup, **node)
+    text = json.dumps({**tree, "buffers": [{"byteLength": len(buffer)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    buffer += b"\0" * (-len(buffer) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+KINDS: dict[str, tuple[str, Callable[[Soup], bytes]]] = {
+    "obj": (".obj", obj),
+    "binary stl": (".stl", stl_binary),
+    "ascii stl": (".STL", stl_ascii),
+    "ascii ply": (".ply", ply),
+    "little-endian ply": (".ply", lambda s: ply(s, "binary_little_endian")),
+    "big-endian ply": (".ply", lambda s: ply(s, "binary_big_endian", extra=True)),
+    "vrml": (".wrl", wrl),
+    "collada": (".dae", dae),
+    "gltf": (".gltf", gltf),
+    "glb": (".glb", glb),
+}
+"""Of each kind, the suffix and what writes it."""
+
+
+def single(soup: Soup) -> Soup:
+    """The same surface rounded to single precision."""
+    return soup[0].astype(np.float32).astype(float), soup[1]
