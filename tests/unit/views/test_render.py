@@ -45,7 +45,7 @@ def test_each_hull_has_its_label_s_colour_where_the_rays_meet_it(view: View) -> 
     colors = label_colors(["panel", "leg"])
     picture = pixels(bare(mesh, views=(view,), color_by="label", vocabulary=["panel", "leg"]))
     items = id_buffer(mesh, view=view, size=SMALL)
-    assert {-1, 0, 1} <= set(np.unique(items))
+    assert len(np.unique(items)) > 3, "the ground, and several hulls"
     for k in np.unique(items[items >= 0]):
         label = mesh.hulls[k].label
         inside = _inside(items == k)

@@ -53,6 +53,7 @@ def _did(number: int, assets: Sequence[ReportAsset]) -> Iterator[Child]:
     if not active:
         yield "selected nothing"
         return
-    yield f"{counted(sum(len(t.selected) for t in active), 'hull')} on {len(active)} of {counted(len(traces), 'asset')}"
+    hulls = counted(sum(len(t.selected) for t in active), "hull")
+    yield f"{hulls} on {len(active)} of {counted(len(traces), 'asset')}, "
     yield tag("br")
     yield f"{sum(len(t.made) for t in active):,} made"

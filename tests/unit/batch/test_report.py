@@ -1,0 +1,184 @@
+"""The report: one page, whole, about every asset and rule, safe with any name."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import lxml.html
+import pytest
+from PIL import Image
+
+from meshforge.batch import ReportAsset, write_report
+from meshforge.language import Program, RuleTrace, explain, show
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.views.scenes import box, hull, table
+
+PROGRAM = Program.parse(
+    """\
+labels panel, leg, "odd <label>"
+
+# boards first
+Is(panel)              => Merge
+Is("odd <label>")      => Delete  # never seen
+Attach(All, Is(panel)) => Each(Replace("a <b>.obj"))
+"""
+)
+NASTY = '<script>alert("hull")</script>'
+
+
+def nasty() -> SymbolicMesh:
+    return SymbolicMesh((hull(NASTY, box((0, 0, 0), (1, 1, 1)), "odd <label>"), hull("b", box((2, 0, 0), (1, 1, 1)))))
+
+
+def assets() -> list[ReportAsset]:
+    mesh = table()
+    merged = SymbolicMesh((*mesh.hulls[2:], hull("left~1", box((0, 0, 0.7), (1.2, 0.8, 0.04)), "panel")))
+    trace = (RuleTrace(1, ("left", "right"), ("left~1",), "a note & more"), RuleTrace(2, ()), RuleTrace(3, ()))
+    return [
+        ReportAsset("shown/table.urdf", mesh, merged, trace, demonstrated=True),
+        ReportAsset(f"{NASTY}.obj", nasty(), nasty(), (RuleTrace(1, ()), RuleTrace(2, (NASTY,))), "unchanged"),
+        ReportAsset("broken.obj", None, None, (), "failed", "broken.obj: no <faces>\n  Mend it."),
+        ReportAsset("stuck.obj", mesh, None, (), "failed", "stuck.obj: no labels"),
+    ]
+
+
+def written(path: Path, what: Sequence[ReportAsset], **options: Any) -> str:
+    write_report(path / "report.html", title="Tables & <co>", program=PROGRAM, assets=what, **options)
+    return (path / "report.html").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return written(tmp_path_factory.mktemp("report"), assets(), seconds=3.21, about="four <assets>")
+
+
+@pytest.fixture(scope="module")
+def tree(page: str) -> Any:
+    return lxml.html.document_fromstring(page, parser=lxml.html.HTMLParser(recover=False))
+
+
+def texts(tree: Any, path: str) -> list[str]:
+    return [" ".join(e.text_content().split()) for e in tree.xpath(path)]
+
+
+def cells(tree: Any, path: str) -> list[list[str]]:
+    """The texts of the cells of each row."""
+    return [texts(row, "./*") for row in tree.xpath(path)]
+
+
+def test_the_page_refers_to_nothing_outside_itself(page: str, tree: Any) -> None:
+    without_pictures = re.sub(r"data:image/webp;base64,[\w+/=]+", "", page)
+    assert not re.search(r"(https?:)?//\w|url\(|@import|<link|<iframe", without_pictures)
+    for address in tree.xpath("//@src | //@href"):
+        assert address.startswith("data:image/webp;base64,")
+    assert "default-src 'none'" in page
+
+
+def test_every_asset_is_there_with_its_state(tree: Any) -> None:
+    names = texts(tree, "//article//bdi")
+    assert names == [a.name for a in assets()]
+    kinds = tree.xpath("//article/@data-kind")
+    assert kinds == ["edited demonstrated", "unchanged", "failed", "failed"]
+    assert texts(tree, "//article//b[@class='demonstrated']") == ["demonstrated"]
+
+
+def test_every_rule_is_there_with_its_sentence_and_figures(tree: Any) -> None:
+    rows = cells(tree, "//table[@class='program']//tr")
+    assert len(rows) == 1 + len(PROGRAM.rules)
+    for rule, row in zip(PROGRAM.rules, rows[1:], strict=True):
+        assert row[1].startswith(show(rule) + explain(rule))
+    assert rows[1][1].endswith("# boards first")
+    assert rows[1][2] == "2 hulls on 1 of 2 assets, 1 made"
+    assert rows[2][1].endswith("# never seen")
+    assert rows[3][2] == "selected nothing"
+
+
+def test_names_are_shown_and_never_run(page: str, tree: Any) -> None:
+    assert NASTY not in page
+    assert len(tree.xpath("//script")) == 1
+    assert any(NASTY in row for row in texts(tree, "//article//tr"))
+    assert texts(tree, "//h1") == ["Tables & <co>"]
+
+
+def test_headline_counts_assets_hulls_and_seconds(tree: Any) -> None:
+    figures = dict(zip(texts(tree, "//dl//dt"), texts(tree, "//dl//dd"), strict=True))
+    assert figures == {
+        "assets": "4",
+        "edited": "1",
+        "unchanged": "1",
+        "failed": "2",
+        "hulls": "7 → 6 −14 %",
+        "run time": "3.2 s",
+    }
+
+
+def test_the_legend_counts_labels_before_and_after(tree: Any) -> None:
+    legend = texts(tree, "//ul[@class='legend']/li")
+    assert legend[:4] == ["panel 2 → 1", "leg 2", "odd <label> 1", "no label 2"]
+    assert texts(tree, "//ul[@class='legend of-changes']/li") == ["removed 2", "made 1", "kept 5"]
+
+
+def test_what_each_rule_did_to_an_asset_is_listed(tree: Any) -> None:
+    rows = cells(tree, "(//article)[1]//tbody/tr")
+    assert rows[0] == ["1", "Is(panel) => Mergea note & more", "2 left, right", "1 left~1"]
+    assert rows[1] == ["2", 'Is("odd <label>") => Delete', "–", "–"]
+    assert len(rows) == 3
+
+
+def test_errors_are_told_in_full(tree: Any) -> None:
+    assert texts(tree, "//p[@class='error']") == ["broken.obj: no <faces> Mend it.", "stuck.obj: no labels"]
+
+
+def test_edited_assets_have_three_pictures_and_others_one_or_none(tree: Any) -> None:
+    kinds = [[i.get("class") for i in article.xpath(".//img")] for article in tree.xpath("//article")]
+    assert kinds == [["before", "after", "changes"], ["only"], [], ["only"]]
+    for source in tree.xpath("//img/@src"):
+        with Image.open(BytesIO(base64.b64decode(source.partition(",")[2]))) as picture:
+            assert picture.size == (600, 450)
+            assert picture.mode == "RGBA"
+
+
+def test_the_page_is_small(page: str) -> None:
+    assert len(page) < 400_000
+
+
+def test_the_same_batch_gives_the_same_page(page: str, tmp_path: Path) -> None:
+    assert written(tmp_path, assets(), seconds=3.21, about="four <assets>") == page
+
+
+def test_only_so_many_assets_get_pictures_demonstrated_and_failed_ones_first(tmp_path: Path) -> None:
+    mesh = SymbolicMesh(table().hulls[:1])
+    many = [ReportAsset(f"{k}.obj", mesh, mesh, (), "unchanged", demonstrated=k == 3) for k in range(4)]
+    done: list[int] = []
+    text = written(tmp_path, many, pictured=2, progress=lambda: done.append(1))
+    tree: Any = lxml.html.document_fromstring(text)
+    assert [len(a.xpath(".//img")) for a in tree.xpath("//article")] == [1, 0, 0, 1]
+    assert len(done) == 4
+
+
+def test_a_batch_of_nothing_is_a_page(tmp_path: Path) -> None:
+    tree = lxml.html.document_fromstring(written(tmp_path, []))
+    assert texts(tree, "//dl//dd") == ["0"]
+
+
+def test_characters_that_no_page_can_hold_are_replaced(tmp_path: Path) -> None:
+    mesh = SymbolicMesh((hull("a\x00b\x1b", box((0, 0, 0), (1, 1, 1))),))
+    trace = (RuleTrace(1, ("a\x00b\x1b",)),)
+    text = written(tmp_path, [ReportAsset("odd\x07.obj", mesh, mesh, trace, "unchanged")], pictured=0)
+    assert "a�b�" in text
+    assert "odd�.obj" in text
+
+
+def test_long_lists_of_names_are_cut_and_counted(tmp_path: Path) -> None:
+    mesh = SymbolicMesh(table().hulls[:1])
+    trace = (RuleTrace(1, tuple(f"h{k}" for k in range(100))),)
+    tree = lxml.html.document_fromstring(written(tmp_path, [ReportAsset("a", mesh, mesh, trace)], pictured=0))
+    ((_, _, selected, made),) = cells(tree, "//tbody/tr")
+    assert selected.startswith("100 h0, h1, ")
+    assert selected.endswith(" h59 and 40 more")
+    assert made == "–"
