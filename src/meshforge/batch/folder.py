@@ -51,7 +51,7 @@ def _files(folder: Path, root: Path) -> Iterator[Path]:
             own = (folder / SETTINGS).is_file() and entry.name in OWN_FOLDERS
             if not own and not _is_written(entry, root):
                 yield from _files(entry, root)
-        elif entry.suffix.lower() in SUFFIXES:
+        elif entry.suffix.lower() in SUFFIXES and entry.is_file():
             yield entry
 
 

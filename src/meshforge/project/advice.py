@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from meshforge.formats import labels_beside
+
 if TYPE_CHECKING:
     from meshforge.project.status import AssetStatus
 
@@ -33,7 +35,7 @@ def advice(
     if problem:
         return Advice(f"The program cannot be applied: {problem}")
     return (
-        _labels(folder, assets, vocabulary)
+        _labels(folder, paths, assets, vocabulary, rules)
         or _demonstrations(folder, paths, assets, rules)
         or _program(folder, rules, outdated)
         or _output(folder, assets)
@@ -41,14 +43,20 @@ def advice(
     )
 
 
-def _labels(folder: Path, assets: Sequence[AssetStatus], vocabulary: Sequence[str]) -> Advice | None:
-    if any(asset.labelled for asset in assets):
+def _labels(
+    folder: Path,
+    paths: Mapping[str, Path],
+    assets: Sequence[AssetStatus],
+    vocabulary: Sequence[str],
+    rules: int | None,
+) -> Advice | None:
+    if rules is not None or any(asset.labelled or asset.demonstrated for asset in assets):
         return None
     words = "" if vocabulary else " --vocabulary a,b,c"
-    say = (
-        "No hull has a label yet: take over labels files that lie beside the assets, or name a file or folder of them."
-    )
-    return Advice(say, f"meshforge label {_word(folder)} --with file{words}")
+    command = f"meshforge label {_word(folder)} --with file"
+    if any(labels_beside(path).is_file() for path in paths.values()):
+        return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
+    return Advice("No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}")
 
 
 def _demonstrations(
@@ -97,4 +105,6 @@ def _these(assets: Sequence[AssetStatus]) -> str:
 
 
 def _word(path: Path) -> str:
-    return shlex.quote(str(path))
+    """A path as one types it here."""
+    here = Path.cwd()
+    return shlex.quote(str(path.relative_to(here) if path.is_relative_to(here) else path))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -272,3 +273,12 @@ def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> Non
     (edited,) = run(tmp_path / "assets", out)
     assert isinstance(edited, Edited) and edited.rules[0].selected == ("litter",)
     assert edited.notes == ("labels followed renamed hulls: crumb to litter",)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path, out: Path) -> None:
+    os.mkfifo(assets / "endless.obj")  # whoever reads it waits for a writer that never comes
+    work = [AssetJob("endless.obj", assets / "endless.obj", assets), *jobs(expand([assets]))]
+    outcomes = list(apply(Program.parse(PROGRAM), work, out, workers=1, timeout=2.0))
+    assert words(outcomes) == ["failed", "edited", "edited", "edited"]
+    assert isinstance(outcomes[0], Failed) and "longer than 2 seconds" in outcomes[0].error

@@ -1,7 +1,10 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 from meshforge.batch import Lost, isolated
 
@@ -58,3 +61,10 @@ def test_a_caller_may_stop_early() -> None:
 
 def test_nothing_to_do_starts_no_process() -> None:
     assert list(isolated(square, [], workers=4)) == []
+
+
+def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text("from meshforge.batch import isolated\nprint(list(isolated(abs, [1, -2], workers=1)))\n")
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr

@@ -34,6 +34,19 @@ def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> N
     ]
 
 
+def test_labels_that_lie_nowhere_are_asked_for(tmp_path: Path) -> None:
+    write_table(tmp_path / "assets/t.obj", labels=False)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"])
+    command = of(project).next.command
+    assert command == f"meshforge label {project.folder} --with file --labels FOLDER --vocabulary a,b,c"
+
+
+def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = demonstrated(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert of(project).next.command == "meshforge synthesize tables"
+
+
 def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
     assert asset(demonstrated(tmp_path), FIRST) == AssetStatus(FIRST, 6, 6, demonstrated=True)
     assert asset(Project.open(tmp_path / "tables"), THIRD) == AssetStatus(THIRD, 6, 6)
