@@ -1,0 +1,178 @@
+"""STL, PLY, VRML: edits keep the rest of the file, and say how hulls are counted anew."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Geom, Opaque, Surface
+from meshforge.errors import AssetError
+from meshforge.formats import read, save
+from meshforge.geometry import Capsule, Pose, convex_hull
+from tests.mesh_files import KINDS, ply, stl_ascii, stl_binary, wrl
+from tests.soups import Soup, box, together
+
+Write = Callable[[Soup], bytes]
+LEGS = together(box(), box((3, 0, 0)), box((6, 0, 0), (1, 1, 2)))
+PLAIN = {kind: KINDS[kind] for kind in KINDS if kind not in ("collada", "gltf", "glb")}
+EDITABLE = {kind: PLAIN[kind] for kind in PLAIN if kind != "vrml"}
+
+
+def put(folder: Path, suffix: str, data: bytes) -> Path:
+    path = folder / f"a{suffix}"
+    path.write_bytes(data)
+    return path
+
+
+def without(asset: Asset, *names: str, add: Sequence[Geom] = ()) -> Asset:
+    return asset.with_geoms([*(g for g in asset.geoms if g.name not in names), *add])
+
+
+def volumes(asset: Asset) -> dict[str, float]:
+    return {g.name: round(g.shape.volume, 6) for g in asset.geoms}
+
+
+def hull(name: str, parent: str | None = "geom0#0") -> Geom:
+    return Geom(name, "body", convex_hull(box((0, 5, 0), (0.5, 0.5, 0.5))[0]), parent)
+
+
+@pytest.mark.parametrize(("suffix", "write"), PLAIN.values(), ids=PLAIN.keys())
+def test_an_unedited_file_is_written_byte_for_byte(tmp_path: Path, suffix: str, write: Write) -> None:
+    source = put(tmp_path, suffix, write(LEGS))
+    asset = pickle.loads(pickle.dumps(read(source)))
+    saved = save(asset, tmp_path / f"b{suffix}")
+    assert saved.path.read_bytes() == source.read_bytes()
+    assert (saved.files, saved.notes, saved.names) == ((tmp_path / f"b{suffix}",), (), {})
+
+
+@pytest.mark.parametrize(("suffix", "write"), PLAIN.values(), ids=PLAIN.keys())
+def test_hulls_without_names_are_counted_in_file_order(tmp_path: Path, suffix: str, write: Write) -> None:
+    assert volumes(read(put(tmp_path, suffix, write(LEGS)))) == {"geom0#0": 1, "geom0#1": 1, "geom0#2": 2}
+    assert volumes(read(put(tmp_path, suffix, write(box())))) == {"geom0": 1}
+
+
+@pytest.mark.parametrize(("suffix", "write"), EDITABLE.values(), ids=EDITABLE.keys())
+def test_hulls_go_and_come_and_are_known_by_the_names_they_read_back_as(
+    tmp_path: Path, suffix: str, write: Write
+) -> None:
+    asset = read(put(tmp_path, suffix, write(LEGS)))
+    saved = save(without(asset, "geom0#1", add=[hull("geom0#1~1")]), tmp_path / f"b{suffix}")
+    back = volumes(read(saved.path))
+    wanted = {"geom0#0": 1, "geom0#2": 2, "geom0#1~1": 0.125}
+    assert {saved.names.get(name, name): volume for name, volume in wanted.items()} == back
+    if suffix == ".obj":
+        assert saved.names == {}
+    else:
+        assert saved.names == {"geom0#2": "geom0#1", "geom0#1~1": "geom0#2"}
+        assert saved.notes[0].startswith("this format has no names for hulls")
+
+
+def test_a_binary_stl_keeps_title_records_and_attributes(tmp_path: Path) -> None:
+    data = stl_binary(LEGS, b"made by hand")
+    asset = read(put(tmp_path, ".stl", data))
+    save(without(asset, "geom0#1"), tmp_path / "b.stl")
+    kept = data[84 : 84 + 12 * 50] + data[84 + 24 * 50 :]
+    assert (tmp_path / "b.stl").read_bytes() == data[:80] + (24).to_bytes(4, "little") + kept
+
+
+def test_an_ascii_stl_keeps_its_text(tmp_path: Path) -> None:
+    asset = read(put(tmp_path, ".stl", stl_ascii(LEGS)))
+    save(without(asset, "geom0#1"), tmp_path / "b.stl")
+    rest = together(box(), box((6, 0, 0), (1, 1, 2)))
+    assert (tmp_path / "b.stl").read_bytes() == stl_ascii(rest)
+
+
+def test_solids_of_an_ascii_stl_keep_their_names_and_made_hulls_get_theirs(tmp_path: Path) -> None:
+    asset = read(put(tmp_path, ".stl", stl_ascii(box(), "left") + stl_ascii(box((3, 0, 0)), "right")))
+    assert volumes(asset) == {"left": 1, "right": 1}
+    saved = save(without(asset, add=[hull("left~1", "left")]), tmp_path / "b.stl")
+    assert volumes(read(saved.path)) == {"left": 1, "right": 1, "left~1": 0.125}
+    assert saved.names == {}
+
+
+@pytest.mark.parametrize("order", ["ascii", "binary_little_endian", "binary_big_endian"])
+def test_a_ply_keeps_colours_and_other_properties(tmp_path: Path, order: str) -> None:
+    source = put(tmp_path, ".ply", ply(LEGS, order, extra=True))
+    asset = read(source)
+    save(without(asset, "geom0#0"), tmp_path / "b.ply")
+    rest = together(box((3, 0, 0)), box((6, 0, 0), (1, 1, 2)))
+    assert (tmp_path / "b.ply").read_bytes() == ply(rest, order, extra=True)
+    save(without(asset, add=[hull("geom0~1")]), tmp_path / "c.ply")
+    assert (tmp_path / "c.ply").read_bytes().startswith(ply(LEGS, order, extra=True)[:60])
+    assert len(read(tmp_path / "c.ply").geoms) == 4
+
+
+def test_rows_of_a_ply_that_count_on_vertices_stop_an_edit(tmp_path: Path) -> None:
+    edges = b"element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header"
+    data = ply(LEGS).replace(b"end_header", edges) + b"0 1\n"
+    asset = read(put(tmp_path, ".ply", data))
+    assert save(asset, tmp_path / "b.ply").path.read_bytes() == data
+    with pytest.raises(AssetError, match="it has rows of edge"):
+        save(without(asset, "geom0#0"), tmp_path / "c.ply")
+
+
+def test_exact_duplicates_stay_apart_in_an_stl(tmp_path: Path) -> None:
+    asset = read(put(tmp_path, ".stl", stl_binary(LEGS)))
+    twin = Geom("geom0#0~1", "body", asset.geoms[0].shape, "geom0#0")
+    assert len(read(save(without(asset, add=[twin]), tmp_path / "b.stl").path).geoms) == 4
+
+
+def test_hulls_that_an_stl_cannot_hold_apart_are_refused_not_fused(tmp_path: Path) -> None:
+    open_box = (box()[0], box()[1][2:])
+    asset = read(put(tmp_path, ".stl", stl_binary(together(open_box, box((3, 0, 0))))))
+    twin = Geom("geom0#0~1", "body", asset.geoms[0].shape, "geom0#0")
+    with pytest.raises(AssetError, match="cannot be told apart") as error:
+        save(without(asset, add=[twin]), tmp_path / "b.stl")
+    assert "Write an OBJ" in str(error.value)
+    assert not (tmp_path / "b.stl").exists()
+
+
+def test_vrml_is_read_only_and_says_what_to_write(tmp_path: Path) -> None:
+    asset = read(put(tmp_path, ".wrl", wrl(LEGS)))
+    with pytest.raises(AssetError, match=r"Write an \.obj"):
+        save(without(asset, "geom0#0"), tmp_path / "b.wrl")
+    save(without(asset, "geom0#0"), tmp_path / "b.obj")
+    assert volumes(read(tmp_path / "b.obj")) == {"geom0#1": 1, "geom0#2": 2}
+
+
+def test_shapes_of_vrml_are_hulls_of_their_own(tmp_path: Path) -> None:
+    data = wrl(box()) + wrl(box((1, 0, 0))).replace(b"#VRML V2.0 utf8", b"DEF lid").replace(b"DEF co", b"")
+    assert volumes(read(put(tmp_path, ".wrl", data))) == {"geom0": 1, "lid": 1}
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply"])
+def test_other_formats_are_converted_with_what_is_opaque(tmp_path: Path, suffix: str) -> None:
+    sheet = Surface(np.array([[0, 0, 9], [1, 0, 9], [1, 1, 9.0]]), np.array([[0, 1, 2]]))
+    asset = replace(
+        read(put(tmp_path, ".wrl", wrl(LEGS))),
+        opaque=(Opaque("sheet", "body", "flat", sheet), Opaque("floor", "body", "an endless plane")),
+    )
+    capsule = Geom("pin", "body", Capsule(Pose.of_translation([0, 8, 0]), 0.5, 1.0))
+    saved = save(asset.with_geoms([*asset.geoms, capsule]), tmp_path / f"b{suffix}")
+    back = read(saved.path)
+    assert len(back.geoms) == 4
+    assert [o.reason for o in back.opaque] == ["flat"]
+    assert saved.notes[:2] == (
+        "1 capsule written as hull meshes: mesh files have no primitives",
+        "floor is left out: an endless plane",
+    )
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply"])
+def test_a_new_file_holds_double_precision(tmp_path: Path, suffix: str) -> None:
+    points = np.random.default_rng(4).normal(size=(20, 3)) * np.pi
+    asset = read(put(tmp_path, ".wrl", wrl(LEGS))).with_geoms([Geom("ball", "body", convex_hull(points))])
+    save(asset, tmp_path / f"b{suffix}")
+    (ball,) = read(tmp_path / f"b{suffix}").geoms
+    assert set(map(tuple, ball.shape.vertices.tolist())) <= set(map(tuple, points.tolist()))
+
+
+def test_nothing_is_not_written(tmp_path: Path) -> None:
+    asset = read(put(tmp_path, ".wrl", wrl(LEGS)))
+    with pytest.raises(AssetError, match="there is no hull to write"):
+        save(asset.with_geoms([]), tmp_path / "b.obj")
