@@ -160,16 +160,17 @@ def extractors(vocabulary: tuple[str, ...] = VOCABULARY, max_leaves: int = 4) ->
 factors = st.one_of(st.sampled_from((0.5, 2.0, 1.0, 1.25)), st.floats(0.1, 10.0))
 
 
-def simple_actions(factor: st.SearchStrategy[float] = factors) -> st.SearchStrategy[Action]:
-    """Actions without Each; template files are those of TEMPLATES."""
+def simple_actions(factor: st.SearchStrategy[float] = factors, *, tight: bool = True) -> st.SearchStrategy[Action]:
+    """Actions without Each, tight fits on request; template files are those of TEMPLATES."""
     files = st.sampled_from(sorted(TEMPLATES))
+    fits = [st.builds(Replace, st.sampled_from(("box", "cylinder", "capsule")), st.just("tight"))] if tight else []
     return cast(
         "st.SearchStrategy[Action]",
         st.one_of(
             st.just(Delete()),
             st.just(Merge()),
             st.builds(Replace, st.sampled_from(PRIMITIVES)),
-            st.builds(Replace, st.sampled_from(("box", "cylinder", "capsule")), st.just("tight")),
+            *fits,
             st.builds(Replace, files, st.sampled_from((None, "longest"))),
             st.builds(Add, directions, files, st.booleans()),
             st.builds(Scale, st.sampled_from(AXES), factor),
@@ -177,9 +178,9 @@ def simple_actions(factor: st.SearchStrategy[float] = factors) -> st.SearchStrat
     )
 
 
-def actions(factor: st.SearchStrategy[float] = factors) -> st.SearchStrategy[Action]:
+def actions(factor: st.SearchStrategy[float] = factors, *, tight: bool = True) -> st.SearchStrategy[Action]:
     """Actions, also inside Each."""
-    simple = simple_actions(factor)
+    simple = simple_actions(factor, tight=tight)
     return st.one_of(simple, st.builds(Each, simple))
 
 
@@ -207,6 +208,7 @@ def programs(
     draw: st.DrawFn,
     vocabulary: tuple[str, ...] = VOCABULARY,
     orient: st.SearchStrategy[Orient | None] | None = None,
+    action: st.SearchStrategy[Action] | None = None,
     max_rules: int = 4,
 ) -> Program:
     """A program that declares the vocabulary, with thresholds in some."""
@@ -214,7 +216,7 @@ def programs(
     return Program(
         vocabulary,
         draw(st.none() | orients(vocabulary) if orient is None else orient),
-        tuple(draw(st.lists(rules(vocabulary), max_size=max_rules))),
+        tuple(draw(st.lists(rules(vocabulary, action), max_size=max_rules))),
         draw(threshold),
         draw(threshold),
     )

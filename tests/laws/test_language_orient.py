@@ -11,10 +11,21 @@ from hypothesis import strategies as st
 
 from meshforge.errors import ProgramError
 from meshforge.geometry import Floats, Pose
-from meshforge.language import DIRECTIONS, All, Direction, Is, LandmarkPair, Orient, Program, orient_mesh
+from meshforge.language import (
+    DIRECTIONS,
+    All,
+    Direction,
+    Is,
+    LandmarkPair,
+    Orient,
+    Program,
+    Replace,
+    Rule,
+    orient_mesh,
+)
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.laws.test_language_run import alike
-from tests.strategies import TEMPLATES, VOCABULARY, programs, rotations, seeds, shape_of
+from tests.strategies import TEMPLATES, VOCABULARY, actions, programs, rotations, seeds, shape_of
 
 QUARTER_TURNS = [np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
 
@@ -38,8 +49,8 @@ def two_pairs() -> Orient:
     return Orient((LandmarkPair("+Z", Is("leg"), Is("panel")), LandmarkPair("-X", Is("leg"), Is("handle"))))
 
 
-@given(landmarked(), rotations, programs(VOCABULARY, st.just(two_pairs())))
-@settings(max_examples=100, deadline=None)
+@given(landmarked(), rotations, programs(VOCABULARY, st.just(two_pairs()), actions(tight=False)))
+@settings(max_examples=60, deadline=None)
 def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_frame(
     mesh: SymbolicMesh, rotation: Floats, program: Program
 ) -> None:
@@ -59,8 +70,19 @@ def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_fra
         assert alike(a.shape.tessellated(), b.shape.tessellated(), 1e-6 * mesh.diagonal)
 
 
+@given(landmarked(), rotations, st.sampled_from(("box", "cylinder", "capsule")))
+@settings(max_examples=15, deadline=None)
+def test_a_tight_fit_is_as_large_in_every_frame(mesh: SymbolicMesh, rotation: Floats, primitive: str) -> None:
+    """Which one it is may depend on rounding, where several are equally small: around a sphere all boxes are."""
+    program = Program(VOCABULARY, two_pairs(), (Rule(Is("misc"), Replace(primitive, "tight")),))
+    one, two = (program.run(scene).mesh.hulls[-1] for scene in (mesh, turned(mesh, rotation)))
+    assert one.name == two.name and np.isclose(one.volume, two.volume, rtol=1e-2)
+    around = Program(VOCABULARY, two_pairs(), (Rule(Is("misc"), Replace("box")),)).run(mesh).mesh.hulls[-1]
+    assert primitive != "box" or one.volume <= around.volume * (1 + 1e-9)
+
+
 @given(landmarked(), rotations)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_with_one_pair_the_frame_is_the_same_up_to_quarter_turns_about_its_axis(
     mesh: SymbolicMesh, rotation: Floats
 ) -> None:
@@ -93,7 +115,7 @@ AXES = st.permutations(DIRECTIONS).filter(lambda axes: axes[0][1] != axes[1][1])
 
 
 @given(landmarked(), rotations, AXES, st.booleans())
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_the_pairs_point_where_they_should(
     mesh: SymbolicMesh, rotation: Floats, axes: list[Direction], two: bool
 ) -> None:

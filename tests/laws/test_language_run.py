@@ -41,7 +41,7 @@ def assert_sound(shape: Shape) -> None:
 
 
 @given(meshes(), programs(VOCABULARY, st.none()))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
     mesh: SymbolicMesh, program: Program
 ) -> None:
@@ -54,7 +54,7 @@ def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
 
 
 @given(meshes(), programs(VOCABULARY, st.none()))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh, program: Program) -> None:
     if program.asked_labels and not mesh.labels:
         return
