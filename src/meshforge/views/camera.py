@@ -18,8 +18,8 @@ Places = Floats | Ints
 """Columns or rows of pixels; halves lie between two of them."""
 
 _SEEN_FROM: dict[View, tuple[float, float, float]] = {
-    "iso": (0.62, -1.0, 0.62),
-    "iso-back": (-0.62, 1.0, 0.62),
+    "iso": (0.8, -1.0, 0.66),
+    "iso-back": (-0.8, 1.0, 0.66),
     "front": (0.0, -1.0, 0.0),
     "back": (0.0, 1.0, 0.0),
     "left": (-1.0, 0.0, 0.0),

@@ -46,7 +46,8 @@ def render(
     ghost: surfaces shown as grey shells; None shows the asset's opaque pieces.
     legend: names of colours and counts of hulls; without it the picture fills the whole size, but for a title.
     background: `light`, a colour `#rrggbb`, or None for transparent.
-    labels: the number of each hull on it, counted from 0, or other short texts by hull name.
+    labels: the number of each hull on it, counted from 0, or other short texts by hull name; what would cover
+    another, or a hull that is hardly seen, is left out.
     bounds: the box that the camera is framed on, to compare pictures; None frames the mesh.
     vocabulary: the order in which labels take their colours. up: the axis that points up in the picture.
     Raises UsageError for an unknown view or colouring, or an impossible size.
