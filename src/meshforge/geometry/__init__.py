@@ -4,6 +4,10 @@ from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.digest import digest, same_shape
+from meshforge.geometry.distance import close_pairs, distance
+from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, mapped_to
+from meshforge.geometry.fit_box import tight_box
+from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
 from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
@@ -23,14 +27,25 @@ __all__ = [
     "Pose",
     "Shape",
     "Sphere",
+    "aabb_box",
+    "aabb_capsule",
+    "aabb_cylinder",
+    "aabb_sphere",
+    "close_pairs",
     "convex_hull",
     "digest",
+    "distance",
     "frozen_floats",
     "frozen_ints",
     "is_closed",
     "is_convex",
+    "longest_axis",
+    "mapped_to",
     "outward",
     "pieces",
     "principal_extents",
     "same_shape",
+    "tight_box",
+    "tight_capsule",
+    "tight_cylinder",
 ]

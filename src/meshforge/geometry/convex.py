@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import manifold3d
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
@@ -154,6 +153,8 @@ def _by_manifold(points: Floats) -> _Hull | None:
 
 
 def _by_qhull(points: Floats) -> _Hull | None:
+    from scipy.spatial import ConvexHull, QhullError  # half of this room's import time, and hardly ever needed
+
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
