@@ -123,6 +123,12 @@ def test_the_legend_counts_labels_before_and_after(tree: Any) -> None:
     assert texts(tree, "//ul[@class='legend of-changes']/li") == ["removed 2", "made 1", "kept 5"]
 
 
+def test_without_labels_the_legend_says_so(tmp_path: Path) -> None:
+    mesh = SymbolicMesh(table().hulls[4:])
+    tree: Any = lxml.html.document_fromstring(written(tmp_path, [ReportAsset("a", mesh, mesh)], pictured=0))
+    assert texts(tree, "//ul[@class='legend']/li") == ["nothing is labelled: each hull has its own colour"]
+
+
 def test_what_each_rule_did_to_an_asset_is_listed(tree: Any) -> None:
     rows = cells(tree, "(//article)[1]//tbody/tr")
     assert rows[0] == ["1", "Is(panel) => Mergea note & more", "2 left, right", "1 left~1"]

@@ -38,6 +38,8 @@ def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled:
     """Each label with its colour, and its hulls before and after."""
     known = [(a.before, a.after) for a in assets if a.before and a.after]
     before, after = (Counter(h.label for pair in known for h in pair[k].hulls) for k in (0, 1))
+    if not (before.keys() | after.keys()) - {None}:
+        return tag("ul", tag("li", tag("span", "nothing is labelled: each hull has its own colour")), class_="legend")
     entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items()]
     if before[None] or after[None]:
         entries.append(_entry("no label", unlabelled, before[None], after[None]))
