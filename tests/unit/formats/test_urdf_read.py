@@ -86,6 +86,8 @@ def test_an_opaque_piece_counts_among_the_pieces_and_is_shown_where_it_is(tmp_pa
     assert [g.name for g in asset.geoms] == ["a/geom0#1", "a/geom0#2", "a/geom0#3"]
     surface = asset.opaque[0].surface
     assert surface is not None and np.unique(surface.vertices[:, 2]).tolist() == [-2]
+    a, b, c = surface.vertices[surface.faces[0]]
+    assert np.cross(b - a, c - a)[2] < 0  # what looked up looks down in the mirror
 
 
 def _shifted(obj: str, by: int) -> str:

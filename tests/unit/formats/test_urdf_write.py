@@ -230,7 +230,7 @@ def test_an_edit_keeps_encoding_and_line_ends(encoding: str, tmp_path: Path) -> 
     path.write_bytes((head + body).encode(encoding))
     asset = read(path)
     sphere = made(asset, "a/geom0", Sphere(Pose.identity(), 2))
-    text = write(asset.with_geoms([asset.geoms[1], sphere])).main.decode(encoding)
+    text = write(asset.with_geoms([*asset.geoms, sphere])).main.decode(encoding)
     assert text.startswith(head)
     assert text.count("\r\n") == text.count("\n")
     assert '<sphere radius="2"/>' in text

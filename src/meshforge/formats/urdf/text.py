@@ -43,7 +43,7 @@ class Text:
 
 
 def blanked(data: bytes) -> bytes:
-    """The same bytes with spaces for comments, processing instructions and a plain document type.
+    """The same bytes with spaces for comments, raw text, processing instructions and a plain document type.
 
     Engines read past an XML declaration of version 0.0 or after blank lines, and past `--` in comments; a strict
     parser does not. Offsets and lines stay. A document type with declarations of its own stays too, to be refused.
@@ -55,6 +55,6 @@ def blanked(data: bytes) -> bytes:
             break
         at = end + len(_CLOSERS[opener[0]])
         inside = data[opener.start() : at]
-        if opener[0] != b"<![CDATA[" and not (opener[0] == b"<!DOCTYPE" and b"[" in inside):
+        if not (opener[0] == b"<!DOCTYPE" and b"[" in inside):
             out[opener.start() : at] = re.sub(rb"[^\r\n]", b" ", inside)
     return bytes(out)

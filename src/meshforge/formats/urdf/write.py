@@ -37,7 +37,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     names = settle(plan.slots)
     data = spliced(text.data, _splices(plan))
     main = document.source if data == text.data else text.encoded(data)
-    copies, far = _copies(robot_of(data, str(asset.path)), document.resolver, set(files.made))
+    copies, far = _copies(robot_of(data, str(asset.path)), document.resolver)
     return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
@@ -89,13 +89,13 @@ def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
     return gap.join(slot.written(data) for slot in slots)
 
 
-def _copies(robot: Element, resolver: Resolver, made: set[str]) -> tuple[dict[str, Path], list[str]]:
+def _copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
     """The input files that the output refers to, by where they go; and notes on those that stay where they are."""
     copies: dict[str, Path] = {}
     notes = []
     for reference in references(robot):
         place, path = placement(reference), resolver.find(reference)
-        if place in made or path is None:
+        if path is None:  # made, or missing from the start
             continue
         if place is None:
             notes.append(f"{reference!r} is an absolute reference: the file is used where it is, not copied")
