@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -13,8 +15,6 @@ from meshforge.cli.options import Json, Labels
 
 if TYPE_CHECKING:
     from meshforge.batch import Outcome
-
-    Run = Callable[[Callable[[], None]], Iterator[Outcome]]
 
 
 def apply(
@@ -40,13 +40,11 @@ def apply(
     from meshforge.batch import Failed, json_line
     from meshforge.cli.output import print_json, progress
 
-    if program.is_dir():
-        total, run = _of_project(program, assets, out, labels, workers, mass, link, dry_run, fresh)
-    else:
-        total, run = _of_program(program, assets, out, labels, workers, mass, link, dry_run, fresh)
+    options = {"workers": workers, "mass": mass, "link": link, "dry_run": dry_run, "resume": not fresh}
+    work = _of_project(program, assets, labels) if program.is_dir() else _of_program(program, assets, out, labels)
     outcomes = []
-    with progress(total, "editing") as advance:
-        for outcome in run(advance):
+    with progress(work.total, "editing") as advance:
+        for outcome in work.run(out=out, progress=advance, **options):
             outcomes.append(outcome)
             if json:
                 print_json(json_line(outcome), compact=True)
@@ -55,17 +53,15 @@ def apply(
     raise typer.Exit(int(any(isinstance(outcome, Failed) for outcome in outcomes)))
 
 
-def _of_project(
-    folder: Path,
-    assets: list[str] | None,
-    out: Path | None,
-    labels: Path | None,
-    workers: int | None,
-    mass: Literal["keep", "recompute"],
-    link: bool,
-    dry_run: bool,
-    fresh: bool,
-) -> tuple[int, Run]:
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """How many assets there are, and what runs the program on them."""
+
+    total: int
+    run: Callable[..., Iterator[Outcome]]
+
+
+def _of_project(folder: Path, assets: list[str] | None, labels: Path | None) -> _Work:
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
@@ -75,27 +71,11 @@ def _of_project(
             remedy=f"For other assets: meshforge apply {folder / 'program.mf'} ASSETS... --out DIR",
         )
     project = Project.open(folder)
-
-    def run(advance: Callable[[], None]) -> Iterator[Outcome]:
-        return project.apply(
-            out=out, workers=workers, mass=mass, link=link, dry_run=dry_run, resume=not fresh, progress=advance
-        )
-
-    return len(project.assets()), run
+    return _Work(len(project.assets()), project.apply)
 
 
-def _of_program(
-    path: Path,
-    assets: list[str] | None,
-    out: Path | None,
-    labels: Path | None,
-    workers: int | None,
-    mass: Literal["keep", "recompute"],
-    link: bool,
-    dry_run: bool,
-    fresh: bool,
-) -> tuple[int, Run]:
-    from meshforge.batch import apply as run_batch
+def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:
+    from meshforge.batch import apply as run
     from meshforge.batch import expand, jobs, load_templates, template_folders
     from meshforge.errors import UsageError
     from meshforge.language import Program
@@ -106,22 +86,7 @@ def _of_program(
     program = Program.read(path)
     templates = load_templates(program, template_folders(path))
     work = jobs(expand(assets), labels)
-
-    def run(advance: Callable[[], None]) -> Iterator[Outcome]:
-        return run_batch(
-            program,
-            work,
-            out,
-            templates=templates,
-            workers=workers,
-            mass=mass,
-            link=link,
-            dry_run=dry_run,
-            resume=not fresh,
-            progress=advance,
-        )
-
-    return len(work), run
+    return _Work(len(work), partial(run, program, work, templates=templates))
 
 
 def report(outcomes: Sequence[Outcome], *, dry_run: bool = False) -> None:

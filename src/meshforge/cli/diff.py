@@ -20,9 +20,9 @@ def diff(
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
-    from meshforge.cli.output import print_json, remark, write_png
+    from meshforge.cli.output import print_json, remark
     from meshforge.formats import load
-    from meshforge.views import before_after
+    from meshforge.views import before_after, write_png
 
     old, new = load(before), load(after)
     changes = compared(old, new)

@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
-    from PIL.Image import Image
     from rich.table import Table
 
 
@@ -58,17 +56,6 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task(what, total=total)
         yield lambda: bar.advance(task)
-
-
-def write_png(path: Path, image: Image) -> None:
-    """Write a picture, whole or not at all."""
-    from io import BytesIO
-
-    from meshforge.files import write_atomically
-
-    encoded = BytesIO()
-    image.save(encoded, format="PNG", optimize=True)
-    write_atomically(path, encoded.getvalue())
 
 
 def counted(number: int, one: str, many: str | None = None) -> str:

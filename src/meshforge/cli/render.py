@@ -24,23 +24,24 @@ def render(
     views: Annotated[
         str, typer.Option("--views", help="Comma-separated: iso, iso-back, front, back, left, right, top, bottom.")
     ] = "iso",
-    size: Annotated[str, typer.Option("--size", help="Pixels of one view.")] = "900x700",
+    size: Annotated[str, typer.Option("--size", help="Pixels of the picture.")] = "900x700",
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False,
     names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False,
 ) -> None:
     """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
-    from meshforge.cli.output import remark, write_png
+    from meshforge.cli.output import remark
     from meshforge.formats import load
     from meshforge.views import render as picture
+    from meshforge.views import write_png
 
     mesh = load(asset, labels=labels)
-    visuals = mesh.asset.visuals if ghost and mesh.asset else ()
+    visuals = tuple(mesh.asset.visuals) if ghost and mesh.asset else None
     image = picture(
         mesh,
         views=_views(views),
         color_by=color_by or ("label" if mesh.labels else "hull"),
         size=_pixels(size),
-        ghost=tuple(visuals) or None,
+        ghost=visuals,
         labels=names,
     )
     write_png(out, image)

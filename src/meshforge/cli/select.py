@@ -18,10 +18,10 @@ def select(
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
-    from meshforge.cli.output import print_json, remark, write_png
+    from meshforge.cli.output import print_json, remark
     from meshforge.formats import load
     from meshforge.language import parse_extractor
-    from meshforge.views import render
+    from meshforge.views import render, write_png
 
     mesh = load(asset, labels=labels)
     chosen = sorted(parse_extractor(expression).select(mesh))
