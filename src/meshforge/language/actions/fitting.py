@@ -2,20 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
-from meshforge.errors import ProgramError
-from meshforge.geometry import Aabb, Box, Floats, Shape
+from meshforge.geometry import (
+    Aabb,
+    Floats,
+    Shape,
+    aabb_box,
+    aabb_capsule,
+    aabb_cylinder,
+    aabb_sphere,
+    longest_axis,
+    mapped_to,
+    tight_box,
+    tight_capsule,
+    tight_cylinder,
+)
 from meshforge.language.actions.edit import Group
 
-_EQUAL = 1e-9  # sides that differ by less are equal
+_FILLING: Mapping[str, Callable[[Aabb], Shape]] = {
+    "box": aabb_box,
+    "cylinder": aabb_cylinder,
+    "capsule": aabb_capsule,
+    "sphere": aabb_sphere,
+}
+_TIGHT = {
+    "box": tight_box,
+    "cylinder": tight_cylinder,
+    "capsule": tight_capsule,
+}
 
 
 def fitted_primitive(group: Group, primitive: str, *, tight: bool) -> tuple[Shape, str | None]:
     """The primitive that fills the bounding box of the group, or the smallest one around its points; with a note."""
-    if primitive == "box" and not tight:
-        return Box.filling(group.bounds), None
-    raise ProgramError(f"no fit of a {primitive} yet")
+    if tight:
+        note = "round primitives were fitted by their tessellated points" if group.has_round else None
+        return _TIGHT[primitive](group.points, name=group.largest.name, thicken=group.thickness), note
+    shape = _FILLING[primitive](group.bounds)
+    if shape.is_primitive:
+        return shape, None
+    return shape, f"sides of the {primitive} differ by more than 1%, so it is a hull mesh"
 
 
 def fitted_template(group: Group, name: str, *, turned: bool) -> tuple[Shape, ...]:
@@ -24,18 +52,11 @@ def fitted_template(group: Group, name: str, *, turned: bool) -> tuple[Shape, ..
     turned: whether its longest axis is first turned onto that of the group.
     """
     template = group.template(name)
-    turn = _onto(longest_axis(template.aabb), longest_axis(group.bounds)) if turned else np.eye(3)
-    shapes = [shape.mapped(turn, np.zeros(3)) for shape in template.shapes] if turned else template.shapes
-    box = Aabb.union(shape.aabb for shape in shapes)
-    factors = group.bounds.size / box.size
-    offset = group.bounds.min - box.min * factors
-    return tuple(shape.mapped(np.diag(factors), offset) for shape in shapes)
-
-
-def longest_axis(box: Aabb) -> int:
-    """The axis of the longest side; of equal ones Z, then Y, then X."""
-    longest = float(box.size.max())
-    return max(axis for axis in range(3) if box.size[axis] >= longest * (1 - _EQUAL))
+    if not turned:
+        return mapped_to(template.shapes, template.aabb, group.bounds)
+    turn = _onto(longest_axis(template.aabb), longest_axis(group.bounds))
+    shapes = [shape.mapped(turn, np.zeros(3)) for shape in template.shapes]
+    return mapped_to(shapes, Aabb.union(shape.aabb for shape in shapes), group.bounds)
 
 
 def _onto(start: int, end: int) -> Floats:
