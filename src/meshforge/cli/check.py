@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 def check(
     assets: AssetFiles,
     engine: Annotated[
-        str | None,
-        typer.Option("--engine", help="mujoco, physx-cpu, physx-gpu, unreal, unity, bullet or godot."),
+        Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"] | None,
+        typer.Option("--engine", help="Also check the limits of this engine."),
     ] = None,
     labels: Labels = None,
     json: Json = False,
@@ -35,7 +35,8 @@ def check(
     failed = False
     found = expand(assets)
     for path in found:
-        error, findings = None, ()
+        error: str | None = None
+        findings: tuple[Finding, ...] = ()
         try:
             findings = findings_of(load(path, labels=labels_for(path, labels, found.base)), engine)
         except MeshForgeError as problem:

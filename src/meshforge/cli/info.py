@@ -88,7 +88,7 @@ def _print(mesh: SymbolicMesh, asset: str) -> None:
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
     head = [source.format if source else "", counted(len(mesh.hulls), "hull"), counted(bodies, "body", "bodies")]
     head += [counted(len(opaque), "opaque piece")] if opaque else []
-    typer.echo(f"{asset}: {', '.join(head)}, {len(mesh.contacts)} contacts, diagonal {mesh.diagonal:.4g} m")
+    typer.echo(f"{asset}: {', '.join(head)}, {counted(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m")
     for note in source.notes if source else ():
         typer.echo(f"  note: {note}")
     if mesh.hulls:

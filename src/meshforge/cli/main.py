@@ -69,7 +69,7 @@ def main() -> None:
     debug = "--debug" in sys.argv[1:]
     sys.argv[1:] = [word for word in sys.argv[1:] if word != "--debug"]
     try:
-        application()()
+        application()(prog_name="meshforge")
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
         sys.exit(130)

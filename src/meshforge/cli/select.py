@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from meshforge.cli.options import AssetFile, Json, Labels
+
+if TYPE_CHECKING:
+    from meshforge.symbolic import SymbolicMesh
 
 
 def select(
@@ -20,11 +23,14 @@ def select(
     """List the hulls that an extractor selects, in the frame the asset comes in."""
     from meshforge.cli.output import print_json, remark
     from meshforge.formats import load
-    from meshforge.language import parse_extractor
+    from meshforge.language import labels_used, parse_extractor
     from meshforge.views import render, write_png
 
     mesh = load(asset, labels=labels)
-    chosen = sorted(parse_extractor(expression).select(mesh))
+    extractor = parse_extractor(expression)
+    for label in labels_used(extractor):
+        _warn(label, mesh)
+    chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if json:
         print_json({"hulls": names})
@@ -34,3 +40,12 @@ def select(
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
     if picture:
         write_png(picture, render(mesh, highlight=frozenset(names)))
+
+
+def _warn(label: str, mesh: SymbolicMesh) -> None:
+    """An asset need not have every label of its family, so one that is missing here is a remark, not an error."""
+    from meshforge.cli.output import remark
+
+    here = sorted({hull.label for hull in mesh.hulls if hull.label})
+    if label not in here:
+        remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")

@@ -1,0 +1,262 @@
+"""The command line: every command, its exit codes, its JSON shapes, and errors without tracebacks."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+
+from meshforge.cli import main
+from meshforge.cli.main import COMMANDS
+
+CUBE = """\
+o {name}
+v {x} 0 0
+v {x1} 0 0
+v {x1} 1 0
+v {x} 1 0
+v {x} 0 1
+v {x1} 0 1
+v {x1} 1 1
+v {x} 1 1
+f {0} {3} {2} {1}
+f {4} {5} {6} {7}
+f {0} {1} {5} {4}
+f {2} {3} {7} {6}
+f {1} {2} {6} {5}
+f {3} {0} {4} {7}
+"""
+
+
+@dataclass(frozen=True)
+class Ran:
+    """What a command printed, and its exit code."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.out)
+
+
+Run = Callable[..., Ran]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line in a folder that holds `row.obj` with labels: three cubes in a row, the last apart."""
+    monkeypatch.chdir(tmp_path)
+    text = ""
+    for k, (name, x) in enumerate((("left", 0), ("middle", 1), ("far", 4))):
+        text += CUBE.format(*(8 * k + i for i in range(1, 9)), name=name, x=x, x1=x + 1)
+    Path("row.obj").write_text(text)
+    Path("row.labels.json").write_text('{"hulls": {"left": "leg", "middle": "panel", "far": "leg"}}')
+
+    def run(*words: str) -> Ran:
+        monkeypatch.setattr(sys, "argv", ["meshforge", *words])
+        with pytest.raises(SystemExit) as left:
+            main()
+        printed = capsys.readouterr()
+        assert "Traceback" not in printed.err
+        return Ran(int(left.value.code or 0), printed.out, printed.err)
+
+    return run
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_explains_itself(run: Run, command: str) -> None:
+    told = run(command, "--help")
+    assert told.code == 0
+    assert f"Usage: meshforge {command}" in told.out
+
+
+def test_help_and_import_load_nothing_heavy() -> None:
+    code = """
+import sys
+sys.argv = ["meshforge", "--help"]
+from meshforge.cli import main
+try:
+    main()
+except SystemExit:
+    pass
+heavy = {"numpy", "scipy", "coal", "trimesh", "lxml", "lark", "pydantic", "rich.table", "PIL", "manifold3d"}
+sys.exit(", ".join(sorted(heavy & sys.modules.keys())) or 0)
+"""
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).returncode == 0
+
+
+def test_no_command_shows_the_commands(run: Run) -> None:
+    assert all(command in run().out + run("--help").out for command in COMMANDS)
+
+
+def test_an_unknown_command_is_wrong_usage(run: Run) -> None:
+    assert run("frobnicate").code == 2
+
+
+def test_info_as_json_has_the_documented_shape(run: Run) -> None:
+    told = run("info", "row.obj", "--json", "--geometry").json
+    assert list(told) == ["asset", "format", "diagonal", "hulls", "opaque", "contacts", "near_misses"]
+    hull = told["hulls"][0]
+    assert list(hull) == [
+        *("name", "body", "label", "confidence", "source", "aabb", "volume", "vertices", "faces", "primitive", "points")
+    ]
+    assert (hull["name"], hull["label"], hull["source"]) == ("left", "leg", "file")
+    assert hull["aabb"] == {"min": [0, 0, 0], "max": [1, 1, 1]}
+    assert sorted(hull["points"]) == sorted(
+        [float(x), float(y), float(z)] for x in (0, 1) for y in (0, 1) for z in (0, 1)
+    )
+    assert told["contacts"] == [["left", "middle"]]
+
+
+def test_info_for_people_names_hulls_and_counts(run: Run) -> None:
+    told = run("info", "row.obj").out
+    assert "3 hulls, 1 body, 1 contact" in told
+    assert all(name in told for name in ("left", "middle", "far", "leg", "panel"))
+
+
+def test_select_lists_names_and_as_json(run: Run) -> None:
+    assert run("select", "Attach(Is(leg), Is(panel))", "row.obj").out == "left\n"
+    assert run("select", "Geo(All, +X)", "row.obj", "--json").json == {"hulls": ["far"]}
+
+
+def test_select_of_a_label_that_no_hull_has_says_so(run: Run) -> None:
+    told = run("select", "Is(pannel)", "row.obj")
+    assert told.code == 0
+    assert "no hull here is labelled 'pannel'" in told.err
+    assert "panel" in told.err
+
+
+def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
+    assert run("render", "row.obj", "-o", "row.png", "--size", "300x200", "--views", "iso,top").code == 0
+    with Image.open("row.png") as picture:
+        assert picture.size == (300, 200)
+
+
+def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
+    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--method", "vhacd").code == 0
+    assert len(run("info", "hulls.obj", "--json").json["hulls"]) >= 1
+
+
+def test_decompose_lists_the_options_when_one_is_unknown(run: Run) -> None:
+    told = run("decompose", "row.obj", "-o", "hulls.obj", "--set", "treshold=0.1")
+    assert told.code == 2
+    assert "threshold=0.05" in told.err
+
+
+def test_convert_within_a_format_writes_the_same_bytes(run: Run) -> None:
+    assert run("convert", "row.obj", "copy.obj").code == 0
+    assert Path("copy.obj").read_bytes() == Path("row.obj").read_bytes()
+
+
+def test_convert_to_another_format_keeps_the_hulls(run: Run) -> None:
+    assert run("convert", "row.obj", "row.urdf").code == 0
+    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", "row.urdf"))
+    assert [hull["volume"] for hull in after] == pytest.approx([hull["volume"] for hull in before])
+
+
+def test_fmt_prints_the_canonical_form_and_checks_it(run: Run) -> None:
+    Path("p.mf").write_text("labels leg,panel\nIs( leg )=>Delete # gone\n")
+    assert run("fmt", "p.mf").out == "labels leg, panel\n\nIs(leg) => Delete  # gone\n"
+    assert run("fmt", "p.mf", "--check").code == 1
+    assert run("fmt", "p.mf", "--in-place").code == 0
+    assert run("fmt", "p.mf", "--check").code == 0
+
+
+def test_check_tells_legal_from_illegal(run: Run) -> None:
+    assert run("check", "row.obj").code == 0
+    _double_the_far_cube()
+    told = run("check", "row.obj", "--json")
+    assert {"far", "again"} <= {name for finding in told.json["findings"] for name in finding["hulls"]}
+
+
+def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) -> None:
+    Path("p.mf").write_text("labels leg, panel\n\nIs(leg) => Delete\n")
+    Path("bad.obj").write_text("v 0 0 nan\n")
+    told = run("apply", "p.mf", "row.obj", "bad.obj", "--out", "out", "--workers", "1", "--json")
+    lines = {line["asset"]: line for line in map(json.loads, told.out.splitlines())}
+    assert told.code == 1
+    assert lines["bad.obj"]["status"] == "failed"
+    assert lines["bad.obj"]["error"]
+    row = lines["row.obj"]
+    assert list(row) == ["asset", "status", "out", "error", "rules", "hulls", "seconds"]
+    assert row["status"] == "edited"
+    assert row["hulls"] == {"before": 3, "after": 1}
+    assert row["rules"] == [{"rule": 1, "selected": ["left", "far"], "made": [], "note": None}]
+    assert not Path("out/bad.obj").exists()
+
+
+def test_apply_dry_run_writes_nothing(run: Run) -> None:
+    Path("p.mf").write_text("Is(leg) => Delete\n")
+    told = run("apply", "p.mf", "row.obj", "--out", "out", "--dry-run", "--workers", "1")
+    assert told.code == 0
+    assert not Path("out/row.obj").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (("info", "nope.obj"), "nope.obj"),
+        (("render", "row.obj", "-o", "x.png", "--size", "big"), "--size big is not a size"),
+        (("render", "row.obj", "-o", "x.png", "--views", "under"), "there is no view 'under'"),
+        (("select", "Geo(Is(leg), +W)", "row.obj"), "+W"),
+        (("apply", "row.mf", "row.obj"), "--out DIR is missing"),
+        (("status", "."), "this is no project"),
+        (("new", "p", "*.stl"), "*.stl"),
+        (("check", "row.obj", "--engine", "quake"), "quake"),
+    ],
+)
+def test_wrong_usage_is_one_message_and_exit_code_two(run: Run, words: tuple[str, ...], problem: str) -> None:
+    told = run(*words)
+    assert told.code == 2
+    assert told.err.startswith("error: ") or "Usage" in told.err
+    assert problem in told.err
+
+
+def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
+    assert run("new", "rows", "row.obj", "--vocabulary", "leg,panel").code == 0
+    assert run("label", "rows", "--with", "file").code == 0
+    assert run("synthesize", "rows").code == 2  # nothing is demonstrated yet
+    assert run("demonstrate", "rows", "row.obj", "l*, far => Delete", "middle => Replace(sphere)").code == 0
+    assert run("demonstrate", "rows", "row.obj").out == "1. far, left => Delete\n2. middle => Replace(sphere)\n"
+    learned = run("synthesize", "rows", "--json").json
+    assert learned["status"] == "found"
+    assert [reading["extractor"] for reading in learned["readings"]] == ["Is(leg)", "Is(panel)"]
+    assert run("apply", "rows", "--workers", "1").code == 0
+    assert json.loads(Path("rows/edited/row.labels.json").read_text())["hulls"]["middle~1"]["label"] == "panel"
+    assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"
+    assert run("demonstrate", "rows", "row.obj", "--clear").code == 0
+    assert run("demonstrate", "rows", "row.obj").out == ""
+
+
+def test_demonstrate_names_the_nearest_hull(run: Run) -> None:
+    run("new", "rows", "row.obj", "--vocabulary", "leg,panel")
+    told = run("demonstrate", "rows", "row.obj", "lef => Delete")
+    assert told.code == 2
+    assert "'left'" in told.err
+
+
+def test_synthesize_that_finds_nothing_tells_why_and_the_nearest(run: Run) -> None:
+    _double_the_far_cube()
+    run("new", "rows", "row.obj", "--vocabulary", "leg,panel")
+    run("demonstrate", "rows", "row.obj", "far => Delete")
+    told = run("synthesize", "rows")
+    assert told.code == 1
+    assert told.out.startswith("no program found")
+    assert "selects too much: again" in told.out or "leaves out:       far" in told.out
+    assert not Path("rows/program.mf").exists()
+
+
+def _double_the_far_cube() -> None:
+    """Adds a hull `again` that nothing tells from `far`."""
+    with Path("row.obj").open("a") as file:
+        file.write(CUBE.format(*(24 + i for i in range(1, 9)), name="again", x=4, x1=5))
