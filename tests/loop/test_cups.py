@@ -33,6 +33,9 @@ def cups(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("cups")
     for name, parts in CUPS.items():
         shutil.copytree(corpus("cups_mugs", "pybullet-URDF-models", name), folder / "assets" / name)
+        visual = folder / "assets" / name / "textured.obj"
+        if not visual.exists():  # left out of the corpus; PyBullet insists on it
+            shutil.copyfile(visual.with_name("collision.obj"), visual)
         write_labels(folder / "assets" / name / "model.urdf", parts, rest="wall")
     meshforge("new", "cups", "assets/**/*.urdf", "--vocabulary", "base,wall,handle", cwd=folder)
     meshforge("label", "cups", "--with", "file", cwd=folder)
