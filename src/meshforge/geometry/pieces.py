@@ -80,13 +80,16 @@ class _Reader:
         self.vertices = vertices
         self.name = name
         self.placed = welded_ids(vertices)[faces]  # corners by place
-        self.grouped = _in_groups(self.placed, group)  # corners by group and place
-        self.indexed = _in_groups(faces, group)  # corners by group and index
+        indexed = _in_groups(faces, group)  # corners by group and index
+        self.of_place = by_vertices(self.placed)  # the component of each face, by what holds it together
+        self.of_group = by_vertices(_in_groups(self.placed, group))
+        self.of_index = by_vertices(indexed)
+        self.closed = np.isin(self.of_index, closed_components(indexed, self.of_index))
         self.points = np.zeros((int(self.placed.max()) + 1, 3))
         self.points[self.placed] = vertices[faces]
 
     def read(self) -> list[_Part]:
-        found = [part for faces in _split(by_vertices(self.placed)) for part in self._touching(faces)]
+        found = [part for faces in _split(self.of_place) for part in self._touching(faces)]
         return self._mended(found) if any(part.verdict.shape is None for part in found) else found
 
     def _mended(self, found: list[_Part]) -> list[_Part]:
@@ -106,16 +109,15 @@ class _Reader:
 
     def _touching(self, faces: Ints) -> list[_Part]:
         """All that touches: as whole, or group by group."""
-        parts = _sub(faces, by_vertices(self.grouped[faces]))
+        parts = _sub(faces, self.of_group[faces])
         if len(parts) == 1:
             return self._group(faces)
         return self._better([p for part in parts for p in self._group(part)], faces)
 
     def _group(self, faces: Ints) -> list[_Part]:
         """What touches in one group: as whole, or by the closed surfaces that share no vertex number."""
-        component = by_vertices(self.indexed[faces])
-        closed = np.isin(component, closed_components(self.indexed[faces], component))
-        parts = _sub(faces[closed], component[closed])
+        closed = self.closed[faces]
+        parts = _sub(faces[closed], self.of_index[faces[closed]])
         if not closed.all():
             parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
         if len(parts) == 1:
@@ -127,11 +129,20 @@ class _Reader:
         whole = self._judged(faces)
         if whole.verdict.shape is not None and is_simple(self.placed[faces]):
             return [whole]
+        return self._written_solids(faces) or self._solids(faces, whole) or [whole]
+
+    def _written_solids(self, faces: Ints) -> list[_Part]:
+        """The hulls that some faces were written as, one after the other; none where they were not."""
         runs = _sub(faces, closed_runs(self.placed[faces]))
-        solids = [self._solids(run) for run in runs] if len(runs) > 1 else []
-        if solids and all(solids):
-            return _without_backs([part for run in solids for part in run])
-        return self._solids(faces, whole) or [whole]
+        if len(runs) < 2 or min(map(len, runs)) < 4:
+            return []
+        solids: list[_Part] = []
+        for run in runs:
+            found = self._solids(run)
+            if not found:
+                return []
+            solids += found
+        return _without_backs(solids)
 
     def _solids(self, faces: Ints, whole: _Part | None = None) -> list[_Part]:
         """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
