@@ -31,7 +31,8 @@ class Polytope(Shape):
         object.__setattr__(self, "_vertices", vertices)
         object.__setattr__(self, "_faces", faces)
         object.__setattr__(self, "_aabb", Aabb.of_points(vertices))
-        object.__setattr__(self, "_moments", volume_and_centroid(vertices, faces))
+        with np.errstate(invalid="ignore", over="ignore"):  # what is not finite shows in the volume
+            object.__setattr__(self, "_moments", volume_and_centroid(vertices, faces))
 
     @property
     def vertices(self) -> Floats:

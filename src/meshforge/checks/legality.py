@@ -1,0 +1,123 @@
+"""What every hull and every mesh must be, whatever the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.checks.finding import Finding, counted, listed
+from meshforge.geometry import Polytope, Shape, digest, is_closed, is_convex, outward, principal_extents
+from meshforge.symbolic import Hull, SymbolicMesh
+
+_CONVEXITY = 1e-6  # relative to the hull's size; single precision leaves 1e-7
+_FLATNESS = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class HullRule:
+    """A rule for one hull; problem completes `<names>: `."""
+
+    name: str
+    problem: str
+    remedy: str
+    broken: Callable[[Shape], bool]
+
+
+def _not_finite(shape: Shape) -> bool:
+    return not (np.isfinite(shape.vertices).all() and np.isfinite(shape.volume))
+
+
+def _empty(shape: Shape) -> bool:
+    return len(shape.vertices) < 4
+
+
+def _open(shape: Shape) -> bool:
+    return isinstance(shape, Polytope) and not is_closed(shape.faces)
+
+
+def _flat(shape: Shape) -> bool:
+    extents = principal_extents(shape.vertices)[2]
+    return bool(extents.min() <= _FLATNESS * extents.max())
+
+
+def _without_volume(shape: Shape) -> bool:
+    return shape.volume <= 0
+
+
+def _inward(shape: Shape) -> bool:
+    return isinstance(shape, Polytope) and not outward(shape.vertices, shape.faces)
+
+
+def _not_convex(shape: Shape) -> bool:
+    return isinstance(shape, Polytope) and not is_convex(shape.vertices, shape.faces, _CONVEXITY)
+
+
+_REHULL = "Merge the hull by itself, which makes it anew, or delete it."
+HULL_RULES = (
+    HullRule("finite", "coordinates that are not finite numbers", "Mend the file's vertices.", _not_finite),
+    HullRule("solid", "too few vertices for a volume", "Delete the hull.", _empty),
+    HullRule("flat", "no thickness", "Give it a thickness, replace it by a box, or delete it.", _flat),
+    HullRule("closed", "not closed", _REHULL, _open),
+    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL, _without_volume),
+    HullRule(
+        "convex", "not convex", "Decompose it, or merge the hull by itself, which fills its hollows.", _not_convex
+    ),
+    HullRule("outward", "faces that look inwards", _REHULL, _inward),
+)
+"""In this order: of a hull that breaks several, the first is told, since the others follow from it."""
+
+
+def legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
+    """The names of the hulls that are no hulls, and everything found."""
+    faults: dict[str, list[str]] = {rule.name: [] for rule in HULL_RULES}
+    for hull in mesh.hulls:
+        rule = _first_broken(hull.shape)
+        if rule:
+            faults[rule.name].append(hull.name)
+    findings = [
+        Finding(rule.name, "error", tuple(names), f"{listed(names)}: {rule.problem}", rule.remedy)
+        for rule in HULL_RULES
+        if (names := faults[rule.name])
+    ]
+    faulty = frozenset(name for names in faults.values() for name in names)
+    sound = [hull for hull in mesh.hulls if hull.name not in faulty]
+    return faulty, (*findings, *_names(mesh), *_bodies(mesh), *_duplicates(sound), *_opaque(mesh))
+
+
+def _first_broken(shape: Shape) -> HullRule | None:
+    with np.errstate(all="ignore"):
+        return next((rule for rule in HULL_RULES if rule.broken(shape)), None)
+
+
+def _names(mesh: SymbolicMesh) -> Iterator[Finding]:
+    names = [hull.name for hull in mesh.hulls]
+    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
+    if twice:
+        message = f"{listed(twice)}: a name that several hulls have"
+        yield Finding("name", "error", tuple(twice), message, "Give each hull a name of its own.")
+
+
+def _bodies(mesh: SymbolicMesh) -> Iterator[Finding]:
+    bodies = None if mesh.asset is None else {body.name for body in mesh.asset.bodies}
+    astray = [h.name for h in mesh.hulls if (not h.body if bodies is None else h.body not in bodies)]
+    if astray:
+        yield Finding("body", "error", tuple(astray), f"{listed(astray)}: of no body", "Put the hull into a body.")
+
+
+def _duplicates(hulls: list[Hull]) -> Iterator[Finding]:
+    """One finding for each set of hulls that are the same in single precision, in whatever body."""
+    alike: dict[str, list[str]] = {}
+    for hull in hulls:
+        alike.setdefault(digest(hull.shape), []).append(hull.name)
+    for names in alike.values():
+        if len(names) > 1:
+            message = f"{listed(names)}: the same hull {counted(len(names), 'time')}"
+            yield Finding("duplicate", "warning", tuple(names), message, "Delete all but one.")
+
+
+def _opaque(mesh: SymbolicMesh) -> Iterator[Finding]:
+    for piece in mesh.asset.opaque if mesh.asset else ():
+        remedy = "A mesh can be decomposed into hulls; anything else is left as it is."
+        yield Finding("opaque", "warning", (piece.name,), f"{piece.name}: no convex hull ({piece.reason})", remedy)

@@ -1,0 +1,122 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Body, Document, Geom
+from meshforge.checks import ENGINES, check
+from meshforge.checks.polygons import polygon_sizes
+from meshforge.errors import UsageError
+from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull
+from meshforge.symbolic import Hull, SymbolicMesh
+
+
+def mesh(*shapes: Shape) -> SymbolicMesh:
+    return SymbolicMesh(tuple(Hull(f"h{k}", "body", shape) for k, shape in enumerate(shapes)))
+
+
+def ball(vertices: int) -> Polytope:
+    points = np.random.default_rng(0).normal(size=(vertices, 3))
+    hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
+    assert len(hull.vertices) == vertices
+    return hull
+
+
+def prism(sides: int) -> Polytope:
+    turn = np.arange(sides) * 2 * np.pi / sides
+    ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(sides)])
+    return convex_hull(np.concatenate([ring, ring + np.array([0, 0, 1])]))
+
+
+def rules(engine: str, *shapes: Shape) -> list[tuple[str, str]]:
+    return [(f.rule, f.severity) for f in check(mesh(*shapes), engine)]
+
+
+def test_the_engines_are_those_of_the_command_line() -> None:
+    assert ENGINES == ("mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot")
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_box_is_within_the_limits_of_every_engine(engine: str) -> None:
+    assert rules(engine, Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated()) == []
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_native_primitive_is_within_the_limits_however_it_is_tessellated(engine: str) -> None:
+    assert rules(engine, Cylinder(Pose.identity(), 1.0, 0.001)) == []
+
+
+@pytest.mark.parametrize(
+    ("engine", "shape", "expected"),
+    [
+        ("mujoco", prism(20), []),
+        ("mujoco", prism(21), [("mujoco-face-vertices", "warning")]),
+        ("physx-cpu", ball(130), []),
+        ("physx-cpu", ball(131), [("physx-cpu-polygons", "error")]),
+        ("physx-cpu", prism(127), []),
+        ("physx-cpu", prism(128), [("physx-cpu-vertices", "error")]),
+        ("physx-gpu", ball(30), []),
+        ("physx-gpu", prism(32), []),
+        ("physx-gpu", prism(33), [("physx-gpu-vertices", "error"), ("physx-gpu-face-vertices", "error")]),
+        ("physx-gpu", ball(40), [("physx-gpu-polygons", "error")]),
+        ("unreal", ball(32), []),
+        ("unreal", ball(33), [("unreal-vertices", "warning")]),
+        ("unity", prism(127), []),
+        ("unity", prism(128), [("unity-vertices", "error")]),
+        ("bullet", ball(100), []),
+        ("bullet", ball(101), [("bullet-vertices", "warning")]),
+        ("godot", ball(256), []),
+        ("godot", ball(257), [("godot-vertices", "error")]),
+    ],
+)
+def test_limits_hold_to_the_last_vertex(engine: str, shape: Shape, expected: list[tuple[str, str]]) -> None:
+    assert rules(engine, shape) == expected
+
+
+def test_a_needle_is_oblong_for_physx_on_the_gpu() -> None:
+    needle = Box.filling(Aabb([0, 0, 0], [66, 1, 1])).tessellated()
+    assert rules("physx-gpu", needle) == [("physx-gpu-oblong", "warning")]
+    assert rules("physx-gpu", Box.filling(Aabb([0, 0, 0], [60, 1, 1])).tessellated()) == []
+
+
+def test_the_message_says_how_many_and_how_many_are_allowed() -> None:
+    (finding,) = check(mesh(ball(40), ball(8), prism(18)), "unreal")
+    assert finding.message == "h0 (40), h2 (36): more than 32 vertices; more than is practical in Unreal"
+    assert finding.hulls == ("h0", "h2")
+
+
+def test_a_body_of_many_hulls_is_told() -> None:
+    boxes = [Box.filling(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1])) for k in range(65)]
+    assert rules("physx-gpu", *boxes) == [("physx-gpu-hulls", "warning")]
+    assert rules("physx-gpu", *boxes[:64]) == []
+
+
+def in_file(form: str, count: int) -> SymbolicMesh:
+    geoms = tuple(Geom(f"h{k}", "b", Box.filling(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1]))) for k in range(count))
+    return SymbolicMesh.of(Asset(Path(f"x.{form}"), form, (Body("b", Pose.identity()),), geoms, Document()))
+
+
+def test_several_hulls_in_one_mesh_file_are_one_hull_for_mujoco() -> None:
+    assert [f.rule for f in check(in_file("obj", 2), "mujoco")] == ["mujoco-one-hull-a-file"]
+    assert check(in_file("obj", 1), "mujoco") == ()
+    assert check(in_file("urdf", 2), "mujoco") == ()
+
+
+def test_a_hull_that_is_none_is_not_measured() -> None:
+    flat = Polytope(prism(30).vertices * [1, 1, 0], prism(30).faces)
+    assert rules("mujoco", flat) == [("flat", "error")]
+
+
+def test_an_unknown_engine_is_refused_with_the_nearest() -> None:
+    with pytest.raises(UsageError, match=r"no engine 'physx-gpus'\n.*'physx-gpu'"):
+        check(mesh(), "physx-gpus")
+
+
+def test_the_polygons_of_a_box_are_six_squares() -> None:
+    assert polygon_sizes(Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated()) == (4,) * 6
+
+
+def test_the_polygons_of_a_prism_are_its_caps_and_sides() -> None:
+    assert sorted(polygon_sizes(prism(7))) == [4] * 7 + [7] * 2
