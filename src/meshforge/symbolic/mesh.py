@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -106,8 +107,8 @@ class SymbolicMesh:
         """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
         if "graph" in self.__dict__ and edited.contact_distance == self.contact_distance:
-            known = {id(h.shape): k for k, h in enumerate(self.hulls)}
-            kept = {k: known[id(h.shape)] for k, h in enumerate(edited.hulls) if id(h.shape) in known}
+            known, now = _by_shape(self.hulls), _by_shape(edited.hulls)
+            kept = {now[shape]: known[shape] for shape in now if shape in known}
             reach = self.contact_distance * NEAR_MISS
             graph = contact_graph([h.shape for h in edited.hulls], reach, known=self.graph, kept=kept)
             edited.__dict__["graph"] = graph
@@ -118,6 +119,13 @@ class SymbolicMesh:
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         return self.asset.with_geoms(Geom(h.name, h.body, h.shape, h.parent) for h in self.hulls)
+
+
+def _by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
+    """Position of each shape object by its identity, without those that several hulls share."""
+    ids = [id(hull.shape) for hull in hulls]
+    seen = Counter(ids)
+    return {shape: k for k, shape in enumerate(ids) if seen[shape] == 1}
 
 
 def bits(mask: int) -> frozenset[int]:
