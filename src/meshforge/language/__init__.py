@@ -25,7 +25,6 @@ from meshforge.language.evaluate import (
     size,
 )
 from meshforge.language.explain import explain
-from meshforge.language.groups import bodies, components
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import show, show_label
@@ -88,8 +87,6 @@ __all__ = [
     "apply_action",
     "apply_rule",
     "attach_mask",
-    "bodies",
-    "components",
     "explain",
     "geo_mask",
     "label_mask",

@@ -1,6 +1,6 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
-from meshforge.symbolic.components import components
+from meshforge.symbolic.components import bodies, components
 from meshforge.symbolic.follow import Followed, follow_labels
 from meshforge.symbolic.hull import Hull
 from meshforge.symbolic.label_file import LabelFile, read_labels, write_labels
@@ -18,6 +18,7 @@ __all__ = [
     "Source",
     "SymbolicMesh",
     "bits",
+    "bodies",
     "components",
     "follow_labels",
     "mask_of",

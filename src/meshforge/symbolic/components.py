@@ -1,8 +1,17 @@
-"""Connected components of a selection, as the action `Each` takes them."""
+"""How a selection falls into parts: by body, and by connected component of the contact graph."""
 
 from __future__ import annotations
 
 from meshforge.symbolic.mesh import SymbolicMesh
+
+
+def bodies(mesh: SymbolicMesh, mask: int) -> list[int]:
+    """The parts of a selection in one body each, as bit sets, in order of their lowest index."""
+    parts: dict[str, int] = {}
+    for index, hull in enumerate(mesh.hulls):
+        if mask >> index & 1:
+            parts[hull.body] = parts.get(hull.body, 0) | 1 << index
+    return list(parts.values())
 
 
 def components(mesh: SymbolicMesh, mask: int) -> list[int]:
@@ -10,16 +19,12 @@ def components(mesh: SymbolicMesh, mask: int) -> list[int]:
 
     mask: the selection as a bit set. Hulls outside the selection, or of another body, connect nothing.
     """
-    same_body: dict[str, int] = {}
-    for index, hull in enumerate(mesh.hulls):
-        same_body[hull.body] = same_body.get(hull.body, 0) | 1 << index
     found = []
-    while mask:
-        seed = mask & -mask
-        allowed = mask & same_body[mesh.hulls[seed.bit_length() - 1].body]
-        found.append(_reached(mesh.adjacency, seed, allowed))
-        mask &= ~found[-1]
-    return found
+    for part in bodies(mesh, mask):
+        while part:
+            found.append(_reached(mesh.adjacency, part & -part, part))
+            part &= ~found[-1]
+    return sorted(found, key=lambda component: component & -component)
 
 
 def _reached(adjacency: tuple[int, ...], seed: int, allowed: int) -> int:

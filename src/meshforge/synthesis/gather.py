@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from meshforge.language import Delete, Each, components
-from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.language import Delete, Each
+from meshforge.symbolic import SymbolicMesh, components, mask_of
 from meshforge.synthesis.demonstration import Step, core
 
 

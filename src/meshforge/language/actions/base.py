@@ -9,8 +9,7 @@ from typing import Any, ClassVar, cast
 from meshforge.errors import ProgramError
 from meshforge.language.actions.arguments import Argument
 from meshforge.language.actions.edit import Edit, Group
-from meshforge.language.groups import bodies
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import SymbolicMesh, bodies
 
 
 class Action(ABC):

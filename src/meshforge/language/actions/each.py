@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from meshforge.language.actions.arguments import Inner
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import Edit, Group
-from meshforge.language.groups import components
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import SymbolicMesh, components
 
 
 @dataclass(frozen=True, slots=True)
