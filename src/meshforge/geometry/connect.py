@@ -1,4 +1,4 @@
-"""Which triangles hang together: by shared vertices, or across edges as the solids do that touch there."""
+"""Which triangles hang together by shared vertices, and whether they close a surface."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from scipy.spatial import cKDTree
 from meshforge.geometry.arrays import Floats, Ints
 
 Bools = npt.NDArray[np.bool_]
-
-_TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each other
 
 
 def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
@@ -41,7 +39,7 @@ def nearly_welded(points: Floats, corners: Ints, reach: float) -> Ints | None:
     pairs = cKDTree(points[used]).query_pairs(reach, output_type="ndarray")
     if len(pairs) == 0:
         return None
-    group = _linked(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
+    group = linked(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
     _, lowest = np.unique(group, return_index=True)
     return np.asarray(lowest[group], dtype=np.int64)
 
@@ -49,7 +47,7 @@ def nearly_welded(points: Floats, corners: Ints, reach: float) -> Ints | None:
 def by_vertices(corners: Ints) -> Ints:
     """The component (m,) of each triangle of corners (m, 3), connected by shared vertices, numbered by first face."""
     count = int(corners.max(initial=-1)) + 1
-    return _numbered(_linked(corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel(), count)[corners[:, 0]])
+    return numbered(linked(corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel(), count)[corners[:, 0]])
 
 
 def distinct_faces(corners: Ints, component: Ints) -> Ints:
@@ -64,7 +62,7 @@ def closed_components(corners: Ints, component: Ints) -> Ints:
     """Numbers of the components in which every edge has an even number of triangles, doubled ones counted once."""
     total = int(component.max(initial=-1)) + 1
     distinct = distinct_faces(corners, component)
-    edges, _ = _edges(corners[distinct])
+    edges, _ = edges_of(corners[distinct])
     part = np.tile(component[distinct], 3)
     ids, first = row_ids(part, *edges.T)
     odd = np.bincount(ids, minlength=len(first)) % 2 == 1
@@ -73,77 +71,20 @@ def closed_components(corners: Ints, component: Ints) -> Ints:
     return np.flatnonzero(closed)
 
 
-def closed_runs(corners: Ints) -> Ints:
-    """The run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of them.
-
-    Programs write solid by solid, so this tells solids apart that share places in a file without groups.
-    """
-    edges, _ = _edges(corners)
-    ids, first = row_ids(*edges.T)
-    marks = np.random.default_rng(0).integers(1, 2**63, len(first), dtype=np.uint64)
-    marks[edges[first, 0] == edges[first, 1]] = 0
-    of_edge = marks[ids].reshape(3, -1)
-    open_edges = np.bitwise_xor.accumulate(of_edge[0] ^ of_edge[1] ^ of_edge[2])
-    ends = (open_edges == 0) & (corners != np.roll(corners, 1, axis=1)).all(axis=1)
-    run = np.concatenate([[0], np.cumsum(ends)[:-1]])
-    last = max(int(ends.sum()) - int(open_edges[-1] == 0), 0)
-    return np.asarray(np.minimum(run, last), dtype=np.int64)
-
-
-def is_simple(corners: Ints) -> bool:
-    """Whether no edge has more than two triangles."""
-    edges, _ = _edges(corners)
-    return int(np.bincount(row_ids(*edges.T)[0]).max(initial=0)) <= 2
-
-
-def by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:
-    """The component (m,) of each triangle, connected across edges only.
-
-    Where more than two triangles meet in an edge, each goes with the next one around the edge through the solid,
-    so that solids which touch in an edge or a wall come apart. inward: the windings are turned inside out.
-    """
-    edges, forward = _edges(corners)
-    face = np.tile(np.arange(len(corners)), 3)
-    ids, first = row_ids(*edges.T)
-    angle = _angles(points, corners, edges, first[ids])
-    begins = forward == inward  # going around the edge, the solid begins at this triangle
-    order = np.lexsort((begins, np.round(angle / _TURN), ids))
-    starts = np.searchsorted(ids[order], np.arange(len(first)))
-    following = np.append(order[1:], order[0])
-    ends = np.append(starts[1:], len(order)) - 1
-    following[ends] = order[starts]
-    joined = (np.bincount(ids)[ids[order]] == 2) | (begins[order] & ~begins[following])
-    return _numbered(_linked(face[order[joined]], face[following[joined]], len(corners)))
-
-
-def _angles(points: Floats, corners: Ints, edges: Ints, reference: Ints) -> Floats:
-    """The angle (3m,) of each triangle around each of its edges, from that of another triangle there, in 0..2 pi."""
-    opposite = np.concatenate([corners[:, 2], corners[:, 0], corners[:, 1]])
-    low, high = points[edges[:, 0]], points[edges[:, 1]]
-    axis = high - low
-    axis = axis / np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), np.finfo(float).tiny)
-    out = points[opposite] - low
-    out = out - np.einsum("ij,ij->i", out, axis)[:, None] * axis
-    x = out[reference]
-    y = np.cross(axis, x)
-    turn = np.arctan2(np.einsum("ij,ij->i", out, y), np.einsum("ij,ij->i", out, x))
-    turn = np.where(turn < 0, turn + 2 * np.pi, turn)
-    return np.where(turn > 2 * np.pi - _TURN, 0.0, turn)
-
-
-def _edges(corners: Ints) -> tuple[Ints, Bools]:
+def edges_of(corners: Ints) -> tuple[Ints, Bools]:
     """The edges (3m, 2) of triangles, lower vertex first, and whether each triangle runs along it that way."""
     directed = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     return np.sort(directed, axis=1), directed[:, 0] < directed[:, 1]
 
 
-def _linked(a: Ints, b: Ints, count: int) -> Ints:
-    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
+def linked(a: Ints, b: Ints, count: int) -> Ints:
+    """The component (count,) of each of `count` things, of which a[k] and b[k] are linked."""
+    graph = coo_array((np.ones(len(a)), (a, b)), shape=(count, count))
     labels: Ints = connected_components(graph, directed=False)[1].astype(np.int64)
     return labels
 
 
-def _numbered(labels: Ints) -> Ints:
+def numbered(labels: Ints) -> Ints:
     """The same partition, numbered by first occurrence."""
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
     rank: Ints = np.argsort(np.argsort(first))

@@ -1,8 +1,4 @@
-"""The connected pieces of a triangle soup, each judged: a convex hull, or opaque with the reason.
-
-Files disagree on what holds a piece together: groups, shared indices, shared places or edges. Each coarse component
-is read as whole or as its finer parts, whichever accounts for more of it by valid hulls.
-"""
+"""The connected pieces of a triangle soup, each judged: a convex hull, or opaque with the reason."""
 
 from __future__ import annotations
 
@@ -12,21 +8,8 @@ import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import (
-    by_edges,
-    by_vertices,
-    closed_components,
-    closed_runs,
-    distinct_faces,
-    is_simple,
-    nearly_welded,
-    row_ids,
-)
-from meshforge.geometry.connect import welded as welded_ids
-from meshforge.geometry.shapes.polytope import Polytope, volume_and_centroid
-from meshforge.geometry.solidity import FILLED, Verdict, verdict
-
-_NEAR = 1e-6  # places closer than this share of the surface's size are one, where that closes a hull
+from meshforge.geometry.piece_reader import Part, Reader
+from meshforge.geometry.shapes.polytope import Polytope
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,173 +44,11 @@ def pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = No
     if not np.isfinite(vertices[faces]).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
-    found = _Reader(vertices, faces, of_face, name).read()
+    found = Reader(vertices, faces, of_face, name).read()
     return [_piece(vertices, faces, part, of_face) for part in sorted(found, key=lambda part: int(part.faces[0]))]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Part:
-    """Faces read as one piece, ascending, and what they are."""
-
-    faces: Ints
-    verdict: Verdict
-
-
-class _Reader:
-    """Reads components from coarse (all that touches) to fine (solids that meet in an edge)."""
-
-    def __init__(self, vertices: Floats, faces: Ints, group: Ints, name: str) -> None:
-        self.vertices = vertices
-        self.name = name
-        self.placed = welded_ids(vertices)[faces]  # corners by place
-        indexed = _in_groups(faces, group)  # corners by group and index
-        self.of_place = by_vertices(self.placed)  # the component of each face, by what holds it together
-        self.of_group = by_vertices(_in_groups(self.placed, group))
-        self.of_index = by_vertices(indexed)
-        self.closed = np.isin(self.of_index, closed_components(indexed, self.of_index))
-        self.points = np.zeros((int(self.placed.max()) + 1, 3))
-        self.points[self.placed] = vertices[faces]
-
-    def read(self) -> list[_Part]:
-        found = [part for faces in _split(self.of_place) for part in self._touching(faces)]
-        return self._mended(found) if any(part.verdict.shape is None for part in found) else found
-
-    def _mended(self, found: list[_Part]) -> list[_Part]:
-        """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
-        opaque = [part for part in found if part.verdict.shape is None]
-        faces = np.sort(np.concatenate([part.faces for part in opaque]))
-        near = nearly_welded(self.points, self.placed[faces], _NEAR * self._size())
-        if near is None:
-            return found
-        mended = [self._judged(part, near) for part in _sub(faces, by_vertices(near[self.placed[faces]]))]
-        hulls = [part for part in mended if part.verdict.shape]
-        used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
-        return hulls + [part for part in found if not np.isin(part.faces[0], used)]
-
-    def _size(self) -> float:
-        return float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
-
-    def _touching(self, faces: Ints) -> list[_Part]:
-        """All that touches: as whole, or group by group."""
-        parts = _sub(faces, self.of_group[faces])
-        if len(parts) == 1:
-            return self._group(faces)
-        return self._better([p for part in parts for p in self._group(part)], faces)
-
-    def _group(self, faces: Ints) -> list[_Part]:
-        """What touches in one group: as whole, or by the closed surfaces that share no vertex number."""
-        closed = self.closed[faces]
-        parts = _sub(faces[closed], self.of_index[faces[closed]])
-        if not closed.all():
-            parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
-        if len(parts) == 1:
-            return self._surface(faces)
-        return self._better([p for part in parts for p in self._surface(part)], faces)
-
-    def _surface(self, faces: Ints) -> list[_Part]:
-        """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
-        whole = self._judged(faces)
-        if whole.verdict.shape is not None and is_simple(self.placed[faces]):
-            return [whole]
-        return self._written_solids(faces) or self._solids(faces, whole) or [whole]
-
-    def _written_solids(self, faces: Ints) -> list[_Part]:
-        """The hulls that some faces were written as, one after the other; none where they were not."""
-        runs = _sub(faces, closed_runs(self.placed[faces]))
-        if len(runs) < 2 or min(map(len, runs)) < 4:
-            return []
-        solids: list[_Part] = []
-        for run in runs:
-            found = self._solids(run)
-            if not found:
-                return []
-            solids += found
-        return _without_backs(solids)
-
-    def _solids(self, faces: Ints, whole: _Part | None = None) -> list[_Part]:
-        """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
-        whole = whole or self._judged(faces)
-        corners = self.placed[faces]
-        if whole.verdict.shape is not None and is_simple(corners):
-            return [whole]
-        proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
-        inward = volume_and_centroid(self.points, corners)[0] < 0
-        component = by_edges(self.points, corners[proper], inward)
-        parts = self._with_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
-        closed = len(closed_components(corners[proper], component)) == len(parts) > 1
-        solids = self._all_hulls(parts) if closed else []
-        return _without_backs(solids) or ([whole] if whole.verdict.shape else [])
-
-    def _all_hulls(self, parts: list[Ints]) -> list[_Part]:
-        """The parts judged, none where one of them is no hull."""
-        judged = []
-        for part in parts:
-            judged.append(self._judged(part))
-            if judged[-1].verdict.shape is None:
-                return []
-        return judged
-
-    def _with_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
-        """The parts, each with the faces without area that lie at one of its corners."""
-        owner = np.zeros(len(self.points), dtype=np.int64)
-        for k in reversed(range(len(parts))):
-            owner[self.placed[parts[k]]] = k
-        of_sliver = owner[self.placed[slivers, 0]]
-        return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
-
-    def _judged(self, faces: Ints, near: Ints | None = None) -> _Part:
-        corners = self.placed[faces] if near is None else near[self.placed[faces]]
-        proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
-        if len(proper) < 2:
-            return _Part(faces, Verdict(None, "flat"))
-        return _Part(faces, verdict(self.points, corners[proper], self.name))
-
-    def _better(self, parts: list[_Part], faces: Ints) -> list[_Part]:
-        """The parts, or the whole, whichever accounts for more by valid hulls."""
-        parts = _without_backs(parts)
-        if all(part.verdict.shape for part in parts):
-            return parts
-        whole = self._judged(faces)
-        solid = sum(abs(p.verdict.volume) for p in parts if p.verdict.shape and p.verdict.closed)
-        enough = FILLED * abs(whole.verdict.volume) if whole.verdict.shape else 0.0
-        return parts if solid > enough else [whole]
-
-
-def _without_backs(parts: list[_Part]) -> list[_Part]:
-    """The parts, the inside-out copy of a hull joined with that hull: both are sides of one double-sided surface."""
-    found: dict[bytes, list[int]] = {}
-    out = list(parts)
-    for k, part in enumerate(parts):
-        shape = part.verdict.shape
-        if shape is None:
-            continue
-        same = found.setdefault(np.unique(shape.vertices, axis=0).tobytes(), [])
-        front = next((j for j in same if out[j].verdict.volume * part.verdict.volume < 0), None)
-        if front is None:
-            same.append(k)
-            continue
-        same.remove(front)
-        out[front] = _Part(np.sort(np.concatenate([out[front].faces, part.faces])), out[front].verdict)
-        out[k] = _Part(part.faces[:0], part.verdict)
-    return [part for part in out if len(part.faces)]
-
-
-def _in_groups(corners: Ints, group: Ints) -> Ints:
-    """Numbers for corners (m, 3) that differ from group to group."""
-    return row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
-
-
-def _split(component: Ints) -> list[Ints]:
-    """The members of each component, ascending, in the order of the component numbers."""
-    order = np.argsort(component, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(component[order])) + 1) if len(order) else []
-
-
-def _sub(faces: Ints, component: Ints) -> list[Ints]:
-    return [faces[members] for members in _split(component)]
-
-
-def _piece(vertices: Floats, faces: Ints, part: _Part, group: Ints) -> Piece:
+def _piece(vertices: Floats, faces: Ints, part: Part, group: Ints) -> Piece:
     used, local = np.unique(faces[part.faces], return_inverse=True)
     first = int(part.faces[0])
     found = part.verdict
