@@ -22,11 +22,10 @@ from meshforge.language import (
     Is,
     Merge,
     Union,
-    components,
     select,
     size,
 )
-from meshforge.symbolic import SymbolicMesh, bits, mask_of
+from meshforge.symbolic import SymbolicMesh, bits, components, mask_of
 from tests.strategies import extractors, meshes
 
 

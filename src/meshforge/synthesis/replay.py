@@ -13,11 +13,10 @@ from meshforge.language import (
     Rule,
     Template,
     apply_action,
-    components,
     select_mask,
     stage,
 )
-from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.symbolic import SymbolicMesh, components, mask_of
 from meshforge.synthesis.agreement import Agreed
 from meshforge.synthesis.demonstration import Demonstration
 from meshforge.synthesis.example import Example
