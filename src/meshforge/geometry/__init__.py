@@ -2,12 +2,14 @@
 
 from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
-from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
+from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
+from meshforge.geometry.cut import cut
 from meshforge.geometry.digest import digest, same_shape
 from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, mapped_to
 from meshforge.geometry.fit_box import tight_box
 from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
+from meshforge.geometry.overlap import overlap_volume, volume_of_union
 from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
@@ -33,6 +35,7 @@ __all__ = [
     "aabb_sphere",
     "close_pairs",
     "convex_hull",
+    "cut",
     "digest",
     "distance",
     "frozen_floats",
@@ -42,10 +45,13 @@ __all__ = [
     "longest_axis",
     "mapped_to",
     "outward",
+    "overlap_volume",
     "pieces",
     "principal_extents",
     "same_shape",
+    "spans_volume",
     "tight_box",
     "tight_capsule",
     "tight_cylinder",
+    "volume_of_union",
 ]

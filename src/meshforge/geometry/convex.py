@@ -52,6 +52,12 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
     return made
 
 
+def spans_volume(points: Floats) -> bool:
+    """Whether points (n, 3) span a volume: `convex_hull` takes them without thickening."""
+    extents = principal_extents(points)[2]
+    return bool((extents > _least_extent(points, extents)).all())
+
+
 def principal_extents(points: Floats) -> tuple[Floats, Floats, Floats]:
     """Middle (3,), principal axes as rows of a rotation (3, 3), and the extent along each (3,), widest first."""
     center = points.mean(axis=0)

@@ -1,0 +1,50 @@
+"""Cutting a shape along a plane."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshforge.errors import GeometryError
+from meshforge.geometry.arrays import Floats
+from meshforge.geometry.convex import convex_hull, spans_volume
+from meshforge.geometry.shapes import Polytope, Shape
+
+_THIN = 1e-6  # a part that reaches less than this share of the shape's size beyond the plane is none
+
+
+def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, Polytope | None]:
+    """The parts of a shape below and above the plane through `point` (3,) across `normal` (3,).
+
+    None stands for a part that is not there. Vertices of the shape stay what they are, bit for bit; a round primitive
+    is cut as its tessellation. A part that is thinner than 1e-6 of the shape's size is left out.
+    Raises GeometryError for a normal without direction.
+    """
+    whole = shape.tessellated()
+    length = float(np.linalg.norm(normal))
+    if not (np.isfinite(length) and length > 0):
+        raise GeometryError("a plane needs a normal that is not zero")
+    heights = (whole.vertices - point) @ (normal / length)
+    thin = _THIN * whole.aabb.diagonal
+    if heights.min() >= -thin:
+        return None, whole
+    if heights.max() <= thin:
+        return whole, None
+    crossing = _crossing(whole, heights)
+    below, above = whole.vertices[heights < 0], whole.vertices[heights > 0]
+    return _part(below, crossing), _part(above, crossing)
+
+
+def _crossing(whole: Polytope, heights: Floats) -> Floats:
+    """The points (n, 3) where edges meet the plane."""
+    faces = whole.faces
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    through = (heights[start] < 0) & (heights[end] > 0)  # each edge has both senses, in its two faces
+    start, end = start[through], end[through]
+    share = (heights[start] / (heights[start] - heights[end]))[:, None]
+    met = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
+    return np.concatenate([met, whole.vertices[heights == 0]])
+
+
+def _part(side: Floats, crossing: Floats) -> Polytope | None:
+    points = np.concatenate([side, crossing])
+    return convex_hull(points, name="a part of a cut") if spans_volume(points) else None
