@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -42,14 +44,15 @@ def save(what: SymbolicMesh | Asset, out: str | Path, *, link: bool = False, ove
     overwritten.
     """
     asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
-    out = Path(out)
+    out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
     output = known.write(asset, out.name) if known.name == asset.format else known.create(asset, out.name)
     plan = _plan(output, out, known.is_folder)
     _refuse(plan, asset, overwrite)
     extra = _extra(plan, out, overwrite) if known.is_folder else []
-    for target, content in plan.items():
-        _put(target, content, link)
+    with _aside(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
+        for target, content in plan.items():
+            _put(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
         path.unlink()
     return Saved(out, tuple(plan), output.notes, output.names)
@@ -101,6 +104,20 @@ def _extra(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Pat
             remedy="Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True).",
         )
     return found
+
+
+@contextmanager
+def _aside(out: Path) -> Iterator[Path]:
+    """A new folder beside `out`, which becomes `out` once all is in it."""
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=f".{out.name}.", suffix=".tmp", dir=out.parent) as holder:
+            place = Path(holder) / out.name
+            place.mkdir()
+            yield place
+            place.replace(out)
+    except OSError as error:
+        raise AssetError(f"cannot be written: {error.strerror}", where=str(out)) from error
 
 
 def _put(target: Path, content: Content, link: bool) -> None:

@@ -115,6 +115,24 @@ def test_other_mesh_files_in_the_way_are_not_taken_for_hulls(folder: Path, tmp_p
     assert (out / "readme.txt").exists()
 
 
+def test_a_new_folder_appears_whole_or_not_at_all(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from meshforge.formats import copying, saving
+
+    asset, copy, calls = read(folder), copying.copy_atomically, iter([None, KeyboardInterrupt()])
+
+    def dying(source: Path, target: Path, *, link: bool) -> None:
+        if error := next(calls):
+            raise error
+        copy(source, target, link=link)
+
+    monkeypatch.setattr(saving, "copy_atomically", dying)
+    with pytest.raises(KeyboardInterrupt):
+        save(asset, tmp_path / "new" / "out")
+    assert list((tmp_path / "new").iterdir()) == []
+
+
 def test_a_folder_without_meshes_is_no_asset(tmp_path: Path) -> None:
     with pytest.raises(AssetError, match="there is no mesh file in this folder"):
         read(tmp_path)

@@ -151,6 +151,11 @@ def test_triangles_without_area_go_with_the_piece_they_touch() -> None:
     assert [25 in p.face_indices for p in made] == [True, False]
 
 
+def test_a_face_that_is_there_very_often_still_counts_once() -> None:
+    vertices, faces = together(box(), box((3, 0, 0)))
+    assert volumes((vertices, np.concatenate([faces, np.repeat(faces[:1], 256, axis=0)]))) == [1, 1]
+
+
 def test_an_empty_surface_has_no_pieces() -> None:
     assert pieces(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64), name="nothing") == []
 
