@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,6 +17,12 @@ class ReadOptions:
     """How to read: roots in which `package://` references are searched, besides upwards from the file."""
 
     package_roots: tuple[Path, ...] = ()
+
+    @staticmethod
+    def from_environment() -> ReadOptions:
+        """The roots that ROS_PACKAGE_PATH lists, as in ROS: folders, colons between them."""
+        listed = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+        return ReadOptions(tuple(Path(folder) for folder in listed if folder))
 
 
 @dataclass(frozen=True, slots=True)

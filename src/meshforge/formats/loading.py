@@ -14,9 +14,9 @@ from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
 
 def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
-    """The asset in a file, or in a folder of mesh files. Raises AssetError."""
+    """The asset in a file, or in a folder of mesh files; without options, as the environment says. Raises AssetError."""
     path = Path(path)
-    return format_of(path).read(path, options or ReadOptions())
+    return format_of(path).read(path, options or ReadOptions.from_environment())
 
 
 def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:

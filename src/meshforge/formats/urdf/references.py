@@ -70,7 +70,7 @@ class Resolver:
             roots = f", nor in {', '.join(map(str, self.roots))}" if self.roots else ""
             return (
                 f"No folder {package[1]!r} is in {self.folder} or above it{roots}. "
-                "Give the folder that holds it as a package root."
+                "Put the folder that holds it on ROS_PACKAGE_PATH."
             )
         return f"Looked for {' and '.join(map(str, looked))}.{hint} Put it there, or correct the reference."
 
