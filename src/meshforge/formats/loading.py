@@ -14,7 +14,10 @@ from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
 
 def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
-    """The asset in a file, or in a folder of mesh files; without options, as the environment says. Raises AssetError."""
+    """The asset in a file, or in a folder of mesh files. Raises AssetError.
+
+    options: None takes those of the environment.
+    """
     path = Path(path)
     return format_of(path).read(path, options or ReadOptions.from_environment())
 

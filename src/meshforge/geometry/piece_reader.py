@@ -12,7 +12,15 @@ import numpy as np
 
 from meshforge.geometry.around_edges import by_edges, closed_runs, is_simple
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import by_vertices, closed_components, distinct_faces, nearly_welded, row_ids, welded
+from meshforge.geometry.connect import (
+    Bools,
+    by_vertices,
+    closed_components,
+    distinct_faces,
+    nearly_welded,
+    row_ids,
+    welded,
+)
 from meshforge.geometry.shapes.polytope import volume_and_centroid
 from meshforge.geometry.solidity import FILLED, Verdict, verdict
 
@@ -27,6 +35,19 @@ class Part:
     verdict: Verdict
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Indexed:
+    """What vertex numbers hold together: the component (m,) of each face, and whether that is closed."""
+
+    component: Ints
+    closed: Bools
+
+    @staticmethod
+    def of(corners: Ints) -> Indexed:
+        component = by_vertices(corners)
+        return Indexed(component, np.isin(component, closed_components(corners, component)))
+
+
 class Reader:
     """Reads components from coarse (all that touches) to fine (solids that meet in an edge)."""
 
@@ -34,11 +55,10 @@ class Reader:
         self.vertices = vertices
         self.name = name
         self.placed = welded(vertices)[faces]  # corners by place
-        indexed = _in_groups(faces, group)  # corners by group and index
         self.of_place = by_vertices(self.placed)  # the component of each face, by what holds it together
         self.of_group = by_vertices(_in_groups(self.placed, group))
-        self.of_index = by_vertices(indexed)
-        self.closed = np.isin(self.of_index, closed_components(indexed, self.of_index))
+        self.in_groups = Indexed.of(_in_groups(faces, group))
+        self.across = Indexed.of(faces)
         self.points = np.zeros((int(self.placed.max()) + 1, 3))
         self.points[self.placed] = vertices[faces]
 
@@ -65,13 +85,14 @@ class Reader:
         """All that touches: as whole, or group by group."""
         parts = _sub(faces, self.of_group[faces])
         if len(parts) == 1:
-            return self._group(faces)
-        return self._better([p for part in parts for p in self._group(part)], faces)
+            return self._indexed(faces, self.in_groups)
+        better = self._better([p for part in parts for p in self._indexed(part, self.in_groups)], faces)
+        return better if len(better) > 1 else self._indexed(faces, self.across)
 
-    def _group(self, faces: Ints) -> list[Part]:
-        """What touches in one group: as whole, or by the closed surfaces that share no vertex number."""
-        closed = self.closed[faces]
-        parts = _sub(faces[closed], self.of_index[faces[closed]])
+    def _indexed(self, faces: Ints, indexed: Indexed) -> list[Part]:
+        """What touches: as whole, or by the closed surfaces that share no vertex number."""
+        closed = indexed.closed[faces]
+        parts = _sub(faces[closed], indexed.component[faces[closed]])
         if not closed.all():
             parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
         if len(parts) == 1:

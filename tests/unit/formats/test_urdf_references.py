@@ -80,7 +80,7 @@ def test_a_missing_collision_mesh_says_what_where_and_what_to_do(tmp_path: Path)
 @pytest.mark.parametrize(
     ("reference", "said"),
     [
-        ("package://nowhere/a.stl", "Give the folder that holds it as a package root"),
+        ("package://nowhere/a.stl", "Put the folder that holds it on ROS_PACKAGE_PATH"),
         ("package://pkg/a.stl", "but holds no such file"),
         ("http://example.org/a.stl", "Addresses are not followed"),
     ],
