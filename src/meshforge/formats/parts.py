@@ -121,4 +121,4 @@ def renaming(names: Mapping[str, str]) -> tuple[str, ...]:
         return ()
     shown = ", ".join(f"{old} is now {new}" for old, new in list(names.items())[:3])
     more = f", and {len(names) - 3} more" if len(names) > 3 else ""
-    return (f"this format has no names for hulls, they are counted anew: {shown}{more}",)
+    return (f"hulls are called otherwise in what is written: {shown}{more}",)
