@@ -29,7 +29,8 @@ def tight_box(points: Floats, *, name: str = "points", thicken: float | None = N
     corners = hull.vertices - middle
     size = float(np.abs(corners).max())
     rotation = _rotation(corners / size, hull)
-    low, high = (corners @ rotation.T).min(axis=0), (corners @ rotation.T).max(axis=0)
+    turned = (np.concatenate([points, hull.vertices]) - middle) @ rotation.T
+    low, high = turned.min(axis=0), turned.max(axis=0)
     return Box(Pose(rotation.T, middle + rotation.T @ ((low + high) / 2)), (high - low) / 2)
 
 

@@ -22,11 +22,12 @@ def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | Non
 
     Raises GeometryError as `convex_hull` does.
     """
-    corners, middle, size, axes = _prepared(points, name, thicken)
+    corners, everything, middle, size, axes = _prepared(points, name, thicken)
     line = _descended(lambda lines: _cylinder_volumes(corners, lines), corners, axes, 6)
     frame = _frame(line[:3])
-    local = corners @ frame.T
-    center, radius = smallest_circle(local[:, :2])
+    center, _ = smallest_circle((corners @ frame.T)[:, :2])
+    local = everything @ frame.T
+    radius = float(np.linalg.norm(local[:, :2] - center, axis=1).max())
     low, high = float(local[:, 2].min()), float(local[:, 2].max())
     origin = middle + size * (frame.T @ np.array([*center, (low + high) / 2]))
     return Cylinder(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
@@ -37,9 +38,9 @@ def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None
 
     A sphere where a straight part would not help. Raises GeometryError as `convex_hull` does.
     """
-    corners, middle, size, axes = _prepared(points, name, thicken)
+    corners, everything, middle, size, axes = _prepared(points, name, thicken)
     line = _descended(lambda lines: _capsules(corners, lines)[0], corners, axes, 7)
-    _, radii, lows, highs = _capsules(corners, line[None])
+    _, radii, lows, highs = _capsules(everything, line[None])
     radius, low, high = float(radii[0]), float(lows[0]), float(highs[0])
     frame, along = _frame(line[:3]), line[:3] / np.linalg.norm(line[:3])
     foot = line[3:6] - along * (line[3:6] @ along)
@@ -49,13 +50,17 @@ def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None
     return Capsule(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
 
 
-def _prepared(points: Floats, name: str, thicken: float | None) -> tuple[Floats, Floats, float, Floats]:
-    """Corners of the hull about their middle in units of their size, the middle, the size, axes to begin with."""
+def _prepared(points: Floats, name: str, thicken: float | None) -> tuple[Floats, Floats, Floats, float, Floats]:
+    """Corners of the hull about their middle in units of their size, all points likewise, that middle and size, axes.
+
+    The corners find the shape; all points, some a rounding outside the hull, give it its size.
+    """
     hull = convex_hull(points, name=name, thicken=thicken)
     middle = hull.aabb.center
     corners = hull.vertices - middle
     size = float(np.abs(corners).max())
-    return corners / size, middle, size, _axes(hull)
+    everything = np.concatenate([points - middle, corners])
+    return corners / size, everything / size, middle, size, _axes(hull)
 
 
 def _axes(hull: Polytope) -> Floats:
