@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from meshforge.geometry import Shape
-from meshforge.geometry.distance import close_pairs
+from meshforge.geometry import Shape, close_pairs
 
 ContactGraph = Mapping[tuple[int, int], float]
 """Distance [m] of each pair (i, j), i < j, that is within reach."""
@@ -31,5 +30,6 @@ def contact_graph(
     found = {
         (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
     }
-    found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
+    if len(kept) < len(shapes):
+        found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
     return dict(sorted(found.items()))

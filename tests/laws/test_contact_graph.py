@@ -1,0 +1,122 @@
+"""What holds of every contact graph: it is that of brute force, in any frame, and edits keep it true."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from meshforge.geometry import Floats, distance
+from meshforge.symbolic import Hull, SymbolicMesh, bits, components
+from tests.shape_strategies import KINDS, generators, shape
+
+LAW = settings(max_examples=60, deadline=None)
+CLEAR = 1e-6  # gaps this close to the threshold, as a share of the diagonal, may fall on either side
+
+
+def random_mesh(rng: np.random.Generator, count: int) -> SymbolicMesh:
+    """Hulls of all kinds, some of them touching, in two bodies; the threshold is large, for many near misses."""
+    hulls = []
+    for k in range(count):
+        made = shape(str(rng.choice(KINDS)), rng, spread=0.4)
+        hulls.append(Hull(f"h{k}", str(rng.choice(["base", "door"])), made))
+    return SymbolicMesh(tuple(hulls), epsilon=0.03)
+
+
+def mapped(mesh: SymbolicMesh, linear: Floats, offset: Floats) -> SymbolicMesh:
+    hulls = [Hull(h.name, h.body, h.shape.mapped(linear, offset)) for h in mesh.hulls]
+    return SymbolicMesh(tuple(hulls), epsilon=mesh.epsilon)
+
+
+def clear_contacts(mesh: SymbolicMesh, doubtful: set[tuple[int, int]]) -> set[tuple[int, int]]:
+    return set(mesh.contacts) - doubtful
+
+
+def doubtful_pairs(mesh: SymbolicMesh) -> set[tuple[int, int]]:
+    slack = CLEAR * mesh.diagonal
+    return {pair for pair, gap in mesh.graph.items() if abs(gap - mesh.contact_distance) <= slack}
+
+
+@LAW
+@given(rng=generators())
+def test_contacts_are_those_of_brute_force(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 9)
+    doubtful = doubtful_pairs(mesh)
+    exact = {
+        (i, j)
+        for i in range(9)
+        for j in range(i + 1, 9)
+        if distance(mesh.hulls[i].shape, mesh.hulls[j].shape) <= mesh.epsilon * mesh.diagonal
+    }
+    assert clear_contacts(mesh, doubtful) == exact - doubtful
+
+
+@LAW
+@given(rng=generators())
+def test_contacts_do_not_depend_on_place_size_or_order_of_axes(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 8)
+    doubtful = doubtful_pairs(mesh)
+    swap = np.eye(3)[rng.permutation(3)] * rng.choice([-1.0, 1.0], size=(3, 1))
+    image = mapped(mesh, swap * 10.0 ** rng.uniform(-3, 3), rng.normal(size=3))
+    assert clear_contacts(image, doubtful) == clear_contacts(mesh, doubtful)
+
+
+@LAW
+@given(rng=generators())
+def test_neighbours_are_mutual_and_never_the_hull_itself(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 8)
+    for i in range(8):
+        assert i not in mesh.neighbours(i)
+        assert all(i in mesh.neighbours(j) for j in mesh.neighbours(i))
+    assert {(i, j) for i in range(8) for j in mesh.neighbours(i) if i < j} == mesh.contacts
+
+
+@LAW
+@given(rng=generators())
+def test_near_misses_are_the_pairs_beyond_contact_within_three_times_its_distance(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 8)
+    for i, j, gap in mesh.near_misses:
+        assert mesh.contact_distance < gap <= 3 * mesh.contact_distance
+        assert gap == pytest.approx(distance(mesh.hulls[i].shape, mesh.hulls[j].shape), abs=CLEAR * mesh.diagonal)
+    assert [row[2] for row in mesh.near_misses] == sorted(row[2] for row in mesh.near_misses)
+
+
+@LAW
+@given(rng=generators())
+def test_a_graph_carried_through_an_edit_is_the_graph_made_anew(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 10)
+    mesh = SymbolicMesh(mesh.hulls, epsilon=mesh.epsilon, scale=mesh.diagonal)
+    assert mesh.graph is not None
+    kept = [mesh.hulls[k] for k in rng.permutation(10)[: int(rng.integers(0, 11))]]
+    made = [Hull(f"m{k}", "base", shape("box", rng, spread=0.4)) for k in range(int(rng.integers(0, 4)))]
+    hulls = [(kept + made)[k] for k in rng.permutation(len(kept) + len(made))]
+    carried = mesh.with_hulls(hulls)
+    anew = SymbolicMesh(tuple(hulls), epsilon=mesh.epsilon, scale=mesh.scale)
+    assert "graph" in carried.__dict__
+    assert list(carried.graph) == list(anew.graph)
+    assert np.allclose(list(carried.graph.values()), list(anew.graph.values()), rtol=0, atol=CLEAR)
+
+
+@LAW
+@given(rng=generators())
+def test_components_part_the_selection_and_no_contact_joins_two_in_a_body(rng: np.random.Generator) -> None:
+    mesh = random_mesh(rng, 12)
+    mask = int(rng.integers(0, 1 << 12))
+    parts = [bits(part) for part in components(mesh, mask)]
+    assert sorted(k for part in parts for k in part) == sorted(bits(mask))
+    assert [min(part) for part in parts] == sorted(min(part) for part in parts)
+    whose = {k: n for n, part in enumerate(parts) for k in part}
+    for i, j in mesh.contacts:
+        if i in whose and j in whose and mesh.hulls[i].body == mesh.hulls[j].body:
+            assert whose[i] == whose[j]
+    for part in parts:
+        assert len({mesh.hulls[k].body for k in part}) == 1
+        assert _reached(mesh, part) == part
+
+
+def _reached(mesh: SymbolicMesh, part: frozenset[int]) -> frozenset[int]:
+    """What contacts within the part connect to its first hull, pair by pair until nothing is added."""
+    found = {min(part)}
+    for _ in part:
+        found |= {b for i, j in mesh.contacts for a, b in ((i, j), (j, i)) if a in found and b in part}
+    return frozenset(found)

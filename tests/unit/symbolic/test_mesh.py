@@ -1,0 +1,130 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Body, Document, Geom
+from meshforge.errors import MeshForgeError
+from meshforge.geometry import Aabb, Box, Pose, Sphere
+from meshforge.symbolic import Hull, Label, SymbolicMesh, bits, mask_of
+
+
+def box(x: float, size: float = 1.0) -> Box:
+    return Box.filling(Aabb([x, 0, 0], [x + size, 1, 1]))
+
+
+def row(*places: float, epsilon: float = 0.002, scale: float | None = None) -> SymbolicMesh:
+    """Unit boxes at places along X, named a, b, c and so on."""
+    return SymbolicMesh(tuple(Hull("abcdefgh"[k], "body", box(x)) for k, x in enumerate(places)), None, epsilon, scale)
+
+
+def test_boxes_that_share_a_face_are_in_contact() -> None:
+    assert row(0, 1, 3).contacts == {(0, 1)}
+    assert row(0, 1, 3).neighbours(1) == {0}
+
+
+def test_hulls_at_exactly_the_threshold_are_in_contact() -> None:
+    assert row(0, 1.02, scale=10.0).contacts == {(0, 1)}
+    assert row(0, 1.0201, scale=10.0).contacts == frozenset()
+
+
+def test_the_threshold_refers_to_the_diagonal_of_all_hulls_unless_a_scale_is_given() -> None:
+    mesh = row(0, 4)
+    assert mesh.contact_distance == pytest.approx(0.002 * np.sqrt(27))
+    assert row(0, 4, scale=2.0).contact_distance == pytest.approx(0.004)
+
+
+def test_pairs_just_beyond_the_threshold_are_near_misses_nearest_first() -> None:
+    mesh = row(0, 1.05, 2.08, 3.2, scale=10.0)
+    assert mesh.contacts == frozenset()
+    assert [(i, j) for i, j, _ in mesh.near_misses] == [(1, 2), (0, 1)]
+    assert mesh.near_misses[0][2] == pytest.approx(0.03)
+
+
+def test_a_native_sphere_touches_a_box_where_its_surface_does() -> None:
+    gap = 0.01
+    ball = Sphere(Pose.of_translation([2 + gap, 0.5, 0.5]), 1.0)
+    mesh = SymbolicMesh((Hull("box", "b", box(0)), Hull("ball", "b", ball)), scale=1.0)
+    assert mesh.contacts == frozenset()
+    assert mesh.graph == {}
+    near = SymbolicMesh(mesh.hulls, scale=5.0)
+    assert near.contacts == {(0, 1)}
+    assert near.graph[0, 1] == pytest.approx(gap, abs=1e-8)
+
+
+def test_exact_duplicates_are_in_contact() -> None:
+    assert row(0, 0).contacts == {(0, 1)}
+
+
+def test_hulls_that_share_one_shape_keep_their_contacts_through_an_edit() -> None:
+    shared, other = box(0), box(1)
+    hulls = (Hull("a", "b", shared), Hull("b", "b", shared), Hull("c", "b", other), Hull("d", "b", box(9)))
+    mesh = SymbolicMesh(hulls, scale=10.0)
+    assert len(mesh.contacts) == 3
+    assert mesh.with_hulls(hulls[:3]).contacts == {(0, 1), (0, 2), (1, 2)}
+    assert mesh.with_hulls((*hulls[:3], Hull("e", "b", shared))).contacts == {
+        (i, j) for i in range(4) for j in range(i + 1, 4)
+    }
+
+
+def test_labels_can_be_set_and_taken_away_without_measuring_again() -> None:
+    mesh = row(0, 1)
+    graph = mesh.graph
+    labelled = mesh.labelled({"a": Label("leg", 0.5, "vlm"), "b": Label("top")})
+    assert labelled.labels == {"a": Label("leg", 0.5, "vlm"), "b": Label("top")}
+    assert labelled.labelled({"a": None}).labels == {"b": Label("top")}
+    assert labelled.__dict__["graph"] == graph
+    assert mesh.labels == {}
+
+
+def test_a_hull_tells_label_confidence_and_source_or_none() -> None:
+    hull = Hull("a", "b", box(0))
+    assert (hull.label, hull.confidence, hull.source) == (None, None, None)
+    named = hull.labelled(Label("leg", 0.25, "name"))
+    assert (named.label, named.confidence, named.source) == ("leg", 0.25, "name")
+
+
+def test_a_box_is_its_own_primitive_and_a_polytope_has_none() -> None:
+    assert Hull("a", "b", box(0)).primitive is not None
+    assert Hull("a", "b", box(0).tessellated()).primitive is None
+
+
+def test_an_empty_mesh_has_no_box_and_no_contacts() -> None:
+    empty = SymbolicMesh(())
+    assert (empty.aabb, empty.diagonal, empty.contacts, empty.adjacency) == (None, 0.0, frozenset(), ())
+
+
+def test_a_hull_is_found_by_name_or_named_as_missing() -> None:
+    assert row(0, 1).named("b").aabb.min[0] == 1
+    with pytest.raises(MeshForgeError, match="there is no hull 'z'"):
+        row(0).named("z")
+
+
+def asset() -> Asset:
+    geoms = (Geom("base/a", "base", box(0)), Geom("base/b", "base", box(1)))
+    return Asset(Path("x.urdf"), "urdf", (Body("base", Pose.identity()),), geoms, Document())
+
+
+def test_an_asset_becomes_a_mesh_with_the_labels_of_its_hulls() -> None:
+    mesh = SymbolicMesh.of(asset(), {"base/b": Label("leg"), "gone": Label("leg")})
+    assert [(h.name, h.label, h.parent) for h in mesh.hulls] == [("base/a", None, None), ("base/b", "leg", None)]
+
+
+def test_a_mesh_becomes_its_asset_again_with_its_hulls_as_geoms() -> None:
+    mesh = SymbolicMesh.of(asset())
+    made = Hull("base/a~1", "base", box(5), parent="base/a")
+    lowered = mesh.with_hulls((mesh.hulls[1], made)).lowered()
+    assert [(g.name, g.parent) for g in lowered.geoms] == [("base/b", None), ("base/a~1", "base/a")]
+    assert lowered.geoms[0].shape is mesh.hulls[1].shape
+
+
+def test_a_mesh_made_in_memory_has_no_asset_to_become() -> None:
+    with pytest.raises(MeshForgeError, match="made in memory"):
+        row(0).lowered()
+
+
+def test_bit_sets_and_indices_are_inverse() -> None:
+    assert bits(mask_of([0, 3, 70])) == {0, 3, 70}
+    assert (bits(0), mask_of([])) == (frozenset(), 0)
