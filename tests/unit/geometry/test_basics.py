@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+from meshforge.geometry import (
+    Aabb,
+    Box,
+    Cylinder,
+    Ellipsoid,
+    Polytope,
+    Pose,
+    Sphere,
+    digest,
+    frozen_floats,
+    frozen_ints,
+    same_shape,
+)
+
+
+def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
+    source = np.zeros((2, 3))
+    frozen = frozen_floats(source, (-1, 3))
+    source[0, 0] = 1
+    assert frozen[0, 0] == 0
+    with pytest.raises(ValueError, match="read-only"):
+        frozen[0, 0] = 1
+
+
+def test_an_array_of_another_shape_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"\(-1, 3\) was expected, not \(2, 2\)"):
+        frozen_floats(np.zeros((2, 2)), (-1, 3))
+    with pytest.raises(ValueError, match="was expected"):
+        frozen_ints([1, 2], (3,))
+
+
+def test_nothing_is_an_array_of_no_rows() -> None:
+    assert frozen_floats([], (-1, 3)).shape == (0, 3)
+    assert frozen_ints([], (-1, 3)).shape == (0, 3)
+
+
+def test_a_pose_takes_lists() -> None:
+    pose = Pose([[0, -1, 0], [1, 0, 0], [0, 0, 1]], [1, 2, 3])
+    assert np.array_equal(pose.apply(np.array([[1.0, 0, 0]])), [[1, 3, 3]])
+
+
+def test_a_pose_and_its_inverse_are_none() -> None:
+    pose = Pose.from_rpy([1, 2, 3], [0.1, -0.7, 2.5])
+    both = pose @ pose.inverse()
+    assert np.allclose(both.rotation, np.eye(3))
+    assert np.allclose(both.translation, 0)
+
+
+@pytest.mark.parametrize("rpy", [(0.3, -1.2, 2.9), (0, 0, 0), (1, np.pi / 2, 0), (1, -np.pi / 2, 0), (3, 1.5707, -3)])
+def test_roll_pitch_and_yaw_come_back(rpy: tuple[float, float, float]) -> None:
+    pose = Pose.from_rpy([0, 0, 0], rpy)
+    assert np.allclose(Pose.from_rpy([0, 0, 0], pose.to_rpy()).rotation, pose.rotation, atol=1e-9)
+
+
+def test_a_box_around_boxes_holds_them() -> None:
+    whole = Aabb.union([Aabb([0, 0, 0], [1, 1, 1]), Aabb([-1, 2, 0], [0, 3, 0.5])])
+    assert (whole.min.tolist(), whole.max.tolist()) == ([-1, 0, 0], [1, 3, 1])
+    assert whole.diagonal == pytest.approx(np.sqrt(4 + 9 + 1))
+    assert whole.corners.shape == (8, 3)
+
+
+def test_shapes_and_poses_pickle() -> None:
+    for shape in (Box.filling(Aabb([0, 0, 0], [1, 2, 3])), Sphere(Pose.identity(), 2.0)):
+        assert same_shape(pickle.loads(pickle.dumps(shape)), shape)
+    hull = Box.filling(Aabb([0, 0, 0], [1, 2, 3])).tessellated()
+    assert same_shape(pickle.loads(pickle.dumps(hull)), hull)
+
+
+def test_volumes_of_round_shapes_are_analytic() -> None:
+    here = Pose.identity()
+    assert Sphere(here, 2.0).volume == pytest.approx(4 / 3 * np.pi * 8)
+    assert Cylinder(here, 2.0, 3.0).volume == pytest.approx(np.pi * 4 * 6)
+    assert Ellipsoid(here, np.array([1.0, 2.0, 3.0])).volume == pytest.approx(4 / 3 * np.pi * 6)
+
+
+def hull() -> Polytope:
+    return Box.filling(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7])).tessellated()
+
+
+def test_a_digest_survives_single_precision_and_another_order() -> None:
+    rounded = Polytope(hull().vertices.astype(np.float32), hull().faces)
+    reordered = Polytope(hull().vertices[::-1], 7 - hull().faces)
+    assert digest(hull()) == digest(rounded) == digest(reordered)
+    assert len(digest(hull())) == 16
+
+
+def test_a_digest_tells_place_size_and_kind_apart() -> None:
+    box = Box.filling(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7]))
+    others = [hull().moved(Pose.of_translation([1e-3, 0, 0])), hull().mapped(np.eye(3) * 1.001, np.zeros(3)), box]
+    assert len({digest(shape) for shape in [hull(), *others]}) == 4
+
+
+def test_shapes_of_two_kinds_are_never_the_same() -> None:
+    box = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
+    assert same_shape(box, box)
+    assert not same_shape(box, box.tessellated())
+    assert not same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])))
+    assert same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)

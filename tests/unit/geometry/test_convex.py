@@ -1,0 +1,143 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from meshforge.errors import GeometryError
+from meshforge.geometry import (
+    Floats,
+    Polytope,
+    convex_hull,
+    is_closed,
+    is_convex,
+    outward,
+    principal_extents,
+    spans_volume,
+)
+
+CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+SQUARE = CUBE[CUBE[:, 2] == 0]
+
+
+def test_the_hull_of_a_cube_is_the_cube() -> None:
+    hull = convex_hull(CUBE)
+    assert (len(hull.vertices), len(hull.faces)) == (8, 12)
+    assert hull.volume == pytest.approx(1.0)
+    assert np.allclose(hull.centroid, 0.5)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("place", [0.0, 1.0, 1e3])
+def test_size_and_place_do_not_matter(scale: float, place: float) -> None:
+    points = CUBE * scale + place * scale * 1e3
+    hull = convex_hull(points)
+    assert len(hull.vertices) == 8
+    assert hull.volume == pytest.approx(scale**3, rel=1e-6)
+
+
+def test_a_million_metres_from_the_origin_a_hull_keeps_its_vertices() -> None:
+    points = np.random.default_rng(0).normal(size=(60, 3)) + 1e6
+    hull = convex_hull(points)
+    assert hull.volume == pytest.approx(convex_hull(points - 1e6).volume, rel=1e-8)
+    assert {tuple(p) for p in hull.vertices} <= {tuple(p) for p in points}
+
+
+def test_large_coplanar_clusters_make_a_convex_hull() -> None:
+    rng = np.random.default_rng(1)
+    sides = [np.insert(rng.random((2000, 2)), axis, side, axis=1) for axis in range(3) for side in (0.0, 1.0)]
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    hull = convex_hull(np.concatenate(sides) @ turn)
+    assert is_closed(hull.faces)
+    assert is_convex(hull.vertices, hull.faces, 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("points", "words"),
+    [
+        (np.empty((0, 3)), "there are none"),
+        (np.array([[0, 0, np.nan], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), "not a finite number"),
+        (np.array([[0, 0, np.inf], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), "not a finite number"),
+        (np.zeros((1, 3)), "span no volume"),
+        (np.zeros((9, 3)), "span no volume"),
+        (np.array([[0, 0, 0], [1, 1, 1], [2, 2, 2]]), "span no volume"),
+        (SQUARE, "span no volume"),
+        (SQUARE + np.array([0, 0, 1e6]), "span no volume"),
+        (CUBE * [1, 1, 1e-8], "span no volume"),
+        (CUBE * 1e-200, "span no volume"),
+    ],
+)
+def test_points_without_a_hull_are_refused_with_the_name(points: Floats, words: str) -> None:
+    with pytest.raises(GeometryError, match=f"leg/geom0: .*{words}"):
+        convex_hull(points, name="leg/geom0")
+
+
+@pytest.mark.parametrize(
+    ("points", "size"),
+    [
+        (SQUARE, (1, 1, 0.01)),
+        (SQUARE[:2], (0.01, 1, 0.01)),
+        (np.zeros((3, 3)), (0.01, 0.01, 0.01)),
+        (CUBE * [1, 1, 1e-9], (1, 1, 0.01)),
+        (CUBE * [1, 1, 0.004], (1, 1, 0.01)),
+    ],
+)
+def test_flat_points_are_thickened_about_their_middle(points: Floats, size: tuple[float, float, float]) -> None:
+    hull = convex_hull(points, thicken=0.01)
+    assert np.allclose(hull.aabb.size, size)
+    assert np.allclose(hull.aabb.center, points.mean(axis=0), atol=1e-9)
+
+
+def test_points_that_are_thick_enough_are_not_thickened() -> None:
+    assert np.array_equal(np.unique(convex_hull(CUBE, thicken=0.5).vertices, axis=0), CUBE)
+
+
+def test_a_slanted_sheet_is_thickened_across_itself() -> None:
+    turn = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
+    hull = convex_hull(SQUARE @ turn.T, thicken=0.01)
+    assert hull.volume == pytest.approx(0.01)
+
+
+def test_doubled_points_make_no_difference() -> None:
+    once, often = convex_hull(CUBE), convex_hull(np.repeat(CUBE, 5, axis=0))
+    assert np.array_equal(np.unique(once.vertices, axis=0), np.unique(often.vertices, axis=0))
+
+
+def test_principal_extents_are_those_of_the_box_a_cloud_was_made_in() -> None:
+    _, axes, extents = principal_extents(CUBE * [3, 1, 2])
+    assert np.allclose(extents, [3, 2, 1])
+    assert np.linalg.det(axes) == pytest.approx(1.0)
+
+
+def test_spanning_a_volume_is_what_a_hull_asks_for() -> None:
+    assert spans_volume(CUBE)
+    assert not spans_volume(SQUARE)
+    assert not spans_volume(CUBE[:1])
+
+
+FACES = convex_hull(CUBE).faces
+CORNERS = convex_hull(CUBE).vertices
+
+
+def test_a_surface_with_a_hole_is_not_closed() -> None:
+    assert is_closed(FACES)
+    assert not is_closed(FACES[1:])
+    assert not is_closed(FACES[:0])
+
+
+def test_a_surface_with_a_face_turned_over_is_not_closed() -> None:
+    turned = FACES.copy()
+    turned[3] = turned[3][::-1]
+    assert not is_closed(turned)
+
+
+def test_a_surface_inside_out_is_closed_but_not_outward() -> None:
+    assert outward(CORNERS, FACES)
+    assert is_closed(FACES[:, ::-1])
+    assert not outward(CORNERS, FACES[:, ::-1])
+
+
+def test_a_dent_is_not_convex_beyond_the_tolerance() -> None:
+    dented = Polytope(np.where(CORNERS.sum(axis=1, keepdims=True) == 3, 0.9, CORNERS), FACES)
+    assert is_convex(CORNERS, FACES)
+    assert not is_convex(dented.vertices, dented.faces)
+    assert not is_convex(CORNERS, FACES[:, ::-1])

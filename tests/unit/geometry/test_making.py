@@ -1,0 +1,175 @@
+"""Shapes that are made: fills, fits, cuts, overlaps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from meshforge.errors import GeometryError
+from meshforge.geometry import (
+    Aabb,
+    Box,
+    Capsule,
+    Cylinder,
+    Pose,
+    Sphere,
+    aabb_box,
+    aabb_capsule,
+    aabb_cylinder,
+    aabb_sphere,
+    cut,
+    distance,
+    longest_axis,
+    mapped_to,
+    overlap_volume,
+    tight_box,
+    tight_capsule,
+    tight_cylinder,
+    volume_of_union,
+)
+from meshforge.geometry.circle import smallest_circle
+
+CUBE = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
+
+
+@pytest.mark.parametrize(
+    ("size", "axis"), [((3, 1, 2), 0), ((1, 3, 2), 1), ((1, 1, 1), 2), ((2, 2, 1), 1), ((2, 1, 2), 2), ((1, 2, 2), 2)]
+)
+def test_of_equal_longest_sides_z_goes_before_y_before_x(size: tuple[float, float, float], axis: int) -> None:
+    assert longest_axis(Aabb([0, 0, 0], size)) == axis
+
+
+def test_a_cylinder_fills_a_box_along_its_longest_side() -> None:
+    shape = aabb_cylinder(Aabb([0, 0, 0], [4, 2, 2]))
+    assert isinstance(shape, Cylinder)
+    assert (shape.radius, shape.half_length) == (1.0, 2.0)
+    assert np.allclose(shape.aabb.size, [4, 2, 2])
+
+
+def test_a_native_cylinder_takes_the_mean_of_its_sides() -> None:
+    shape = aabb_cylinder(Aabb([0, 0, 0], [1.0, 1.008, 3]))
+    assert isinstance(shape, Cylinder)
+    assert shape.radius == pytest.approx(0.502)
+    assert aabb_cylinder(Aabb([0, 0, 0], [1.0, 1.02, 3])).kind == "polytope"
+
+
+def test_a_capsule_fills_a_box_with_its_ends() -> None:
+    shape = aabb_capsule(Aabb([0, 0, 0], [2, 2, 5]))
+    assert isinstance(shape, Capsule)
+    assert (shape.radius, shape.half_length) == (1.0, 1.5)
+
+
+def test_a_capsule_in_a_cube_is_a_sphere() -> None:
+    assert isinstance(aabb_capsule(Aabb([0, 0, 0], [2, 2, 2])), Sphere)
+
+
+def test_a_sphere_in_an_oblong_box_is_an_ellipsoid_of_few_vertices() -> None:
+    shape = aabb_sphere(Aabb([0, 0, 0], [1, 2, 3]))
+    assert shape.kind == "polytope"
+    assert len(shape.vertices) <= 64
+    assert np.array_equal(shape.aabb.max, [1, 2, 3])
+
+
+@pytest.mark.parametrize("fill", [aabb_box, aabb_cylinder, aabb_capsule, aabb_sphere])
+def test_a_box_without_extent_cannot_be_filled(fill: object) -> None:
+    assert callable(fill)
+    with pytest.raises(GeometryError, match="1 x 0 x 1 m cannot be filled"):
+        fill(Aabb([0, 0, 0], [1, 0, 1]))
+
+
+def test_a_template_is_mapped_axis_by_axis() -> None:
+    (shape,) = mapped_to([CUBE], CUBE.aabb, Aabb([1, 1, 1], [2, 3, 4]))
+    assert shape.kind == "box"
+    assert (shape.aabb.min.tolist(), shape.aabb.max.tolist()) == ([1, 1, 1], [2, 3, 4])
+
+
+def test_a_side_of_the_source_without_extent_is_moved_only() -> None:
+    (shape,) = mapped_to([CUBE], Aabb([0, 0, 0.5], [1, 1, 0.5]), Aabb([0, 0, 3], [2, 2, 5]))
+    assert np.allclose(shape.aabb.size, [2, 2, 1])
+    assert shape.aabb.center[2] == pytest.approx(4)
+
+
+def test_a_target_without_extent_is_refused() -> None:
+    with pytest.raises(GeometryError, match="cannot be filled"):
+        mapped_to([CUBE], CUBE.aabb, Aabb([0, 0, 0], [1, 1, 0]))
+
+
+def test_the_tight_box_of_an_upright_box_is_that_box_unturned() -> None:
+    box = tight_box(Aabb([1, 2, 3], [2, 4, 6]).corners)
+    assert np.array_equal(box.pose.rotation, np.eye(3))
+    assert np.allclose(box.half, [0.5, 1, 1.5])
+    assert np.allclose(box.pose.translation, [1.5, 3, 4.5])
+
+
+def test_the_tight_box_of_a_slanted_leg_is_far_smaller_than_its_bounds() -> None:
+    leg = Box(Pose.from_rpy([0, 0, 0], [0.5, 0.5, 0]), np.array([0.05, 0.05, 1.0]))
+    box = tight_box(leg.vertices)
+    assert box.volume == pytest.approx(leg.volume, rel=1e-6)
+    assert box.volume < 0.05 * np.prod(leg.aabb.size)
+
+
+def test_tight_shapes_of_flat_points_are_refused_by_name_or_thickened() -> None:
+    square = CUBE.vertices * [1, 1, 0]
+    for fit in (tight_box, tight_cylinder, tight_capsule):
+        with pytest.raises(GeometryError, match="top: its points span no volume"):
+            fit(square, name="top")
+    assert tight_box(square, thicken=0.01).volume == pytest.approx(0.01)
+
+
+def test_the_same_points_give_the_same_fit_to_the_last_bit() -> None:
+    points = np.random.default_rng(3).normal(size=(40, 3))
+    for fit in (tight_box, tight_cylinder, tight_capsule):
+        assert np.array_equal(fit(points).vertices, fit(points.copy()).vertices)
+
+
+def test_the_smallest_circle_goes_through_the_points_that_bear_it() -> None:
+    center, radius = smallest_circle(np.array([[0.0, 0], [2, 0], [1, 0.5], [1, -1]]))
+    assert np.allclose(center, [1, 0])
+    assert radius == pytest.approx(1)
+    center, radius = smallest_circle(np.array([[3.0, 4.0]]))
+    assert (center.tolist(), radius) == ([3, 4], 0)
+
+
+def test_the_smallest_circle_of_points_in_a_line_spans_their_ends() -> None:
+    points = np.linspace([0.0, 0.0], [3.0, 4.0], 20)
+    center, radius = smallest_circle(points)
+    assert np.allclose(center, [1.5, 2])
+    assert radius == pytest.approx(2.5)
+
+
+def test_a_cut_parts_a_cube_where_the_plane_is() -> None:
+    below, above = cut(CUBE, np.array([0.25, 0, 0]), np.array([2.0, 0, 0]))
+    assert below is not None
+    assert above is not None
+    assert [below.volume, above.volume] == pytest.approx([0.25, 0.75])
+    assert {tuple(p) for p in CUBE.vertices} <= {tuple(p) for p in [*below.vertices, *above.vertices]}
+
+
+@pytest.mark.parametrize(("height", "parts"), [(-1.0, (False, True)), (0.0, (False, True)), (1.0, (True, False))])
+def test_a_plane_beside_a_shape_leaves_it_whole(height: float, parts: tuple[bool, bool]) -> None:
+    found = cut(CUBE, np.array([0, 0, height]), np.array([0, 0, 1.0]))
+    assert tuple(part is not None for part in found) == parts
+
+
+def test_a_cut_needs_a_normal() -> None:
+    with pytest.raises(GeometryError, match="normal"):
+        cut(CUBE, np.zeros(3), np.zeros(3))
+
+
+def test_boxes_that_touch_have_no_overlap_and_no_distance() -> None:
+    beside = CUBE.moved(Pose.of_translation([1, 0, 0]))
+    assert overlap_volume(CUBE, beside) == 0
+    assert distance(CUBE, beside) == pytest.approx(0, abs=1e-9)
+    assert volume_of_union([CUBE, beside]) == pytest.approx(2)
+
+
+def test_a_shape_overlaps_itself_whole() -> None:
+    assert overlap_volume(CUBE, CUBE.tessellated()) == pytest.approx(1)
+    assert volume_of_union([CUBE, CUBE, CUBE.tessellated()]) == pytest.approx(1)
+    assert volume_of_union([]) == 0
+
+
+def test_far_from_the_origin_an_overlap_is_the_same() -> None:
+    a, b = CUBE, CUBE.moved(Pose.of_translation([0.5, 0.5, 0.5]))
+    away = Pose.of_translation([1e6, 1e6, 1e6])
+    assert overlap_volume(a.moved(away), b.moved(away)) == pytest.approx(0.125, rel=1e-6)
