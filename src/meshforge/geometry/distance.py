@@ -8,6 +8,7 @@ axes; where two curved surfaces touch, up to 1e-6.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import coal
@@ -123,9 +124,12 @@ class _UnitFrame:
         return coal.Transform3s(pose.rotation, (pose.translation - self.center) / self.scale)
 
 
+_triangle = lru_cache(maxsize=1 << 16)(coal.Triangle)  # making them is most of the work on a mesh; they are copied
+
+
 def _convex(vertices: Floats, faces: Ints) -> Any:
     points = coal.StdVec_Vec3s()
     points.extend(list(vertices))
     triangles = coal.StdVec_Triangle()
-    triangles.extend([coal.Triangle(a, b, c) for a, b, c in faces.tolist()])
+    triangles.extend([_triangle(a, b, c) for a, b, c in faces.tolist()])
     return coal.Convex(points, triangles)
