@@ -6,6 +6,7 @@ import shutil
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from textwrap import indent
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -40,7 +41,7 @@ def demo(
         remark("no program was found; see: meshforge synthesize " + str(project.folder))
         raise typer.Exit(1)
     _say(f"From these two, MeshForge learned a program in {sum(lesson.seconds.values()):.2f} s:\n")
-    typer.echo("".join(f"    {line}\n" for line in str(program).splitlines()))
+    typer.echo(indent(str(program), "    "))
     started = perf_counter()
     with progress(len(project.assets()), "editing") as advance:
         outcomes = list(project.apply(workers=workers, progress=advance))
