@@ -3,4 +3,6 @@
 from pathlib import Path
 
 TABLES = Path(__file__).parent / "tables"
-"""`table_NN.obj` with their labels beside them, `templates/` and `demonstrations/`."""
+"""Fourteen tables as OBJ files with their labels beside them; `tables.mf`, `templates/` and `demonstrations/`."""
+
+__all__ = ["TABLES"]
