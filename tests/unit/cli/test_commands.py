@@ -159,9 +159,16 @@ def test_convert_within_a_format_writes_the_same_bytes(run: Run) -> None:
 
 
 def test_convert_to_another_format_keeps_the_hulls(run: Run) -> None:
-    assert run("convert", "row.obj", "row.urdf").code == 0
-    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", "row.urdf"))
+    assert run("convert", "row.obj", "made/row.urdf").code == 0
+    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", "made/row.urdf"))
     assert [hull["volume"] for hull in after] == pytest.approx([hull["volume"] for hull in before])
+    assert [hull["label"] for hull in after] == ["leg", "panel", "leg"]
+
+
+def test_convert_leaves_labels_that_are_there_alone(run: Run) -> None:
+    Path("other.labels.json").write_text('{"hulls": {}}')
+    assert "left as it is" in run("convert", "row.obj", "other.obj").err
+    assert Path("other.labels.json").read_text() == '{"hulls": {}}'
 
 
 def test_fmt_prints_the_canonical_form_and_checks_it(run: Run) -> None:
