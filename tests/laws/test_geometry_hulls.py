@@ -58,6 +58,16 @@ def test_every_point_is_in_its_hull(points: Floats) -> None:
 
 
 @LAW
+@given(points=clouds())
+def test_no_triangle_of_a_hull_is_a_needle(points: Floats) -> None:
+    hull = convex_hull(points)
+    corners = whitened(hull.vertices, hull.vertices)[hull.faces]
+    sides = corners - np.roll(corners, 1, axis=1)
+    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    assert (areas / np.linalg.norm(sides, axis=2).max(axis=1)).min() > 5e-8
+
+
+@LAW
 @given(points=clouds(), direction=directions())
 def test_a_hull_reaches_as_far_as_its_points_in_every_direction(points: Floats, direction: Floats) -> None:
     hull, unit = convex_hull(points), direction / np.linalg.norm(direction)

@@ -48,9 +48,7 @@ def _solid(shape: Shape, bounds: Aabb) -> Any:
             return _mesh((hull.vertices - bounds.center) / bounds.diagonal, hull)
         case Sphere() | Ellipsoid() | Cylinder() | Capsule():
             fine = _tessellated(shape)
-            grown = np.cbrt(
-                shape.volume / fine.volume()
-            )  # a tessellation is inside; one of equal volume is half so far off
+            grown = np.cbrt(shape.volume / fine.volume())  # of equal volume, it errs to both sides of the surface
             linear = shape.pose.rotation * (grown / bounds.diagonal)
             offset = (shape.pose.translation - bounds.center) / bounds.diagonal
             return fine.transform(np.column_stack([linear, offset]))

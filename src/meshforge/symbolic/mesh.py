@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -126,14 +126,6 @@ def _by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
     ids = [id(hull.shape) for hull in hulls]
     seen = Counter(ids)
     return {shape: k for k, shape in enumerate(ids) if seen[shape] == 1}
-
-
-def _kept_shapes(before: Sequence[Hull], after: Sequence[Hull]) -> dict[int, int]:
-    """The index before of each hull after that has the very same shape; one that several hulls share, one by one."""
-    known: dict[int, list[int]] = {}
-    for index, hull in reversed(list(enumerate(before))):
-        known.setdefault(id(hull.shape), []).append(index)
-    return {k: known[id(h.shape)].pop() for k, h in enumerate(after) if known.get(id(h.shape))}
 
 
 def bits(mask: int) -> frozenset[int]:

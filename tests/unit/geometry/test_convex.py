@@ -102,6 +102,26 @@ def test_doubled_points_make_no_difference() -> None:
     assert np.array_equal(np.unique(once.vertices, axis=0), np.unique(often.vertices, axis=0))
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_the_hull_of_a_hull_is_that_hull_in_single_precision_too(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    hull = convex_hull((rng.integers(0, 5, size=(100, 3)) @ turn).astype(np.float32))
+    again = convex_hull(hull.vertices)
+    assert np.array_equal(np.unique(again.vertices, axis=0), np.unique(hull.vertices, axis=0))
+
+
+@pytest.mark.parametrize("seed", [56, 148, 166, 326, 482, 508])
+def test_noise_of_single_precision_leaves_no_needles(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    lattice = rng.integers(0, 3, size=(40, 3))
+    hull = convex_hull(lattice + rng.normal(size=(40, 3)) * 10.0 ** rng.uniform(-7.5, -6))
+    sides = hull.vertices[hull.faces] - hull.vertices[np.roll(hull.faces, 1, axis=1)]
+    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    assert (areas / np.linalg.norm(sides, axis=2).max(axis=1)).min() > 1.3e-7
+    assert is_convex(hull.vertices, hull.faces, 1e-7)
+
+
 def test_principal_extents_are_those_of_the_box_a_cloud_was_made_in() -> None:
     _, axes, extents = principal_extents(CUBE * [3, 1, 2])
     assert np.allclose(extents, [3, 2, 1])
