@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import manifold3d
 import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.corners import by_manifold, by_qhull, pruned
 from meshforge.geometry.shapes.polytope import Polytope
-from meshforge.geometry.surface import height_above, is_closed, is_convex, lowest_altitudes, outward
+from meshforge.geometry.surface import height_above, is_closed, is_convex, outward
 
 FLATNESS = 1e-4
 """Degenerate input is thickened to this share of the reference diagonal."""
 _RANK = 1e-6  # extents below this share of the largest count as none: single precision leaves 1e-7 of noise
 _CONVEXITY = 1e-8  # verified in coordinates where the hull is one long, wide and high
 _SLIVERS = (1e-7, 1e-6, 1e-5, 1e-4)  # altitudes of triangles given up in turn; the first is manifold's own precision
-_ROUNDS = 40
 _FARTHEST, _SMALLEST = 1e50, 1e-100  # [m] beyond, volumes are no floating point numbers any more
 
 
 def convex_hull(points: Floats, *, name: str = "points", thicken: float | None = None) -> Polytope:
     """The convex hull of points (n, 3); its vertices are some of them, bit for bit.
 
-    Every point is inside to 1e-7 of the hull's length, width and height; to 1e-4 at worst, where rounded, nearly
-    coplanar or collinear points leave no other hull that is convex.
+    Every point is inside to 1e-6 of the hull's length, width and height, mostly to 1e-7; to 1e-3 at worst, where
+    rounded, nearly coplanar or collinear points leave no other hull that is convex.
     thicken: the thickness [m] given to points that span no volume; None refuses them.
     Raises GeometryError naming `name`: no points, a coordinate that is not finite, no extent, or no convex result.
     """
@@ -86,15 +83,12 @@ def _verified(points: Floats, name: str) -> Polytope:
     """
     center, axes, extents = principal_extents(points)
     unit = (points - center) @ (axes.T / extents)
-    for attempt in (_by_manifold, _by_qhull):
+    for attempt in (by_manifold, by_qhull):
         for altitude in _SLIVERS:
-            made = _pruned(unit, attempt, altitude)
+            made = pruned(unit, attempt, altitude)
             if made is not None and _holds(unit, *made, max(10 * altitude, 1e-6)):
                 return Polytope(points[made[0]], made[1])
     raise GeometryError("no convex hull of its points could be made", where=name)
-
-
-_Hull = tuple[Ints, Ints]  # indices of the points that are vertices, and triangles of these vertices
 
 
 def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
@@ -106,68 +100,3 @@ def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
         and is_convex(vertices, faces, _CONVEXITY)
         and (len(kept) == len(unit) or height_above(unit, vertices, faces) <= reach)
     )
-
-
-def _pruned(unit: Floats, attempt: Callable[[Floats], _Hull | None], altitude: float) -> _Hull | None:
-    """The hull without vertices that are none: within `altitude` of an edge between two others, or inside a face."""
-    kept = np.arange(len(unit))
-    for _ in range(_ROUNDS):
-        made = attempt(unit[kept])
-        if made is None:
-            return None
-        vertices, faces = kept[made[0]], made[1]
-        spare = _spare(unit[vertices], faces, altitude) or _flat(unit[vertices], faces, altitude)
-        if len(spare) == 0:
-            return vertices, faces
-        kept = np.delete(vertices, spare)
-    return None
-
-
-def _flat(vertices: Floats, faces: Ints, angle: float) -> list[int]:
-    """Vertices whose faces lie in one plane or two, to `angle` [rad]: no corners, they can all go at once."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    spread = np.zeros((len(vertices), 3, 3))
-    np.add.at(spread, faces.ravel(), np.repeat(normals[:, :, None] * normals[:, None, :], 3, axis=0))
-    return [int(k) for k in np.flatnonzero(np.linalg.eigvalsh(spread)[:, 0] < angle * angle)]
-
-
-def _spare(vertices: Floats, faces: Ints, altitude: float) -> list[int]:
-    """Vertices that can go at once, each next to an edge whose ends stay."""
-    heights, apex = lowest_altitudes(vertices, faces)
-    spare: list[int] = []
-    staying: set[int] = set()
-    for k in np.flatnonzero(heights < altitude)[np.argsort(heights[heights < altitude], kind="stable")]:
-        corner = int(faces[k, apex[k]])
-        ends = {int(faces[k, (apex[k] + 1) % 3]), int(faces[k, (apex[k] + 2) % 3])}
-        if corner not in staying and corner not in spare and ends.isdisjoint(spare):
-            spare.append(corner)
-            staying |= ends
-    return spare
-
-
-def _by_manifold(points: Floats) -> _Hull | None:
-    points = points + 0.0  # no negative zeros: vertices are found again by their bytes
-    mesh = manifold3d.Manifold.hull_points(points).to_mesh64()
-    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
-    if len(faces) < 4:
-        return None
-    index = {row.tobytes(): k for k, row in reversed(list(enumerate(points)))}
-    vertices = np.ascontiguousarray(np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] + 0.0)
-    return np.array([index[row.tobytes()] for row in vertices]), faces
-
-
-def _by_qhull(points: Floats) -> _Hull | None:
-    from scipy.spatial import ConvexHull, QhullError  # half of this room's import time, and hardly ever needed
-
-    try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):
-        return None
-    used, faces = np.unique(hull.simplices, return_inverse=True)
-    vertices, faces = points[used], faces.reshape(-1, 3).copy()
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - vertices.mean(axis=0)) < 0
-    faces[inward] = faces[inward][:, ::-1]
-    return used.astype(np.int64), faces
