@@ -12,6 +12,7 @@ from meshforge.formats import load
 from tests.corpus_path import corpus
 from tests.loop.command import meshforge
 from tests.loop.labels import write_labels
+from tests.loop.readme import commands
 from tests.mesh_engines import Bullet, bounds, mujoco_hull, objects
 
 CAPS = {
@@ -40,14 +41,8 @@ def bottles(tmp_path_factory: pytest.TempPathFactory) -> Path:
         path = folder / "assets" / f"{name}.obj"
         shutil.copyfile(corpus("soap_bottles", "pybullet-URDF-models", name, "collision.obj"), path)
         write_labels(path, {"cap": cap}, rest="body")
-    meshforge("new", "bottles", "assets/*.obj", "--vocabulary", "body,cap", cwd=folder)
-    meshforge("label", "bottles", cwd=folder)
-    for name, body in (("magic_clean", 3), ("cleanser", 1)):
-        names = [hull.name for hull in load(folder / "assets" / f"{name}.obj").hulls]
-        steps = [f"{', '.join(names[:body])} => Merge", f"{', '.join(names[body:])} => Replace(cylinder)"]
-        meshforge("demonstrate", "bottles", f"{name}.obj", *steps, cwd=folder)
-    meshforge("synthesize", "bottles", cwd=folder)
-    meshforge("apply", "bottles", cwd=folder)
+    for words in commands("bottles") + commands("assets/magic_clean.obj"):
+        meshforge(*words, cwd=folder)
     return folder
 
 

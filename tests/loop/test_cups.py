@@ -13,6 +13,7 @@ from meshforge.geometry import same_shape
 from tests.corpus_path import corpus
 from tests.loop.command import meshforge
 from tests.loop.labels import write_labels
+from tests.loop.readme import README, commands
 from tests.urdf_engines import bullet, mujoco_model
 
 COARSE = {"handle": (0, 1), "base": (2, 3, 4, 5)}
@@ -37,23 +38,14 @@ def cups(tmp_path_factory: pytest.TempPathFactory) -> Path:
         if not visual.exists():  # left out of the corpus; PyBullet insists on it
             shutil.copyfile(visual.with_name("collision.obj"), visual)
         write_labels(folder / "assets" / name / "model.urdf", parts, rest="wall")
-    meshforge("new", "cups", "assets/**/*.urdf", "--vocabulary", "base,wall,handle", cwd=folder)
-    meshforge("label", "cups", "--with", "file", cwd=folder)
-    _demonstrate(folder, "green_cup", base=FINE["base"], grip=(43, 45))
-    _demonstrate(folder, "mug", base=MUG["base"], grip=(0, 1))
-    meshforge("synthesize", "cups", cwd=folder)
-    meshforge("apply", "cups", cwd=folder)
+    for words in commands("cups"):
+        meshforge(*words, cwd=folder)
     return folder
-
-
-def _demonstrate(folder: Path, asset: str, base: tuple[int, ...], grip: tuple[int, ...]) -> None:
-    names = [", ".join(f"baseLink/geom0#{k}" for k in hulls) for hulls in (base, grip)]
-    steps = [f"{names[0]} => Merge", f"{names[1]} => Replace(capsule, tight)"]
-    meshforge("demonstrate", "cups", f"{asset}/model.urdf", *steps, cwd=folder)
 
 
 def test_two_cups_teach_the_program(cups: Path) -> None:
     assert (cups / "cups" / "program.mf").read_text() == PROGRAM
+    assert all(line in README.read_text() for line in PROGRAM.splitlines()[2:])
 
 
 def test_every_cup_comes_back_with_one_base_and_one_grip(cups: Path) -> None:
