@@ -28,7 +28,7 @@ PROGRAM = """\
 labels body, cap
 
 Is(body) => Merge
-Is(cap)  => Replace(cylinder)
+Is(cap)  => Replace(box)
 """
 
 
