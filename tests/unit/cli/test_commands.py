@@ -6,15 +6,14 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 from PIL import Image
 
 from meshforge.cli import main
 from meshforge.cli.main import COMMANDS
+from tests.loop.command import Done
 
 CUBE = """\
 o {name}
@@ -35,20 +34,7 @@ f {3} {0} {4} {7}
 """
 
 
-@dataclass(frozen=True)
-class Ran:
-    """What a command printed, and its exit code."""
-
-    code: int
-    out: str
-    err: str
-
-    @property
-    def json(self) -> Any:
-        return json.loads(self.out)
-
-
-Run = Callable[..., Ran]
+Run = Callable[..., Done]
 
 
 @pytest.fixture
@@ -61,13 +47,13 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     Path("row.obj").write_text(text)
     Path("row.labels.json").write_text('{"hulls": {"left": "leg", "middle": "panel", "far": "leg"}}')
 
-    def run(*words: str) -> Ran:
+    def run(*words: str) -> Done:
         monkeypatch.setattr(sys, "argv", ["meshforge", *words])
         with pytest.raises(SystemExit) as left:
             main()
         printed = capsys.readouterr()
         assert "Traceback" not in printed.err
-        return Ran(int(left.value.code or 0), printed.out, printed.err)
+        return Done(int(left.value.code or 0), printed.out, printed.err)
 
     return run
 
