@@ -6,9 +6,17 @@ from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, 
 from meshforge.geometry.cut import cut
 from meshforge.geometry.digest import digest, same_shape
 from meshforge.geometry.distance import close_pairs, distance
-from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, mapped_to
-from meshforge.geometry.fit_box import tight_box
-from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
+from meshforge.geometry.fit import (
+    aabb_box,
+    aabb_capsule,
+    aabb_cylinder,
+    aabb_sphere,
+    longest_axis,
+    mapped_to,
+    tight_box,
+    tight_capsule,
+    tight_cylinder,
+)
 from meshforge.geometry.overlap import overlap_volume, volume_of_union
 from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose

@@ -27,7 +27,7 @@ from meshforge.geometry import (
     tight_cylinder,
     volume_of_union,
 )
-from meshforge.geometry.circle import smallest_circle
+from meshforge.geometry.fit.circle import smallest_circle
 
 CUBE = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
 

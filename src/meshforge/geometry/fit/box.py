@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
-from meshforge.geometry.descend import descend
+from meshforge.geometry.fit.descend import descend
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Polytope
 

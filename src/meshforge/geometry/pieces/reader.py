@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry.around_edges import by_edges, closed_runs, is_simple
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import (
+from meshforge.geometry.pieces.around_edges import by_edges, closed_runs, is_simple
+from meshforge.geometry.pieces.connect import (
     Bools,
     by_vertices,
     closed_components,
@@ -21,8 +21,8 @@ from meshforge.geometry.connect import (
     row_ids,
     welded,
 )
+from meshforge.geometry.pieces.solidity import FILLED, Verdict, verdict
 from meshforge.geometry.shapes.polytope import volume_and_centroid
-from meshforge.geometry.solidity import FILLED, Verdict, verdict
 
 _NEAR = 1e-6  # places closer than this share of the surface's size are one, where that closes a hull
 

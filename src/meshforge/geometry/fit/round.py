@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from meshforge.geometry.arrays import Floats
-from meshforge.geometry.circle import smallest_circle
 from meshforge.geometry.convex import convex_hull
-from meshforge.geometry.descend import descend
+from meshforge.geometry.fit.circle import smallest_circle
+from meshforge.geometry.fit.descend import descend
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Capsule, Cylinder, Polytope, Sphere
 

@@ -11,8 +11,8 @@ from scipy.sparse.csgraph import connected_components
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import row_ids
 from meshforge.geometry.convex import convex_hull
+from meshforge.geometry.pieces.connect import row_ids
 from meshforge.geometry.shapes.polytope import Polytope
 
 FILLED = 0.95

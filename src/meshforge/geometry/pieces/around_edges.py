@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.connect import edges_of, linked, numbered, row_ids
+from meshforge.geometry.pieces.connect import edges_of, linked, numbered, row_ids
 
 _TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each other
 

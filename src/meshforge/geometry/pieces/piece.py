@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.piece_reader import Part, Reader
+from meshforge.geometry.pieces.reader import Part, Reader
 from meshforge.geometry.shapes.polytope import Polytope
 
 
