@@ -6,6 +6,7 @@ import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints
 
+_ALL_PAIRS = 50_000_000  # vertices times faces: about half a second
 _BLOCK = 4_000_000  # heights of vertices above planes that are held in memory at once
 
 
@@ -22,9 +23,29 @@ def is_closed(faces: Ints) -> bool:
 def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     """Whether no vertex lies outside any face plane by more than `tolerance` times the size.
 
-    The plane of a needle, which is noise, is left out: its neighbours bound the shape there.
+    The plane of a needle, which is noise, is left out: its neighbours bound the shape there. Of a surface with very
+    many faces each is held against its neighbours only: a closed surface like a sphere that bends outward at every
+    edge is convex (Tietze, Nakajima), and all pairs would take minutes.
     """
-    return height_above(vertices, vertices, faces) <= tolerance * _size(vertices)
+    if len(vertices) * len(faces) <= _ALL_PAIRS or not is_closed(faces):
+        return height_above(vertices, vertices, faces) <= tolerance * _size(vertices)
+    is_sphere = len(np.unique(faces)) - len(faces) // 2 == 2
+    return is_sphere and _highest_neighbour(vertices, faces) <= tolerance * _size(vertices)
+
+
+def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
+    """How far [m] any corner lies above the plane of a face that shares an edge with its own; the faces are closed."""
+    count = len(vertices)
+    start, end, apex = (np.concatenate([faces[:, (k + turn) % 3] for k in range(3)]) for turn in (0, 1, 2))
+    along, against = np.argsort(start * count + end), np.argsort(end * count + start)
+    beyond = np.empty(len(start), dtype=np.int64)
+    beyond[against] = apex[along]  # the corner across each edge
+    a, b, c = vertices[start], vertices[end], vertices[apex]
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    keep = lengths > 1e-10 * _size(vertices) ** 2
+    heights = np.einsum("ij,ij->i", normals[keep], vertices[beyond[keep]] - a[keep]) / lengths[keep]
+    return float(heights.max(initial=-np.inf))
 
 
 def height_above(points: Floats, vertices: Floats, faces: Ints) -> float:
