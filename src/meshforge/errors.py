@@ -69,7 +69,3 @@ class ProjectError(MeshForgeError):
 
 class UsageError(MeshForgeError):
     """Arguments that do not fit together."""
-
-
-class MissingExtraError(MeshForgeError):
-    """An optional part that is not installed; the remedy names the extra."""

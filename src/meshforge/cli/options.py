@@ -14,4 +14,3 @@ Labels = Annotated[
 ]
 AssetFile = Annotated[Path, typer.Argument(help="A file with collision hulls, or a folder of mesh files.")]
 AssetFiles = Annotated[list[str], typer.Argument(help="Files, folders or globs of assets.")]
-Out = Annotated[Path, typer.Option("-o", "--out", help="Where to write.")]

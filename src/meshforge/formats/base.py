@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
@@ -77,6 +76,3 @@ class Format(ABC):
     def sniffs(self, path: Path, head: bytes) -> bool:
         """Whether a file of one of the suffixes is of this format; head: its first kilobytes."""
         return True
-
-
-Formats = Sequence[Format]

@@ -14,9 +14,6 @@ from meshforge.geometry.pose import Pose
 if TYPE_CHECKING:
     from meshforge.geometry.shapes.polytope import Polytope
 
-TESSELLATION_VERTICES = 64
-"""Vertices of a primitive's tessellation: the limit of PhysX on the GPU."""
-
 
 class Shape(ABC):
     """A convex body in the root frame, write-protected, with analytic measures. Compared by `same_shape`."""
