@@ -26,13 +26,13 @@ def diff(
 
     old, new = load(before), load(after)
     changes = compared(old, new)
+    if out:
+        write_png(out, before_after(old, new))
+        remark(f"wrote {out}")
     if json:
         print_json({"before": str(before), "after": str(after), **changes})
     else:
         _print(changes)
-    if out:
-        write_png(out, before_after(old, new))
-        remark(f"wrote {out}")
 
 
 def compared(old: SymbolicMesh, new: SymbolicMesh) -> dict[str, Any]:

@@ -32,14 +32,14 @@ def select(
         _warn(label, mesh)
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
+    if picture:
+        write_png(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})
     else:
         for name in names:
             typer.echo(name)
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
-    if picture:
-        write_png(picture, render(mesh, highlight=frozenset(names)))
 
 
 def _warn(label: str, mesh: SymbolicMesh) -> None:
