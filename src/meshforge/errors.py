@@ -47,6 +47,18 @@ def _revive(kind: type[MeshForgeError], problem: str, where: str | None, remedy:
     return kind(problem, where=where, remedy=remedy)
 
 
+def told(error: Exception, where: str | None = None, fault: str = "please report it") -> str:
+    """The message of whatever went wrong, about `where` unless it says; fault: what to do about one of our own."""
+    match error:
+        case MeshForgeError():
+            return (error.at(where) if where else error).message
+        case OSError(filename=str() as name, strerror=str() as why):
+            return f"{name}: {why}"
+        case _:
+            head = f"{where}: " if where else ""
+            return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
+
+
 class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
 

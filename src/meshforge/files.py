@@ -1,27 +1,48 @@
-"""Writing files so that a killed process leaves the old state or the new one, never half."""
+"""Writing files so that a killed process leaves the old state or the new one, never half; and naming them alike."""
 
 from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
-    """Write a whole file: into a new one beside it, flushed to disk, then renamed over it. Folders are made."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Write a whole file, or nothing of it. Folders are made; a file that is replaced hands on its mode."""
     data = content.encode("utf-8") if isinstance(content, str) else content
-    handle, draft = tempfile.mkstemp(prefix=f".{path.name[:80]}.", suffix=".tmp", dir=path.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
+    with replacing(path) as draft:
+        with draft.open("wb") as stream:
             stream.write(data)
             stream.flush()
             os.fsync(stream.fileno())
-        Path(draft).chmod(_mode(path))
-        Path(draft).replace(path)
+        draft.chmod(_mode(path))
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name[:80]}.", suffix=".tmp", dir=path.parent)
+    os.close(handle)
+    draft = Path(name)
+    try:
+        yield draft
+        draft.replace(path)
     except BaseException:
-        Path(draft).unlink(missing_ok=True)
+        draft.unlink(missing_ok=True)
         raise
+
+
+def relative_name(path: Path, base: Path) -> str:
+    """A path as seen from a folder, with forward slashes."""
+    return Path(os.path.relpath(path, base)).as_posix()
+
+
+def plain_path(path: Path) -> Path:
+    """The absolute path without `..`; symbolic links stay as the user wrote them."""
+    return Path(os.path.normpath(path.absolute()))
 
 
 def _mode(path: Path) -> int:

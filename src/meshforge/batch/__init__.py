@@ -11,7 +11,7 @@ from meshforge.batch.digests import (
     source_files,
     text_digest,
 )
-from meshforge.batch.edit import inputs_of, told
+from meshforge.batch.edit import inputs_of
 from meshforge.batch.expand import Found, asset_id, common_folder, expand
 from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
 from meshforge.batch.job import AssetJob, Mass, Task, jobs, labels_for
@@ -66,6 +66,5 @@ __all__ = [
     "status",
     "template_folders",
     "text_digest",
-    "told",
     "write_report",
 ]

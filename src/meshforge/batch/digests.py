@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
 from meshforge.batch.correction import Correction
+from meshforge.files import relative_name
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
@@ -46,12 +46,12 @@ def corrections_digest(corrections: Iterable[Correction]) -> str | None:
 def asset_digests(path: Path, referenced: Iterable[Path], base: Path) -> dict[str, str]:
     """The digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in it."""
     files = {*source_files(path), *referenced}
-    return {_relative(file, base): file_digest(file) for file in sorted(files)}
+    return {relative_name(file, base): file_digest(file) for file in sorted(files)}
 
 
 def same_files(recorded: Mapping[str, str], path: Path, base: Path) -> bool:
     """Whether the files of an asset are those that were recorded, without reading it as an asset."""
-    if any(_relative(file, base) not in recorded for file in source_files(path)):
+    if any(relative_name(file, base) not in recorded for file in source_files(path)):
         return False
     return all((base / name).is_file() and file_digest(base / name) == known for name, known in recorded.items())
 
@@ -67,10 +67,6 @@ def source_files(path: Path) -> list[Path]:
 def software() -> str:
     """The version of this program, since another one may write other files."""
     return version("meshforge")
-
-
-def _relative(path: Path, base: Path) -> str:
-    return Path(os.path.relpath(path, base)).as_posix()
 
 
 def _new(data: bytes = b"") -> hashlib.blake2b:

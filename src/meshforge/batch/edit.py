@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from meshforge.asset import Asset
 from meshforge.batch.correction import replay
@@ -22,12 +20,11 @@ from meshforge.batch.draft import Draft, planned, written
 from meshforge.batch.job import AssetJob, Task
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Unchanged
 from meshforge.batch.stamp import Inputs, read_stamp
-from meshforge.errors import MeshForgeError
+from meshforge.errors import told
 from meshforge.formats import read
 from meshforge.language import RunResult
 from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
-
-_NAMED = 5  # so many hulls are named in a note
+from meshforge.words import listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +48,7 @@ def edit(work: tuple[Task, AssetJob]) -> Worked:
         inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
         return _edited(task, job, asset, inputs, started)
     except Exception as error:  # a failed asset never stops the others
-        return Worked(Failed(job.id, told(error, job.path), time.perf_counter() - started), inputs)
+        return Worked(Failed(job.id, told(error, str(job.path)), time.perf_counter() - started), inputs)
 
 
 def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
@@ -106,7 +103,7 @@ def _lines(result: RunResult) -> tuple[RuleLine, ...]:
 def _opaque_notes(asset: Asset) -> tuple[str, ...]:
     """What the program cannot have seen."""
     names = [piece.name for piece in asset.opaque]
-    return (f"no convex hulls, so left as they are: {_some(names)} ({asset.opaque[0].reason})",) if names else ()
+    return (f"no convex hulls, so left as they are: {listed(names)} ({asset.opaque[0].reason})",) if names else ()
 
 
 def _label_notes(followed: Followed) -> tuple[str, ...]:
@@ -117,12 +114,7 @@ def _label_notes(followed: Followed) -> tuple[str, ...]:
         ("hulls changed since they were labelled", followed.changed),
         ("labels of hulls that are gone were left out", followed.gone),
     )
-    return tuple(f"{what}: {_some(names)}" for what, names in told if names)
-
-
-def _some(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    return ", ".join(names[:_NAMED]) + more
+    return tuple(f"{what}: {listed(names)}" for what, names in told if names)
 
 
 def _same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
@@ -130,14 +122,3 @@ def _same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
     return len(before.hulls) == len(after.hulls) and all(
         a.name == b.name and a.shape is b.shape for a, b in zip(before.hulls, after.hulls, strict=True)
     )
-
-
-def told(error: Exception, path: Path) -> str:
-    """The message of whatever went wrong with an asset."""
-    match error:
-        case MeshForgeError():
-            return error.at(str(path)).message
-        case OSError(filename=str() as name, strerror=str() as why):
-            return f"{name}: {why}"
-        case _:
-            return f"{path}: {type(error).__name__}: {error}\n  This is a fault of MeshForge; please report the asset."

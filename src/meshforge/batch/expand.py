@@ -10,6 +10,7 @@ from pathlib import Path
 
 from meshforge.batch.folder import assets_in, is_own
 from meshforge.errors import UsageError
+from meshforge.files import plain_path, relative_name
 from meshforge.formats import SUFFIXES
 
 
@@ -51,7 +52,7 @@ def expand(patterns: Iterable[str | Path], root: Path | None = None) -> Found:
 
 def asset_id(path: Path, base: Path) -> str:
     """The id of an asset: its path below the common folder, with forward slashes."""
-    return Path(os.path.relpath(path, base)).as_posix()
+    return relative_name(path, base)
 
 
 def common_folder(folders: Iterable[Path]) -> Path:
@@ -65,7 +66,7 @@ def common_folder(folders: Iterable[Path]) -> Path:
 
 
 def _matches(pattern: str, root: Path) -> list[Path]:
-    path = _normal(root / pattern)
+    path = plain_path(root / pattern)
     if path.is_dir():
         found = assets_in(path)
     elif path.is_file():
@@ -83,7 +84,7 @@ def _globbed(pattern: str, root: Path) -> list[Path]:
     """What a glob matches: files of known formats, and the assets of folders; under `**`, files only."""
     start = _fixed_part(pattern, root)
     names = glob.glob(pattern, root_dir=root, recursive=True)  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
-    hits = [_normal(root / name) for name in names]
+    hits = [plain_path(root / name) for name in names]
     hits = [hit for hit in hits if not is_own(hit, start)]
     found = [hit for hit in hits if hit.is_file() and hit.suffix.lower() in SUFFIXES]
     if "**" not in pattern:
@@ -93,16 +94,11 @@ def _globbed(pattern: str, root: Path) -> list[Path]:
 
 def _fixed_part(pattern: str, root: Path) -> Path:
     """The folder that ids count from, for one argument: a folder itself, else that of the file or of the glob."""
-    path = _normal(root / pattern)
+    path = plain_path(root / pattern)
     if path.is_dir():
         return path
     if path.exists() or not glob.has_magic(pattern):
         return path.parent
     parts = Path(pattern).parts
     fixed = next(k for k, part in enumerate(parts) if glob.has_magic(part))
-    return _normal(root.joinpath(*parts[:fixed]))
-
-
-def _normal(path: Path) -> Path:
-    """Without `..`, symbolic links kept as the user wrote them."""
-    return Path(os.path.normpath(path))
+    return plain_path(root.joinpath(*parts[:fixed]))

@@ -88,7 +88,7 @@ def _pooled(
             oldest = _outcome(waiting.popleft(), timeout)
             yield oldest
     finally:  # also when the caller stops early, or on Ctrl-C
-        pool.stop()  # type: ignore[no-untyped-call]
+        pool.stop()  # type: ignore[no-untyped-call]  # pebble has no types
         pool.join()
 
 

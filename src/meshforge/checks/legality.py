@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.checks.finding import Finding, counted, listed
-from meshforge.geometry import Polytope, Shape, digest, is_closed, is_convex, outward, principal_extents
+from meshforge.checks.finding import Finding
+from meshforge.geometry import Polytope, Shape, digest, is_closed, is_convex, outward, spans_volume
 from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.words import counted, listed
 
 _CONVEXITY = 1e-6  # relative to the hull's size; single precision leaves 1e-7
-_FLATNESS = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,7 @@ def _open(shape: Shape) -> bool:
 
 
 def _flat(shape: Shape) -> bool:
-    extents = principal_extents(shape.vertices)[2]
-    return bool(extents.min() <= _FLATNESS * extents.max())
+    return not spans_volume(shape.vertices)
 
 
 def _without_volume(shape: Shape) -> bool:

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from meshforge.checks.finding import Finding, Severity, counted, listed
+from meshforge.checks.finding import Finding, Severity
 from meshforge.checks.polygons import polygon_sizes
 from meshforge.geometry import Polytope, principal_extents
 from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.words import counted, listed
 
 
 @dataclass(frozen=True, slots=True)

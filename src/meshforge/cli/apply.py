@@ -92,7 +92,7 @@ def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: 
 def report(outcomes: Sequence[Outcome], *, dry_run: bool = False) -> None:
     """One line an asset, then the counts."""
     from meshforge.batch import Failed, status
-    from meshforge.cli.output import counted
+    from meshforge.words import counted
 
     for outcome in outcomes:
         if isinstance(outcome, Failed):

@@ -25,8 +25,9 @@ def convert(
 
     Labels go beside it, under the names that the hulls have there.
     """
-    from meshforge.cli.output import counted, remark
+    from meshforge.cli.output import remark
     from meshforge.formats import load, save
+    from meshforge.words import counted
 
     mesh = load(source, labels=labels)
     saved = save(mesh, out, link=link, overwrite=overwrite)

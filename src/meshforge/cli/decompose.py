@@ -38,10 +38,11 @@ def decompose(
     import numpy as np
     from rich.console import Console
 
-    from meshforge.cli.output import counted, remark
+    from meshforge.cli.output import remark
     from meshforge.formats import read_triangles, save
     from meshforge.geometry.decompose import cache_folder
     from meshforge.geometry.decompose import decompose as run
+    from meshforge.words import counted
 
     settings = _settings(method, option or [])
     surfaces = read_triangles(mesh)

@@ -81,7 +81,8 @@ def _primitive(shape: Shape | None) -> dict[str, Any] | None:
 
 
 def _print(mesh: SymbolicMesh, asset: str) -> None:
-    from meshforge.cli.output import counted, table
+    from meshforge.cli.output import table
+    from meshforge.words import counted
 
     source = mesh.asset
     opaque = source.opaque if source else ()

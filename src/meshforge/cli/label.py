@@ -30,8 +30,9 @@ def label(
 
     Exit code 1 when some labels could not be taken (each named).
     """
-    from meshforge.cli.output import counted, print_json
+    from meshforge.cli.output import print_json
     from meshforge.project import Project
+    from meshforge.words import counted
 
     opened = Project.open(project)
     if vocabulary:
@@ -51,7 +52,7 @@ def label(
 
 
 def _told(report: Labelled) -> str:
-    from meshforge.cli.output import counted
+    from meshforge.words import counted
 
     parts = [f"{counted(report.taken, 'label')} taken"]
     parts += [f"{report.same} there already"] if report.same else []

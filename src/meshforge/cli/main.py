@@ -76,20 +76,10 @@ def main() -> None:
     except BrokenPipeError:  # the reader of our output has gone; nothing is left to say
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
-    except Exception as error:
+    except Exception as error:  # no traceback reaches a user who did not ask for it
         if debug:
             raise
-        print(f"error: {_told(error)}", file=sys.stderr)
+        from meshforge.errors import told
+
+        print(f"error: {told(error, fault='--debug shows where it came from')}", file=sys.stderr)
         sys.exit(2)
-
-
-def _told(error: Exception) -> str:
-    from meshforge.errors import MeshForgeError
-
-    match error:
-        case MeshForgeError():
-            return error.message
-        case OSError(filename=str() as name, strerror=str() as why):
-            return f"{name}: {why}"
-        case _:
-            return f"{type(error).__name__}: {error}\n  This is a fault of MeshForge; --debug shows where it came from."

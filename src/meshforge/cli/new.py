@@ -19,8 +19,8 @@ def new(
     ] = "",
 ) -> None:
     """Make a project folder; the assets stay where they are and are never written to."""
-    from meshforge.cli.output import counted
     from meshforge.project import Project
+    from meshforge.words import counted
 
     made = Project.create(project, assets, vocabulary=_words(vocabulary), orient=orient)
     typer.echo(f"{project}: a project of {counted(len(made.assets()), 'asset')}")

@@ -56,8 +56,3 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task(what, total=total)
         yield lambda: bar.advance(task)
-
-
-def counted(number: int, one: str, many: str | None = None) -> str:
-    """`1 hull`, `3 hulls`."""
-    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -28,7 +28,8 @@ def status(project: Annotated[Path, typer.Argument(help="A project folder.")], j
 
 
 def _print(found: Status) -> None:
-    from meshforge.cli.output import counted, table
+    from meshforge.cli.output import table
+    from meshforge.words import counted
 
     rules = "no program yet" if found.rules is None else f"a program of {counted(found.rules, 'rule')}"
     typer.echo(f"{found.name}: {counted(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")

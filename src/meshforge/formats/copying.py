@@ -6,10 +6,10 @@ import contextlib
 import filecmp
 import os
 import shutil
-import tempfile
 from pathlib import Path
 
 from meshforge.errors import AssetError
+from meshforge.files import replacing
 
 
 def same_content(target: Path, content: bytes | Path) -> bool:
@@ -23,21 +23,14 @@ def same_content(target: Path, content: bytes | Path) -> bool:
 
 def copy_atomically(source: Path, target: Path, *, link: bool) -> None:
     """Put a copy of a file in place, or with `link` a hard link where the disk allows it. Folders are made."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{target.name[:80]}.", suffix=".tmp", dir=target.parent)
-    draft = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            if not (link and _linked(source, draft)):
-                with source.open("rb") as original:
-                    shutil.copyfileobj(original, stream)
-                stream.flush()
-                os.fsync(stream.fileno())
-                draft.chmod(source.stat().st_mode & 0o777)
-        draft.replace(target)
-    except BaseException:
-        draft.unlink(missing_ok=True)
-        raise
+    with replacing(target) as draft:
+        if link and _linked(source, draft):
+            return
+        with draft.open("wb") as stream, source.open("rb") as original:
+            shutil.copyfileobj(original, stream)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.chmod(source.stat().st_mode & 0o777)
 
 
 def _linked(source: Path, draft: Path) -> bool:

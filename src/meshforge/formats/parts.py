@@ -11,6 +11,7 @@ from pathlib import Path
 from meshforge.asset import Document, Geom, Surface, unique_names
 from meshforge.errors import AssetError
 from meshforge.geometry import Box, Ints, Piece, Polytope
+from meshforge.words import listed
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -119,6 +120,5 @@ def renaming(names: Mapping[str, str]) -> tuple[str, ...]:
     """A note on hulls that the file holds under other names."""
     if not names:
         return ()
-    shown = ", ".join(f"{old} is now {new}" for old, new in list(names.items())[:3])
-    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
-    return (f"hulls are called otherwise in what is written: {shown}{more}",)
+    shown = listed([f"{old} is now {new}" for old, new in names.items()], 3)
+    return (f"hulls are called otherwise in what is written: {shown}",)

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from meshforge.asset import Asset
+from meshforge.files import plain_path
 
 
 def placed(asset: Asset, base: Path, out_dir: Path) -> Path:
@@ -14,13 +15,8 @@ def placed(asset: Asset, base: Path, out_dir: Path) -> Path:
     Where the asset has files outside of `base`, it counts from the deepest folder that holds it and them all, so that
     references which climb above it still end within `out_dir`.
     """
-    path, base = _plain(asset.path), _plain(base)
-    files = [_plain(file) for file in asset.files]
+    path, base = plain_path(asset.path), plain_path(base)
+    files = [plain_path(file) for file in asset.files]
     if not all(p.is_relative_to(base) for p in (path, *files)):
         base = Path(os.path.commonpath([path.parent, *(file.parent for file in files)]))
     return out_dir / path.relative_to(base)
-
-
-def _plain(path: Path) -> Path:
-    """The absolute path without `..`, links in it as they are."""
-    return Path(os.path.normpath(path.absolute()))

@@ -11,10 +11,10 @@ from meshforge.language.print import show
 from meshforge.language.squaring import squaring_turn
 from meshforge.language.syntax import Base, Direction, LandmarkPair, Orient
 from meshforge.language.turns import about, exact, nearest_aligned, nearest_aligned_taking, smallest
-from meshforge.symbolic import Hull, SymbolicMesh, bits
+from meshforge.symbolic import SymbolicMesh, bits
+from meshforge.words import listed
 
 _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one direction
-_NAMED = 5  # so many hulls of a landmark are named in an error
 
 
 def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
@@ -93,12 +93,7 @@ def _landmark(mesh: SymbolicMesh, base: Base) -> tuple[Floats, str]:
         )
     volumes = np.array([hull.volume for hull in hulls])
     centroids = np.array([hull.shape.centroid for hull in hulls])
-    return volumes @ centroids / volumes.sum(), _names(hulls)
-
-
-def _names(hulls: list[Hull]) -> str:
-    more = f" and {len(hulls) - _NAMED} more" if len(hulls) > _NAMED else ""
-    return ", ".join(hull.name for hull in hulls[:_NAMED]) + more
+    return volumes @ centroids / volumes.sum(), listed([hull.name for hull in hulls])
 
 
 def _unit(direction: Direction) -> Floats:

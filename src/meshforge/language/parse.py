@@ -82,7 +82,7 @@ def _tree(source: Source, start: str) -> Tree[Token]:
         at_end = isinstance(error, UnexpectedToken) and error.token.type == "$END"
         assert isinstance(error, UnexpectedCharacters | UnexpectedToken)
         offset = len(source.text.rstrip("\n")) if at_end else int(error.pos_in_stream or 0)
-        accepted: set[str] = parsing.accepts()  # type: ignore[no-untyped-call]
+        accepted: set[str] = parsing.accepts()  # type: ignore[no-untyped-call]  # lark leaves it untyped
         raise syntax_error(source, offset, accepted, before) from None
 
 

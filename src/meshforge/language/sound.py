@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.geometry import Polytope, Shape, convex_hull, is_closed, is_convex, outward, principal_extents
+from meshforge.geometry import Polytope, Shape, convex_hull, is_closed, is_convex, outward, spans_volume
 
 _CONVEXITY = 1e-7  # relative to the size
-_FLAT = 1e-6  # an extent below this share of the largest counts as none
 
 
 def sound(shape: Shape, name: str, thickness: float) -> Shape:
@@ -24,10 +23,7 @@ def is_sound(shape: Shape) -> bool:
         vertices, volume = shape.vertices, shape.volume
     if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
         return False
-    extents = principal_extents(vertices)[2]
-    if extents.min() <= _FLAT * extents.max():
-        return False
-    return not isinstance(shape, Polytope) or _is_hull(shape)
+    return spans_volume(vertices) and (not isinstance(shape, Polytope) or _is_hull(shape))
 
 
 def _is_hull(shape: Polytope) -> bool:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files, told
-from meshforge.files import write_atomically
+from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files
+from meshforge.errors import told
+from meshforge.files import relative_name, write_atomically
 from meshforge.formats import read
 from meshforge.geometry import digest
 
@@ -74,7 +74,7 @@ def _remembered(memory: Path) -> dict[str, Facts]:
 def _holds(facts: Facts, path: Path, base: Path) -> bool:
     """Whether every file still has the time and size it had."""
     try:
-        main = {_name(file, base) for file in source_files(path)}
+        main = {relative_name(file, base) for file in source_files(path)}
         return main <= facts.times.keys() and all(_time(base / name) == time for name, time in facts.times.items())
     except OSError:
         return False
@@ -84,7 +84,7 @@ def _facts(work: tuple[Path, Path]) -> Facts:
     path, base = work
     try:
         asset = read(path)
-        times = {_name(file, base): _time(file) for file in (*source_files(path), *asset.files)}
+        times = {relative_name(file, base): _time(file) for file in (*source_files(path), *asset.files)}
         return Facts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
             opaque=len(asset.opaque),
@@ -92,11 +92,7 @@ def _facts(work: tuple[Path, Path]) -> Facts:
             times=times,
         )
     except Exception as error:  # one asset never hides the others
-        return Facts(error=told(error, path))
-
-
-def _name(path: Path, base: Path) -> str:
-    return Path(os.path.relpath(path, base)).as_posix()
+        return Facts(error=told(error, str(path)))
 
 
 def _time(path: Path) -> tuple[int, int]:

@@ -16,6 +16,7 @@ from meshforge.views.palette import KEPT, MADE, REMOVED, rgb
 from meshforge.views.sheet import sheet
 from meshforge.views.stage import Layer
 from meshforge.views.subject import Subject, draw, skins_of, subject
+from meshforge.words import counted
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -55,7 +56,7 @@ def before_after(
 ) -> Image:
     """Both pictures side by side, each of `size`, with the number of hulls below each."""
     pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
-    titles = (f"before: {_hulls(len(before.hulls))}", f"after: {_hulls(len(after.hulls))}")
+    titles = (f"before: {counted(len(before.hulls), 'hull')}", f"after: {counted(len(after.hulls), 'hull')}")
     return sheet(pair, columns=2, titles=titles)
 
 
@@ -76,7 +77,7 @@ def difference(
     made = sum(h.name not in before.index for h in after.hulls)
     entries = (Entry(REMOVED, "removed", len(gone)), Entry(MADE, "made", made))
     coloring = Coloring(colors, (*entries, Entry(KEPT, "kept", len(after.hulls) - made)))
-    caption = f"{_hulls(len(before.hulls))} before, {len(after.hulls)} after"
+    caption = f"{counted(len(before.hulls), 'hull')} before, {len(after.hulls)} after"
     canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else Coloring(colors))
     fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
     what = _with_removed(subject(after, coloring), gone, fresh)
@@ -110,7 +111,3 @@ def _bare(
     if not what.layers[0].skins:
         canvas.say("no hulls", canvas.room)
     return canvas.image
-
-
-def _hulls(count: int) -> str:
-    return f"{count} hull{'' if count == 1 else 's'}"

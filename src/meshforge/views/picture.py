@@ -16,6 +16,7 @@ from meshforge.views.camera import VIEWS, Up, View
 from meshforge.views.canvas import Canvas
 from meshforge.views.coloring import COLOR_BY, ColorBy, Coloring, color_hulls, highlighted
 from meshforge.views.subject import Subject, draw, subject
+from meshforge.words import counted
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -101,15 +102,11 @@ def _check(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:
 
 
 def _count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str:
-    count = _counted(len(mesh.hulls), "hull")
+    count = counted(len(mesh.hulls), "hull")
     if highlight is not None:
         return f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
     opaque = len(mesh.asset.opaque) if mesh.asset else 0
-    return f"{count}, {_counted(opaque, 'piece')} that cannot be edited" if opaque else count
-
-
-def _counted(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
+    return f"{count}, {counted(opaque, 'piece')} that cannot be edited" if opaque else count
 
 
 def _marks(mesh: SymbolicMesh, labels: bool | Mapping[str, str]) -> dict[int, str]:

@@ -8,8 +8,9 @@ from meshforge.batch.report.asset import ReportAsset
 from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
 from meshforge.batch.report.pictures import SIZE, Pictures
-from meshforge.batch.report.words import change, counted
+from meshforge.batch.report.words import change
 from meshforge.language import Program, RuleTrace, show
+from meshforge.words import counted, listed
 
 _NAMES = 60  # of hulls in one cell of the table; the rest is counted
 
@@ -103,5 +104,4 @@ def _names(names: Sequence[str]) -> list[Child]:
     """The count, and the names behind it."""
     if not names:
         return ["–"]
-    listed = ", ".join(names[:_NAMES]) + (f" and {len(names) - _NAMES} more" if len(names) > _NAMES else "")
-    return [tag("b", str(len(names))), " ", tag("span", listed)]
+    return [tag("b", str(len(names))), " ", tag("span", listed(names, _NAMES))]

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from meshforge.batch.report.asset import ReportAsset
 from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
-from meshforge.batch.report.words import counted
 from meshforge.language import Program, explain, show, show_label
+from meshforge.words import counted
 
 
 def program_panel(program: Program, assets: Sequence[ReportAsset], colors: Mapping[str, str]) -> Node:

@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 
-def counted(number: int, what: str) -> str:
-    """`1 hull`, `2 hulls`."""
-    return f"{number:,} {what}{'' if number == 1 else 's'}"
-
-
 def change(before: int, after: int) -> str:
     """How much less or more, in per cent, with a true minus sign; `no change` where there is none."""
     if before == after:

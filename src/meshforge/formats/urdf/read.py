@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
 from meshforge.asset import Asset, Body, Geom, Opaque
 from meshforge.errors import AssetError
+from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
@@ -35,7 +35,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         raise AssetError(f"cannot be read: {error.strerror}", where=where) from error
     robot = robot_of(Text.of(source).data, where)
     links = read_links(robot, where)
-    resolver = Resolver(_absolute(path).parent, tuple(map(_absolute, options.package_roots)))
+    resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
     meshes = Meshes(resolver, where)
     found = list(collisions(robot))
     parts = _parts(found, links, meshes, where)
@@ -53,10 +53,6 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         missing=missing,
         notes=(*_notes(robot, links), *_empty(authored, found)),
     )
-
-
-def _absolute(path: Path) -> Path:
-    return Path(os.path.normpath(path.absolute()))
 
 
 def _authored(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tuple[Authored, ...]:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import io
 import json
 import os
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from importlib.metadata import version
@@ -15,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from meshforge.files import write_atomically
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.decompose.settings import DecomposeSettings
 from meshforge.geometry.decompose.surface import Triangles
@@ -53,20 +52,8 @@ def read_entry(folder: Path, key: str) -> list[Piece] | None:
 
 def write_entry(folder: Path, key: str, pieces: list[Piece]) -> None:
     """Keep pieces under a key. Raises OSError where the folder cannot be written."""
-    place = folder / "decompositions"
-    place.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=place, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            content = pack(pieces)
-            file.write(content + _seal(content))
-            file.flush()
-            os.fsync(file.fileno())
-        Path(name).replace(place / f"{key}.npz")
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(name).unlink()
-        raise
+    content = pack(pieces)
+    write_atomically(folder / "decompositions" / f"{key}.npz", content + _seal(content))
 
 
 def _seal(content: bytes) -> bytes:

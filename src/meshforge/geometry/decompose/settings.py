@@ -19,12 +19,12 @@ class _Settings:
     engine: ClassVar[str]
 
     def __post_init__(self) -> None:
-        for option in fields(self):  # type: ignore[arg-type]
+        for option in fields(self):  # type: ignore[arg-type]  # subclasses are dataclasses
             _check(f"{self.engine} {option.name}", getattr(self, option.name), **option.metadata)
 
     def as_dict(self) -> dict[str, Any]:
         """The fields by name, for JSON."""
-        return asdict(self)  # type: ignore[call-overload,no-any-return]
+        return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
 
 
 def _check(
