@@ -6,30 +6,21 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from meshforge.geometry import Floats, Ints, Polytope
+from meshforge.geometry import Floats, Polytope, neighbours
 
 _LEVEL = 1e-5  # [rad] neighbouring triangles that are bent by no more than this lie in one plane
 
 
 def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
     """The number of vertices of each flat polygon of a hull."""
-    neighbours = _neighbours(hull.faces)
+    pairs = neighbours(hull.faces)
     normals = _normals(hull)
-    bend = np.linalg.norm(np.cross(normals[neighbours[:, 0]], normals[neighbours[:, 1]]), axis=1)
-    level = neighbours[bend <= _LEVEL]
+    bend = np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1)
+    level = pairs[bend <= _LEVEL]
     links = coo_array((np.ones(len(level)), (level[:, 0], level[:, 1])), shape=(len(hull.faces),) * 2)
     count, polygon = connected_components(links, directed=False)
     corners = np.unique(np.column_stack([np.repeat(polygon, 3), hull.faces.ravel()]), axis=0)
     return tuple(np.bincount(corners[:, 0], minlength=count).tolist())
-
-
-def _neighbours(faces: Ints) -> Ints:
-    """Pairs (k, 2) of faces that share an edge."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    owners = np.tile(np.arange(len(faces)), 3)[order]
-    same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
-    return np.column_stack([owners[:-1][same], owners[1:][same]])
 
 
 def _normals(hull: Polytope) -> Floats:

@@ -21,7 +21,7 @@ from meshforge.geometry.overlap import overlap_volume, volume_of_union
 from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
-from meshforge.geometry.surface import is_closed, is_convex, outward
+from meshforge.geometry.surface import is_closed, is_convex, neighbours, outward
 
 __all__ = [
     "FLATNESS",
@@ -52,6 +52,7 @@ __all__ = [
     "is_convex",
     "longest_axis",
     "mapped_to",
+    "neighbours",
     "outward",
     "overlap_volume",
     "pieces",

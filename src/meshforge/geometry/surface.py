@@ -33,24 +33,32 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     return is_sphere and _highest_neighbour(vertices, faces) <= tolerance * _size(vertices)
 
 
+def neighbours(faces: Ints) -> Ints:
+    """The pairs (k, 2) of faces (m, 3) that share an edge."""
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    owners = np.tile(np.arange(len(faces)), 3)[order]
+    same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
+    return np.column_stack([owners[:-1][same], owners[1:][same]])
+
+
 def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
-    """How far [m] any corner lies above the plane of a face that shares an edge with its own; the faces are closed."""
-    count = len(vertices)
-    start, end, apex = (np.concatenate([faces[:, (k + turn) % 3] for k in range(3)]) for turn in (0, 1, 2))
-    along, against = np.argsort(start * count + end), np.argsort(end * count + start)
-    beyond = np.empty(len(start), dtype=np.int64)
-    beyond[against] = apex[along]  # the corner across each edge
-    a, b, c = vertices[start], vertices[end], vertices[apex]
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    keep = lengths > 1e-10 * _size(vertices) ** 2
-    heights = np.einsum("ij,ij->i", normals[keep], vertices[beyond[keep]] - a[keep]) / lengths[keep]
+    """How far [m] any corner lies above the plane of a face that shares an edge with its own."""
+    normals, offsets, middle, kept = _planes(vertices, faces)
+    place = np.full(len(faces), -1)
+    place[kept] = np.arange(len(normals))
+    pairs = neighbours(faces)
+    pairs = np.concatenate([pairs, pairs[:, ::-1]])
+    pairs = pairs[place[pairs[:, 0]] >= 0]
+    plane = place[pairs[:, 0]]
+    corners = vertices[faces[pairs[:, 1]]] - middle
+    heights = np.einsum("ij,ikj->ik", normals[plane], corners) - offsets[plane, None]
     return float(heights.max(initial=-np.inf))
 
 
 def height_above(points: Floats, vertices: Floats, faces: Ints) -> float:
     """How far [m] the outermost of points (n, 3) lies above a face plane of a convex surface; negative inside."""
-    normals, offsets, middle = _planes(vertices, faces)
+    normals, offsets, middle, _ = _planes(vertices, faces)
     step = max(1, _BLOCK // len(points))
     blocks = (slice(k, k + step) for k in range(0, len(normals), step))
     return max((float(((points - middle) @ normals[k].T - offsets[k]).max()) for k in blocks), default=-np.inf)
@@ -58,7 +66,7 @@ def height_above(points: Floats, vertices: Floats, faces: Ints) -> float:
 
 def outward(vertices: Floats, faces: Ints) -> bool:
     """Whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its middle."""
-    _, offsets, _ = _planes(vertices, faces)
+    offsets = _planes(vertices, faces)[1]
     return bool((offsets > 0).all())
 
 
@@ -73,15 +81,18 @@ def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
     return double_areas / longest, apex
 
 
-def _planes(vertices: Floats, faces: Ints) -> tuple[Floats, Floats, Floats]:
-    """Unit normals (k, 3) of the faces that are no needles, their offsets (k,) from the middle, and the middle (3,)."""
+def _planes(vertices: Floats, faces: Ints) -> tuple[Floats, Floats, Floats, Ints]:
+    """Unit normals (k, 3) of the faces that are no needles, their offsets (k,) from the middle, the middle (3,).
+
+    Last the indices (k,) of these faces.
+    """
     middle = vertices.mean(axis=0)
     a, b, c = (vertices[faces[:, k]] - middle for k in range(3))
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
-    keep = lengths > 1e-10 * _size(vertices) ** 2
-    normals = normals[keep] / lengths[keep, None]
-    return normals, np.einsum("ij,ij->i", normals, a[keep]), middle
+    kept = np.flatnonzero(lengths > 1e-10 * _size(vertices) ** 2)
+    normals = normals[kept] / lengths[kept, None]
+    return normals, np.einsum("ij,ij->i", normals, a[kept]), middle, kept
 
 
 def _size(vertices: Floats) -> float:
