@@ -13,15 +13,15 @@ from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Polytope
 
 _MOST, _LEAST, _WORK = 48, 12, 5000  # faces and edges, the largest first, that a box is laid against; fewer of many
-_STARTS = 10
+_STARTS = 24
 _SAME = 1e-6  # a box that is smaller by less than this share is no better than an upright one
 
 
 def tight_box(points: Floats, *, name: str = "points", thicken: float | None = None) -> Box:
     """The smallest box around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 
-    Boxes laid against a face and an edge of the hull, and the coordinate axes, are the starts of a descent; its result
-    was within 1% of the best of 60 random descents on each of 40 random hulls, and within 0.01% on five of six.
+    Boxes laid against a face and an edge of the hull, and the coordinate axes, are the starts of a descent. Measured on
+    120 random hulls, each in six frames, its result was within 1% of the best known in 718 of 720, within 2% in all.
     Of its poses the one nearest to no turn is taken. Raises GeometryError as `convex_hull` does.
     """
     hull = convex_hull(points, name=name, thicken=thicken)

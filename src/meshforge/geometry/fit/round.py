@@ -13,7 +13,7 @@ from meshforge.geometry.fit.descend import descend
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Capsule, Cylinder, Polytope, Sphere
 
-_STARTS = 10
+_STARTS = 24
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges
 
 
