@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
 
 from meshforge.errors import ProgramError
 from meshforge.geometry import Floats, Pose
@@ -103,9 +104,11 @@ def rectangle(mesh: SymbolicMesh) -> float:
 
 
 def smallest_rectangle(mesh: SymbolicMesh) -> float:
-    """The smallest of the rectangles at every twentieth of a degree, a little more than the true one."""
+    """The smallest of the rectangles along every line between two corners, and at every twentieth of a degree."""
     points = np.concatenate([hull.vertices for hull in mesh.hulls])[:, :2]
-    angles = np.deg2rad(np.arange(0, 90, 0.05))
+    corners = points[ConvexHull(points).vertices]
+    lines = (corners[:, None] - corners[None]).reshape(-1, 2)
+    angles = np.concatenate([-np.arctan2(lines[:, 1], lines[:, 0]), np.deg2rad(np.arange(0, 90, 0.05))])
     u = np.outer(points[:, 0], np.cos(angles)) - np.outer(points[:, 1], np.sin(angles))
     v = np.outer(points[:, 0], np.sin(angles)) + np.outer(points[:, 1], np.cos(angles))
     return float((np.ptp(u, axis=0) * np.ptp(v, axis=0)).min()) * (1 + 1e-9)
