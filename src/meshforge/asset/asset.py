@@ -34,10 +34,14 @@ class Geom:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
-    """Triangles to look at, never to compute with; vertices (n, 3) [m] in the root frame, faces (m, 3)."""
+    """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
+
+    body: the one that shows it, None where that is not told.
+    """
 
     vertices: Floats
     faces: Ints
+    body: str | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

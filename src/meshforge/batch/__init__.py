@@ -14,7 +14,7 @@ from meshforge.batch.digests import (
 from meshforge.batch.edit import inputs_of
 from meshforge.batch.expand import Found, asset_id, common_folder, expand
 from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
-from meshforge.batch.job import AssetJob, Mass, Task, jobs, labels_for
+from meshforge.batch.job import AssetJob, Task, jobs, labels_for
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
 from meshforge.batch.pool import Lost, isolated
@@ -34,7 +34,6 @@ __all__ = [
     "Found",
     "Inputs",
     "Lost",
-    "Mass",
     "Outcome",
     "ReportAsset",
     "RuleLine",

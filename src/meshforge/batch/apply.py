@@ -10,12 +10,13 @@ from pathlib import Path
 from meshforge.batch.draft import drafts
 from meshforge.batch.edit import Worked, edit
 from meshforge.batch.folder import STATE
-from meshforge.batch.job import AssetJob, Mass, Task
+from meshforge.batch.job import AssetJob, Task
 from meshforge.batch.ledger import Ledger
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Failed, Outcome
 from meshforge.batch.pool import Lost, isolated
 from meshforge.errors import UsageError
+from meshforge.formats import Mass
 from meshforge.language import Program, Template
 
 TIMEOUT = 600.0

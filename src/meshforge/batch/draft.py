@@ -11,7 +11,7 @@ from meshforge.batch.digests import file_digest, text_digest
 from meshforge.batch.folder import STATE
 from meshforge.batch.job import AssetJob, Task
 from meshforge.errors import AssetError
-from meshforge.formats import labels_beside, placed, read, save
+from meshforge.formats import Mass, labels_beside, placed, read, save
 from meshforge.symbolic import SymbolicMesh, write_labels
 
 
@@ -40,13 +40,15 @@ def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
     return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
 
 
-def written(plan: Draft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], *, link: bool) -> Draft:
+def written(
+    plan: Draft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], *, mass: Mass = "keep", link: bool = False
+) -> Draft:
     """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
-    saved = save(mesh, main, link=link)
+    saved = save(mesh, main, mass=mass, link=link)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     _check_back(main, written)
     if written.labels:

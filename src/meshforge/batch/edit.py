@@ -82,7 +82,7 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
     mesh, flags = replay(job.corrections, source, result.mesh, task.program, task.templates)
     draft = planned(task, job, asset)
     if not task.dry_run:
-        draft = written(draft, mesh, labels.vocabulary or task.program.labels, link=task.link)
+        draft = written(draft, mesh, labels.vocabulary or task.program.labels, mass=task.mass, link=task.link)
     outcome = (Unchanged if _same_hulls(source, mesh) else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),

@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from meshforge.batch.correction import Correction
 from meshforge.batch.expand import Found, asset_id
 from meshforge.errors import UsageError
-from meshforge.formats import labels_beside
+from meshforge.formats import Mass, labels_beside
 from meshforge.language import Program, Template
-
-Mass = Literal["keep", "recompute"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.loading import labels_beside, load, load_many, read
 from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.placing import placed
@@ -13,6 +13,7 @@ __all__ = [
     "MESH_SUFFIXES",
     "SUFFIXES",
     "Format",
+    "Mass",
     "Output",
     "RawSurface",
     "ReadOptions",

@@ -6,9 +6,12 @@ import os
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from meshforge.asset import Asset
+
+Mass = Literal["keep", "recompute"]
+"""Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +59,12 @@ class Format(ABC):
         """The asset in a file. Raises AssetError naming the file, what is wrong, and the remedy."""
 
     @abstractmethod
-    def write(self, asset: Asset, name: str) -> Output:
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         """The files of an asset that was read by this format, main file named `name`.
 
         Geoms without a parent are written as authored; geoms of the source that are gone are removed; the others
         are new elements, which inherit the contact attributes of their parent.
+        mass: for formats that derive the masses of bodies from their geoms.
         Raises AssetError where the file cannot hold the edit.
         """
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from meshforge.asset import Asset, Body, Document
 from meshforge.errors import AssetError
-from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.folder_tree import Member, Tree
 from meshforge.formats.parts import Part, as_parts, member_names, natural
 from meshforge.formats.plain import BODY, PlainFormat
@@ -64,7 +64,7 @@ class Folder(Format):
         """The format of a member. Raises StopIteration for a file of another kind."""
         return next(member for member in self.members if path.suffix.lower() in member.suffixes)
 
-    def write(self, asset: Asset, name: str) -> Output:
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
         if not isinstance(document, FolderDocument):
             raise self._cannot_create(asset)

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from meshforge.asset import Asset, Body, Geom, Opaque, Surface
 from meshforge.errors import AssetError, GeometryError
-from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.parts import Part, PlainDocument, as_parts, piece_names, read_back, renaming
@@ -106,7 +106,7 @@ class PlainFormat(Format):
         groups = len(np.unique(soup.group))
         return PlainDocument(data, tuple(piece_names(found, soup.names)), owner, groups), found
 
-    def write(self, asset: Asset, name: str) -> Output:
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
         if not isinstance(document, PlainDocument):
             raise self._cannot_create(asset)

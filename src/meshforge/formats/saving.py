@@ -12,7 +12,7 @@ from pathlib import Path
 from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.errors import AssetError
 from meshforge.files import write_atomically
-from meshforge.formats.base import Output
+from meshforge.formats.base import Mass, Output
 from meshforge.formats.copying import copy_atomically, same_content
 from meshforge.formats.registry import FOLDER, format_for
 from meshforge.geometry import Pose
@@ -35,10 +35,13 @@ class Saved:
     names: Mapping[str, str] = field(default_factory=dict)
 
 
-def save(what: SymbolicMesh | Asset, out: str | Path, *, link: bool = False, overwrite: bool = False) -> Saved:
+def save(
+    what: SymbolicMesh | Asset, out: str | Path, *, mass: Mass = "keep", link: bool = False, overwrite: bool = False
+) -> Saved:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
     Every file that the asset refers to goes along. A path without suffix is a folder of one file a hull.
+    mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; overwrite: existing files may be replaced.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
     overwritten.
@@ -46,7 +49,7 @@ def save(what: SymbolicMesh | Asset, out: str | Path, *, link: bool = False, ove
     asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
-    output = known.write(asset, out.name) if known.name == asset.format else known.create(asset, out.name)
+    output = known.write(asset, out.name, mass) if known.name == asset.format else known.create(asset, out.name)
     plan = _plan(output, out, known.is_folder)
     _refuse(plan, asset, overwrite)
     extra = _extra(plan, out, overwrite) if known.is_folder else []

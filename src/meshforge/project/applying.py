@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, Mass, Outcome, Task, apply
+from meshforge.batch import AssetJob, Outcome, Task, apply
 from meshforge.errors import ProjectError
+from meshforge.formats import Mass
 from meshforge.language import Program
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.batch import SETTINGS, Correction, Found, Mass, Outcome, expand, labels_for, locked, named_templates
+from meshforge.batch import SETTINGS, Correction, Found, Outcome, expand, labels_for, locked, named_templates
 from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
-from meshforge.formats import read
+from meshforge.formats import Mass, read
 from meshforge.language import Action, Orient, Program, Template
 from meshforge.project import applying, correcting, demonstrating, labelling, learning, overview, reviewing
 from meshforge.project.labelling import Labelled

@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
-from meshforge.formats import Format, Output, placed, read, save
+from meshforge.formats import Format, Mass, Output, placed, read, save
 from meshforge.formats import saving as saving_module
 from meshforge.geometry import convex_hull
 from meshforge.symbolic import Hull, SymbolicMesh
@@ -155,7 +155,7 @@ def test_a_file_that_is_gone_by_now_is_named(source: Path, tmp_path: Path) -> No
         def read(self, path: Path, options: object) -> Asset:
             return asset
 
-        def write(self, asset: Asset, name: str) -> Output:
+        def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
             return output
 
     with pytest.MonkeyPatch.context() as patch:

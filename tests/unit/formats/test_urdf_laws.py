@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
-from meshforge.formats.urdf.splice import Splice, spliced
-from meshforge.formats.urdf.tree import parsed
+from meshforge.formats.xml import Splice, parsed, spliced
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere
 from tests.urdf_sample import put, read, robot, sample, write
 

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.errors import AssetError
 from meshforge.formats.companions import companions
-from meshforge.formats.urdf.references import placement
+from meshforge.formats.references import placement
 from tests.urdf_sample import THREE, link, put, read, robot, sample, write
 
 

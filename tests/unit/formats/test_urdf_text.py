@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.errors import AssetError
-from meshforge.formats.urdf.text import Text
-from meshforge.formats.urdf.tree import Element, parsed
+from meshforge.formats.xml import Element, Text, parsed
 from tests.urdf_sample import SAMPLE, link, read, robot, sample, write
 
 BOX = link('<box size="1 1 1"/>')

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.asset import Document, unique_names
-from meshforge.formats.urdf.references import Resolver
+from meshforge.formats.references import Resolver
 
 
 @dataclass(frozen=True, slots=True)

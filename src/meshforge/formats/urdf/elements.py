@@ -6,8 +6,7 @@ from typing import assert_never
 
 from meshforge.formats.urdf.numbers import shown
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.urdf.splice import Splice, attribute, escaped, indent, newline
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element, Splice, attribute, escaped, indent, newline
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
 
 Native = Box | Cylinder | Sphere

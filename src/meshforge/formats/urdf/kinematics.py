@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.urdf.numbers import origin
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element
 from meshforge.geometry import Pose
 
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from meshforge.errors import AssetError, MeshForgeError
+from meshforge.formats.references import Resolver
 from meshforge.formats.triangles import pieces_of, read_triangles
 from meshforge.formats.urdf.document import digest_of
-from meshforge.formats.urdf.references import Resolver
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element
 from meshforge.geometry import Piece
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose
 
 

@@ -7,16 +7,16 @@ from pathlib import Path
 
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError, nearest
+from meshforge.formats.hull_files import folder_of
+from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.triangles import pieces_of, read_triangles
 from meshforge.formats.urdf.document import UrdfDocument, digest_of
 from meshforge.formats.urdf.elements import refiled
-from meshforge.formats.urdf.hull_files import folder_of
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.robot import collisions
-from meshforge.formats.urdf.shapes import geometry_of, is_flat
+from meshforge.formats.urdf.shapes import geometry_of
 from meshforge.formats.urdf.slots import Slot
-from meshforge.formats.urdf.splice import indent
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element, indent
 from meshforge.geometry import Piece
 
 

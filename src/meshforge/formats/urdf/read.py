@@ -10,16 +10,16 @@ from meshforge.errors import AssetError
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.companions import companions
+from meshforge.formats.mesh_parts import MeshPart, mesh_parts
+from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.meshes import Meshes
 from meshforge.formats.urdf.numbers import origin
-from meshforge.formats.urdf.references import Resolver
 from meshforge.formats.urdf.robot import collisions, references, robot_of, xacro_lines
-from meshforge.formats.urdf.shapes import Part, geometry_of, mesh_parts, mesh_scale, primitive
-from meshforge.formats.urdf.text import Text
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.urdf.shapes import geometry_of, mesh_scale, primitive
 from meshforge.formats.urdf.visuals import read_visuals
+from meshforge.formats.xml import Element, Text
 
 
 def read_urdf(path: Path, options: ReadOptions) -> Asset:
@@ -61,12 +61,12 @@ def _authored(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tu
     return tuple(Authored(link, names) for (link, _, _), names in zip(own, piece_names(own), strict=True))
 
 
-def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, where: str) -> list[list[Part]]:
+def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, where: str) -> list[list[MeshPart]]:
     """The pieces of each collision element, in the root frame; none where it has no geometry."""
     labels = [element.names[0] for element in _authored(found, [1] * len(found))]
     kinds = [geometry_of(collision) for _, collision in found]
     meshes.refuse_missing((label, k) for label, k in zip(labels, kinds, strict=True) if k and k.tag == "mesh")
-    parts: list[list[Part]] = []
+    parts: list[list[MeshPart]] = []
     for (link, collision), kind, label in zip(found, kinds, labels, strict=True):
         pose = links.poses[link] @ origin(collision, where)
         if kind is None:
@@ -79,7 +79,7 @@ def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, w
     return parts
 
 
-def _geoms(authored: Sequence[Authored], parts: Sequence[Sequence[Part]]) -> tuple[Geom, ...]:
+def _geoms(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) -> tuple[Geom, ...]:
     return tuple(
         Geom(name, element.link, part.shape)
         for element, own in zip(authored, parts, strict=True)
@@ -88,7 +88,7 @@ def _geoms(authored: Sequence[Authored], parts: Sequence[Sequence[Part]]) -> tup
     )
 
 
-def _opaque(authored: Sequence[Authored], parts: Sequence[Sequence[Part]]) -> tuple[Opaque, ...]:
+def _opaque(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) -> tuple[Opaque, ...]:
     return tuple(
         Opaque(name, element.link, part.reason, part.surface)
         for element, own in zip(authored, parts, strict=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from meshforge.errors import AssetError
-from meshforge.formats.urdf.tree import Element, parsed
+from meshforge.formats.xml import Element, parsed
 
 
 def robot_of(data: bytes, where: str) -> Element:

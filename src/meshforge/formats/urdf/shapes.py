@@ -2,40 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 
-from meshforge.asset import Surface
 from meshforge.errors import AssetError
+from meshforge.formats.mesh_parts import MeshPart
 from meshforge.formats.urdf.numbers import floats, shown
-from meshforge.formats.urdf.tree import Element
-from meshforge.geometry import (
-    FLATNESS,
-    Box,
-    Capsule,
-    Cylinder,
-    Floats,
-    Ints,
-    Piece,
-    Pose,
-    Shape,
-    Sphere,
-    principal_extents,
-)
+from meshforge.formats.xml import Element
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 
 KINDS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
 """The elements of a `<geometry>` that engines know."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Part:
-    """A piece of a collision element in the root frame: a shape, or None with the reason why it is no hull."""
-
-    shape: Shape | None
-    reason: str = ""
-    surface: Surface | None = None
 
 
 def geometry_of(element: Element) -> Element | None:
@@ -46,7 +22,7 @@ def geometry_of(element: Element) -> Element | None:
     return next((child for child in geometry.children if child.tag in KINDS), geometry.children[0])
 
 
-def primitive(kind: Element, pose: Pose, where: str) -> Part:
+def primitive(kind: Element, pose: Pose, where: str) -> MeshPart:
     """The shape of an element that is no mesh; pose: root_T_geometry.
 
     Raises AssetError with `where:line` for a missing or unreadable attribute.
@@ -63,12 +39,12 @@ def primitive(kind: Element, pose: Pose, where: str) -> Part:
             make = Cylinder if kind.tag == "cylinder" else Capsule
             shape = make(pose, float(extent[0]), float(extent[1]) / 2)
         case "plane":
-            return Part(None, "a plane has no end")
+            return MeshPart(None, "a plane has no end")
         case _:
-            return Part(None, f"<{kind.tag}> is no geometry that is known")
+            return MeshPart(None, f"<{kind.tag}> is no geometry that is known")
     if extent.min() <= 0:
-        return Part(None, f"a {kind.tag} without volume: {shown(extent)} m")
-    return Part(shape)
+        return MeshPart(None, f"a {kind.tag} without volume: {shown(extent)} m")
+    return MeshPart(shape)
 
 
 def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
@@ -85,25 +61,3 @@ def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
             remedy="Give every axis a factor other than zero.",
         )
     return np.broadcast_to(scale, (3,))
-
-
-def mesh_parts(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[Part]:
-    """The pieces of a mesh file under x -> linear @ x + offset, reflections included."""
-    parts = [
-        Part(piece.shape.mapped(linear, offset))
-        if piece.shape is not None
-        else Part(None, piece.reason or "no hull", placed(piece.vertices, piece.faces, linear, offset))
-        for piece in pieces
-    ]
-    return parts or [Part(None, "the mesh holds no triangles")]
-
-
-def placed(vertices: Floats, faces: Ints, linear: Floats, offset: Floats) -> Surface:
-    """A surface under x -> linear @ x + offset; a reflection turns its faces round."""
-    return Surface(vertices @ linear.T + offset, faces if np.linalg.det(linear) > 0 else faces[:, ::-1])
-
-
-def is_flat(vertices: Floats) -> bool:
-    """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
-    extents = principal_extents(vertices)[2]
-    return bool(extents.min() <= FLATNESS * extents.max())

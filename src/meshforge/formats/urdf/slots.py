@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from meshforge.formats.urdf.document import piece_names
-from meshforge.formats.urdf.splice import Splice, attribute, spliced, without_comments
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element, Splice, attribute, spliced, without_comments
 
 _NEW = Element("collision", {}, line=0, start=0, inside=len(b"<collision>"))
 

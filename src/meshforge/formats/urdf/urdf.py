@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
-from meshforge.formats.base import Format, Output, ReadOptions
+from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.urdf.create import create_urdf
 from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.read import read_urdf
@@ -23,7 +23,7 @@ class UrdfFormat(Format):
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_urdf(path, options)
 
-    def write(self, asset: Asset, name: str) -> Output:
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, UrdfDocument):
             raise AssetError("this asset was not read from a URDF", where=str(asset.path))
         return write_urdf(asset, asset.document, name)

@@ -10,17 +10,15 @@ from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import Output
 from meshforge.formats.companions import companions
+from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.references import Resolver, placement
 from meshforge.formats.urdf.document import UrdfDocument
-from meshforge.formats.urdf.hull_files import HullFiles, folder_of
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.plan import Plan
-from meshforge.formats.urdf.references import Resolver, placement
 from meshforge.formats.urdf.robot import collisions, references, robot_of
 from meshforge.formats.urdf.shapes import geometry_of
 from meshforge.formats.urdf.slots import Slot, settle
-from meshforge.formats.urdf.splice import Splice, indent, newline, removed, spliced
-from meshforge.formats.urdf.text import Text
-from meshforge.formats.urdf.tree import Element
+from meshforge.formats.xml import Element, Splice, Text, indent, newline, removed, spliced
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:

@@ -1,4 +1,4 @@
-"""Files that a URDF refers to: where a reference leads, and where the file goes in an output folder."""
+"""Files that a description refers to: where a reference leads, and where the file goes in an output folder."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from typing import NoReturn
 from xml.parsers import expat
 
 from meshforge.errors import AssetError
-from meshforge.formats.urdf.text import blanked
+from meshforge.formats.xml.text import blanked
 
 _TAG_END = re.compile(rb"(?:[^\"'>]++|\"[^\"]*\"|'[^']*')*+>")
 

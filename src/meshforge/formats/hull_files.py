@@ -1,4 +1,4 @@
-"""The mesh files that an edited URDF gets: one OBJ a hull, beside the mesh it replaces, with a name of its own."""
+"""The mesh files that an edited description gets: one OBJ a hull, beside the mesh it replaces, with its own name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.formats.urdf.references import Resolver, placement
+from meshforge.formats.references import Resolver, placement
 from meshforge.geometry import Floats, Ints
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
