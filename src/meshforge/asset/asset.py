@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from meshforge.asset.mechanism import Mechanism
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
 
@@ -46,12 +47,16 @@ class Surface:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Opaque:
-    """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched."""
+    """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
+
+    plane: root_T_plane of one that is an endless plane, whose normal is Z.
+    """
 
     name: str
     body: str
     reason: str
     surface: Surface | None = None
+    plane: Pose | None = None
 
 
 class Document:
@@ -70,6 +75,7 @@ class Asset:
     files: every file that the document refers to, found, absolute, in order of mention.
     missing: references to visual files that are not there, as written in the document.
     notes: what a user should know about how the file was read.
+    mechanism: joints and masses, empty where the format has none.
     """
 
     path: Path
@@ -82,6 +88,7 @@ class Asset:
     files: tuple[Path, ...] = ()
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = field(default=())
+    mechanism: Mechanism = field(default=Mechanism())
 
     @property
     def body_poses(self) -> dict[str, Pose]:

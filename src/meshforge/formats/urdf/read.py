@@ -14,6 +14,7 @@ from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
 from meshforge.formats.urdf.kinematics import Links, read_links
+from meshforge.formats.urdf.mechanism import read_mechanism
 from meshforge.formats.urdf.meshes import Meshes
 from meshforge.formats.urdf.numbers import origin
 from meshforge.formats.urdf.robot import collisions, references, robot_of, xacro_lines
@@ -52,6 +53,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         files=files,
         missing=missing,
         notes=(*_notes(robot, links), *_empty(authored, found)),
+        mechanism=read_mechanism(robot, links),
     )
 
 

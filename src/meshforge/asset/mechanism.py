@@ -1,0 +1,79 @@
+"""How the bodies of an asset hang together and what they weigh, in one form for all formats that tell it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from meshforge.geometry import Floats, Pose, frozen_floats
+
+JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Joint:
+    """How a body moves against another, described where all joints are at zero.
+
+    name: empty where the file gives none; parent: None where it is the world that no body stands for.
+    anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
+    joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
+    damping, friction: of the file, 0 where it tells none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
+    where it tells none. Several joints of one child act one after another, the first one nearest to the parent.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str | None
+    child: str
+    anchor: Floats
+    axis: Floats
+    limits: tuple[float, float] | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    effort: float | None = None
+    velocity: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "anchor", frozen_floats(self.anchor, (3,)))
+        object.__setattr__(self, "axis", frozen_floats(self.axis, (3,)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Inertial:
+    """What a body weighs: mass [kg], centre (3,) of mass [m], inertia (3, 3) about it [kg m^2], in the root frame."""
+
+    body: str
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", frozen_floats(self.centre, (3,)))
+        object.__setattr__(self, "inertia", frozen_floats(self.inertia, (3, 3)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Mechanism:
+    """The joints of an asset, which make its bodies one or more trees, and the masses that the file tells."""
+
+    joints: tuple[Joint, ...] = ()
+    inertials: tuple[Inertial, ...] = field(default=())
+
+    def moved(self, pose: Pose) -> Mechanism:
+        """The mechanism in another root frame; pose: new_T_old."""
+        turn = pose.rotation
+        return Mechanism(
+            tuple(replace(j, anchor=turn @ j.anchor + pose.translation, axis=turn @ j.axis) for j in self.joints),
+            tuple(
+                Inertial(i.body, i.mass, turn @ i.centre + pose.translation, turn @ i.inertia @ turn.T)
+                for i in self.inertials
+            ),
+        )
+
+
+def unit(axis: Floats) -> Floats | None:
+    """An axis (3,) in unit length; None where it has no direction."""
+    length = float(np.linalg.norm(axis))
+    return axis / length if length > 0 else None
