@@ -55,6 +55,23 @@ class Pose:
         roll = float(np.arctan2(sy * r[0, 2] - cy * r[1, 2], cy * r[1, 1] - sy * r[0, 1]))
         return roll, pitch, yaw
 
+    def to_quaternion(self) -> Floats:
+        """The rotation as a unit quaternion (4,), w x y z, w not negative."""
+        r = self.rotation
+        # the four squares times four; the largest is divided by, so that nothing is lost near half turns
+        squares = 1.0 + np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) @ np.diag(r)
+        largest = int(np.argmax(squares))
+        products = np.array(
+            [
+                [squares[0], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+                [r[2, 1] - r[1, 2], squares[1], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
+                [r[0, 2] - r[2, 0], r[0, 1] + r[1, 0], squares[2], r[1, 2] + r[2, 1]],
+                [r[1, 0] - r[0, 1], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], squares[3]],
+            ]
+        )[largest]
+        quaternion: Floats = products / np.linalg.norm(products)
+        return -quaternion if quaternion[0] < 0 else quaternion
+
     def __matmul__(self, other: Pose) -> Pose:
         return Pose(self.rotation @ other.rotation, self.rotation @ other.translation + self.translation)
 

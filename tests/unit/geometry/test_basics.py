@@ -103,3 +103,13 @@ def test_shapes_of_two_kinds_are_never_the_same() -> None:
     assert not same_shape(box, box.tessellated())
     assert not same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])))
     assert same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)
+
+
+@pytest.mark.parametrize("rpy", [(0.3, -1.2, 2.9), (0, 0, 0), (np.pi, 0, 0), (0, np.pi, 0), (0, 0, np.pi), (2, 3, -1)])
+def test_a_quaternion_turns_as_the_pose_does(rpy: tuple[float, float, float]) -> None:
+    pose = Pose.from_rpy([0, 0, 0], rpy)
+    w, *xyz = pose.to_quaternion()
+    assert w >= 0
+    point = np.array([0.3, -0.4, 0.5])
+    turned = point + 2 * np.cross(xyz, np.cross(xyz, point) + w * point)
+    assert np.allclose(turned, pose.rotation @ point, atol=1e-15)

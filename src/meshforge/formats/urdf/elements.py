@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from meshforge.formats.urdf.numbers import shown
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.xml import Element, Splice, attribute, escaped, indent, newline
+from meshforge.formats.xml import Element, Splice, attribute, escaped, indent, newline, shown
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
 
 Native = Box | Cylinder | Sphere

@@ -1,9 +1,8 @@
-"""Numbers in attributes of a URDF, and back to text without a loss."""
+"""Numbers in attributes of a URDF."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
@@ -52,8 +51,3 @@ def origin(element: Element, where: str) -> Pose:
     zero = (0.0, 0.0, 0.0)
     xyz, rpy = (floats(place, attribute, 3, where, zero) for attribute in ("xyz", "rpy"))
     return Pose.from_rpy(list(xyz), list(rpy))
-
-
-def shown(values: Iterable[float]) -> str:
-    """Numbers as text that reads back as the same numbers; no negative zeros."""
-    return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)

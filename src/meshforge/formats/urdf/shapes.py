@@ -6,8 +6,8 @@ import numpy as np
 
 from meshforge.errors import AssetError
 from meshforge.formats.mesh_parts import MeshPart
-from meshforge.formats.urdf.numbers import floats, shown
-from meshforge.formats.xml import Element
+from meshforge.formats.urdf.numbers import floats
+from meshforge.formats.xml import Element, shown
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 
 KINDS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")

@@ -1,5 +1,6 @@
 """XML files that are edited in place: their text, their elements with byte offsets, and splices of it."""
 
+from meshforge.formats.xml.numbers import shown
 from meshforge.formats.xml.splice import (
     Splice,
     attribute,
@@ -23,6 +24,7 @@ __all__ = [
     "newline",
     "parsed",
     "removed",
+    "shown",
     "spliced",
     "without_comments",
 ]
