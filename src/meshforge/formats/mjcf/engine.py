@@ -1,0 +1,117 @@
+"""MuJoCo as a reader: files to a compiled model, with its messages about the authored lines, and nothing printed."""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.errors import AssetError
+from meshforge.formats.mjcf.flat import Flat, flatten
+from meshforge.formats.mjcf.sources import Tree, gather
+
+if TYPE_CHECKING:
+    import mujoco
+
+_ONE_AT_A_TIME = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
+_LINE = re.compile(r"\bline (\d+)")
+_HEAD = re.compile(r"^(?:(?:XML )?Error|XML parse error \d+)\s*:\s*", re.I)
+_NAMELESS = re.compile(r"Element name '', id \d+(?:, line \d+)?\s*")
+_NAMED = re.compile(r"Element (?:name )?'([^']*)'(?:, id \d+)?(?:, line \d+)?\s*")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Compiled:
+    """A model, the spec it was compiled from, and what MuJoCo warned of."""
+
+    spec: mujoco.MjSpec
+    model: mujoco.MjModel
+    warnings: tuple[str, ...]
+
+
+def compiled(main: Path, files: Mapping[Path, bytes] | None = None) -> mujoco.MjModel:
+    """The model that MuJoCo makes of an MJCF; files: contents that count instead of those on disk, meshes too.
+
+    Static bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
+    Raises AssetError with MuJoCo's message, at `file:line` where that is known.
+    """
+    tree = gather(main, files)
+    return compile_flat(tree, flatten(tree)).model
+
+
+def compile_flat(tree: Tree, flat: Flat) -> Compiled:
+    """The model of a tree's text. Raises AssetError with MuJoCo's message."""
+    return compile_spec(tree, flat, parse_flat(tree, flat))
+
+
+def parse_flat(tree: Tree, flat: Flat) -> mujoco.MjSpec:
+    """The spec of a tree's text, assets not yet read. Raises AssetError with MuJoCo's message."""
+    import mujoco
+
+    with _heard([]), _files(tree, flat) as vfs:
+        try:
+            return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
+        except _failures() as error:
+            raise _told(str(error), tree, flat) from None
+
+
+def compile_spec(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> Compiled:
+    """The model of a spec. Raises AssetError with MuJoCo's message."""
+    warnings: list[str] = []
+    with _heard(warnings), _files(tree, flat) as vfs:
+        try:
+            return Compiled(spec, spec.compile(vfs=vfs), tuple(dict.fromkeys(warnings)))
+        except _failures() as error:
+            raise _told(str(error), tree, flat) from None
+
+
+def _failures() -> tuple[type[Exception], ...]:
+    import mujoco
+
+    return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
+
+
+@contextmanager
+def _files(tree: Tree, flat: Flat) -> Iterator[mujoco.MjVfs]:
+    """The files that MuJoCo shall see instead of those on disk."""
+    import mujoco
+
+    with mujoco.MjVfs() as vfs:
+        included = {source.path for source in tree.sources}
+        for path, data in tree.files.items():
+            if path not in included:
+                vfs[str(path)] = data
+        vfs[str(tree.main.path)] = flat.text
+        yield vfs
+
+
+@contextmanager
+def _heard(warnings: list[str]) -> Iterator[None]:
+    """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
+    import mujoco
+
+    with _ONE_AT_A_TIME:
+        handler, config = mujoco.get_mju_user_warning(), mujoco.MjLogConfig.get()
+        before = config.logto_console, config.logto_file
+        config.logto_console = config.logto_file = False
+        config.set()
+        mujoco.set_mju_user_warning(warnings.append)
+        try:
+            yield
+        finally:
+            mujoco.set_mju_user_warning(handler)
+            config.logto_console, config.logto_file = before
+            config.set()
+
+
+def _told(message: str, tree: Tree, flat: Flat) -> AssetError:
+    """MuJoCo's message in one line, about the authored file and line."""
+    lines = [node for number in _LINE.findall(message) if (node := flat.node(f"line {number}"))]
+    where = tree.where(lines[-1]) if lines else str(tree.main.path)
+    text = _NAMELESS.sub("", _HEAD.sub("", message.strip()))
+    text = _NAMED.sub(r"(element '\1')", text)
+    return AssetError(f"MuJoCo refuses this file: {' '.join(text.split())}", where=where)
