@@ -84,7 +84,7 @@ def test_a_damaged_file_is_read_or_refused_by_name_never_more(suffix: str, write
         ("a.dae", b'<!DOCTYPE x [<!ENTITY a "b">]>' + dae(box()), "entities are not read"),
         ("a.glb", glb(box())[:200], "this glTF file is damaged"),
         ("a.gltf", b"{}", "there is no triangle"),
-        ("a.gltf", gltf(box()).replace(b'"count": 8', b'"count": 80'), "a buffer is cut short"),
+        ("a.gltf", gltf(box()).replace(b'"count": 8', b'"count": 80'), "an accessor goes beyond"),
         ("a.step", b"", ".step is no mesh file that MeshForge reads"),
     ],
 )
@@ -155,11 +155,18 @@ def test_a_gltf_buffer_may_lie_beside_it_and_is_missed_by_name(tmp_path: Path) -
     assert len(surfaces(tmp_path / "a.gltf", text)[0].faces) == 12
 
 
-@pytest.mark.parametrize("extension", ["KHR_draco_mesh_compression", "EXT_meshopt_compression"])
-def test_compressed_gltf_is_refused_never_read_as_zeros(tmp_path: Path, extension: str) -> None:
+@pytest.mark.parametrize("extension", ["KHR_meshopt_compression", "EXT_meshopt_compression"])
+def test_gltf_compressed_by_meshopt_is_refused(tmp_path: Path, extension: str) -> None:
     tree, _ = gltf_tree(box())
     with pytest.raises(AssetError, match=f"compressed by {extension}"):
         surfaces(tmp_path / "a.gltf", json.dumps({**tree, "extensionsRequired": [extension]}).encode())
+
+
+def test_gltf_positions_that_are_nowhere_are_never_read_as_zeros(tmp_path: Path) -> None:
+    tree, _ = gltf_tree(box())
+    tree["accessors"] = [{"componentType": 5126, "count": 8, "type": "VEC3"}]
+    with pytest.raises(AssetError, match="geometry of a mesh, are not in it"):
+        surfaces(tmp_path / "a.gltf", json.dumps(tree).encode())
 
 
 def test_transforms_and_names_of_vrml_are_applied(tmp_path: Path) -> None:
