@@ -11,9 +11,10 @@ from meshforge.asset import Asset, Body, Opaque
 from meshforge.formats.base import Output
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.mesh_parts import is_flat
+from meshforge.formats.slots import Slot
 from meshforge.formats.urdf.elements import fresh, mesh_tag, origin_tag
 from meshforge.formats.urdf.made import Maker
-from meshforge.formats.urdf.slots import Slot, settle
+from meshforge.formats.urdf.slots import settle
 from meshforge.formats.xml import escaped
 from meshforge.geometry import Pose
 

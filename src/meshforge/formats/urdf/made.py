@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from meshforge.asset import Geom
 from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.slots import Slot
 from meshforge.formats.urdf.elements import fresh, mesh_tag, native_tag, remeshed, reshaped
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.urdf.slots import Slot
 from meshforge.formats.xml import Element
 from meshforge.geometry import Box, Cylinder, Polytope, Pose, Shape, Sphere
 

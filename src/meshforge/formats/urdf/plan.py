@@ -9,14 +9,14 @@ from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.hull_files import folder_of
 from meshforge.formats.mesh_parts import is_flat
+from meshforge.formats.slots import Slot, lead_inside
 from meshforge.formats.triangles import pieces_of, read_triangles
 from meshforge.formats.urdf.document import UrdfDocument, digest_of
 from meshforge.formats.urdf.elements import refiled
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.robot import collisions
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.urdf.slots import Slot
-from meshforge.formats.xml import Element, indent
+from meshforge.formats.xml import Element
 from meshforge.geometry import Piece
 
 
@@ -93,7 +93,7 @@ class Plan:
         own = [k for k, authored in enumerate(self.document.authored) if authored.link == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
-        lead = _lead_inside(self.maker.data, link)
+        lead = lead_inside(self.maker.data, link)
         slot = self.maker.slot(geom, self.asset.body_poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
@@ -109,10 +109,3 @@ class Plan:
             where=str(self.asset.path),
             remedy=f"The nearest name of a link is {like!r}." if like else None,
         )
-
-
-def _lead_inside(data: bytes, link: Element) -> bytes:
-    """The blanks before the children of a link."""
-    if link.children:
-        return indent(data, link.children[-1].start) or b""
-    return (indent(data, link.start) or b"") + b"  "

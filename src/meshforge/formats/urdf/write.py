@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterable
 from pathlib import Path
 
 from meshforge.asset import Asset
@@ -12,13 +11,14 @@ from meshforge.formats.base import Output
 from meshforge.formats.companions import companions
 from meshforge.formats.hull_files import HullFiles, folder_of
 from meshforge.formats.references import Resolver, placement
+from meshforge.formats.slots import at_end, in_place
 from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.plan import Plan
 from meshforge.formats.urdf.robot import collisions, references, robot_of
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.urdf.slots import Slot, settle
-from meshforge.formats.xml import Element, Splice, Text, indent, newline, removed, spliced
+from meshforge.formats.urdf.slots import settle
+from meshforge.formats.xml import Element, Splice, Text, newline, spliced
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
@@ -49,42 +49,9 @@ def _mesh_folder(robot: Element) -> str:
 def _splices(plan: Plan) -> list[Splice]:
     data = plan.maker.data
     edits = [
-        _in_place(data, element, slots)
-        for element, slots in plan.places
-        if not (len(slots) == 1 and slots[0].untouched)
+        in_place(data, element, slots) for element, slots in plan.places if not (len(slots) == 1 and slots[0].untouched)
     ]
-    return edits + [_at_end(data, plan.links[link], slots) for link, slots in plan.ends.items()]
-
-
-def _in_place(data: bytes, element: Element, slots: list[Slot]) -> Splice:
-    """What stands in the place of an authored element; nothing takes its line away."""
-    if not slots:
-        return removed(data, element)
-    return Splice(element.start, element.end, _joined(data, slots, indent(data, element.start)))
-
-
-def _at_end(data: bytes, link: Element, slots: list[Slot]) -> Splice:
-    """What is added at the end of a link."""
-    line_end, before = newline(data), indent(data, link.start) or b""
-    if link.children:
-        last = link.children[-1]
-        lead = indent(data, last.start)
-        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _joined(data, slots, lead))
-    lead = before + b"  "
-    added = lead + _joined(data, slots, lead) + line_end
-    if data[link.inside - 2 : link.inside] == b"/>":
-        return Splice(link.inside - 2, link.inside, b">" + line_end + added + before + b"</link>")
-    closing = data.rfind(b"</", link.inside, link.end)
-    blanks = indent(data, closing)
-    if blanks is None:
-        return Splice(closing, closing, line_end + added + before)
-    return Splice(closing - len(blanks), closing - len(blanks), added)
-
-
-def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
-    """Elements one after another, each on lines of its own where the first is."""
-    gap = b"" if lead is None else newline(data) + lead
-    return gap.join(slot.written(data) for slot in slots)
+    return edits + [at_end(data, plan.links[link], slots) for link, slots in plan.ends.items()]
 
 
 def _copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
