@@ -2,9 +2,13 @@
 
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.loading import labels_beside, load, load_many, read
+from meshforge.formats.losses import Loss
 from meshforge.formats.meshfile import RawSurface
+from meshforge.formats.obj_text import parts_text as obj_parts
+from meshforge.formats.parts import Part
 from meshforge.formats.placing import placed
 from meshforge.formats.registry import FORMATS, MESH_SUFFIXES, SUFFIXES, format_of
+from meshforge.formats.reporting import Report
 from meshforge.formats.saving import Saved, save
 from meshforge.formats.triangles import pieces_of, read_triangles
 
@@ -13,15 +17,19 @@ __all__ = [
     "MESH_SUFFIXES",
     "SUFFIXES",
     "Format",
+    "Loss",
     "Mass",
     "Output",
+    "Part",
     "RawSurface",
     "ReadOptions",
+    "Report",
     "Saved",
     "format_of",
     "labels_beside",
     "load",
     "load_many",
+    "obj_parts",
     "pieces_of",
     "placed",
     "read",

@@ -2,6 +2,7 @@
 
 from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
+from meshforge.geometry.common import Parting, common, parted
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
 from meshforge.geometry.cut import cut
 from meshforge.geometry.digest import digest, same_shape
@@ -32,6 +33,7 @@ __all__ = [
     "Ellipsoid",
     "Floats",
     "Ints",
+    "Parting",
     "Piece",
     "Polytope",
     "Pose",
@@ -42,6 +44,7 @@ __all__ = [
     "aabb_cylinder",
     "aabb_sphere",
     "close_pairs",
+    "common",
     "convex_hull",
     "cut",
     "digest",
@@ -55,6 +58,7 @@ __all__ = [
     "neighbours",
     "outward",
     "overlap_volume",
+    "parted",
     "pieces",
     "principal_extents",
     "same_shape",

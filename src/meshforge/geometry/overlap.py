@@ -26,7 +26,7 @@ def overlap_volume(a: Shape, b: Shape) -> float:
     if not (low < high).all():
         return 0.0
     bounds = Aabb.union([a.aabb, b.aabb])
-    common = _solid(a, bounds) ^ _solid(b, bounds)
+    common = solid(a, bounds) ^ solid(b, bounds)
     return max(0.0, float(common.volume())) * bounds.diagonal**3
 
 
@@ -35,12 +35,12 @@ def volume_of_union(shapes: Sequence[Shape]) -> float:
     if not shapes:
         return 0.0
     bounds = Aabb.union(shape.aabb for shape in shapes)
-    solids = [_solid(shape, bounds) for shape in shapes]
+    solids = [solid(shape, bounds) for shape in shapes]
     whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
     return float(whole.volume()) * bounds.diagonal**3
 
 
-def _solid(shape: Shape, bounds: Aabb) -> Any:
+def solid(shape: Shape, bounds: Aabb) -> Any:
     """The shape in coordinates where `bounds` has a diagonal of one about the origin."""
     match shape:
         case Polytope() | Box():

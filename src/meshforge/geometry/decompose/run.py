@@ -10,9 +10,11 @@ from meshforge.errors import GeometryError
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decompose.cache import Piece, cache_key, read_entry, write_entry
 from meshforge.geometry.decompose.child import Progress, run_engine
+from meshforge.geometry.decompose.holes import capped
 from meshforge.geometry.decompose.settings import CoacdSettings, DecomposeSettings
 from meshforge.geometry.decompose.surface import Triangles, sound_triangles
 from meshforge.geometry.shapes import Polytope
+from meshforge.words import counted
 
 
 def decompose(
@@ -20,6 +22,7 @@ def decompose(
     faces: Any,
     settings: DecomposeSettings | None = None,
     *,
+    close: bool = False,
     cache: Path | None = None,
     progress: Progress | None = None,
     cancel: Callable[[], bool] | None = None,
@@ -28,13 +31,16 @@ def decompose(
 ) -> list[Polytope]:
     """Convex hulls that together approximate a mesh, in the engine's order, the same for the same input.
 
-    vertices (n, 3) [m], faces (m, 3); settings: CoACD's defaults when None; cache: a folder for results (see
-    `cache_folder`), None keeps none; timeout: [s]; note: told what a user should know about mesh and result.
+    vertices (n, 3) [m], faces (m, 3); settings: CoACD's defaults when None; close: planar holes are closed first where
+    that makes the mesh a solid, so it counts as filled; cache: a folder for results (see `cache_folder`), None keeps
+    none; timeout: [s]; note: told what a user should know about mesh and result.
     Raises GeometryError: a mesh that cannot be decomposed, an engine that crashed or took too long;
     DecompositionCancelledError when `cancel` said so.
     """
     settings, note = settings or CoacdSettings(), note or _unheard
     mesh = sound_triangles(vertices, faces)
+    if close:
+        mesh = _closed(mesh, note)
     _judge_openness(mesh, settings, note)
     pieces = _cached(mesh, settings, cache, note, lambda: run_engine(mesh, settings, progress, cancel, timeout))
     hulls = _verified(pieces, mesh.diagonal, note)
@@ -62,6 +68,13 @@ def _cached(
     except OSError as error:
         note(f"the result could not be kept in {cache}: {error.strerror or error}")
     return pieces
+
+
+def _closed(mesh: Triangles, note: Callable[[str], None]) -> Triangles:
+    mesh, holes = capped(mesh)
+    if holes:
+        note(f"{counted(holes, 'planar hole')} closed, so that it counts as solid")
+    return mesh
 
 
 def _judge_openness(mesh: Triangles, settings: DecomposeSettings, note: Callable[[str], None]) -> None:

@@ -1,0 +1,106 @@
+"""The folder of a preparation: what was done as JSON, and the hulls it made as an OBJ that every viewer opens."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from meshforge.asset import Asset, Surface
+from meshforge.errors import AssetError
+from meshforge.files import write_atomically
+from meshforge.formats import Part, obj_parts, read, read_triangles
+from meshforge.geometry import Polytope
+from meshforge.preparation.record import Preparation, Step, hull_digest
+from meshforge.preparation.replay import prepared
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
+
+RECORD = "preparation.json"
+"""The file in a preparation's folder that says what was done."""
+_HULLS = "hulls.obj"
+
+
+def read_prepared(path: Path, folder: Path | None) -> Asset:
+    """The asset in a file, after the preparation in a folder where there is one.
+
+    Raises AssetError: the asset cannot be read, or its preparation is damaged or out of date.
+    """
+    asset = read(path)
+    preparation = read_preparation(folder) if folder else None
+    return prepared(asset, preparation) if preparation else asset
+
+
+def read_preparation(folder: Path) -> Preparation | None:
+    """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
+    path = folder / RECORD
+    try:
+        steps = _steps().validate_python(json.loads(path.read_bytes())["steps"])
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except (OSError, ValueError, KeyError, TypeError) as error:  # pydantic's complaints are ValueErrors
+        raise _damaged(path, str(error).splitlines()[0]) from error
+    hulls = _read_hulls(folder / _HULLS) if steps else {}
+    found = Preparation(steps, hulls)
+    for name, known in found.made.items():
+        if known not in hulls:
+            raise _damaged(folder / _HULLS, f"the hull {name} is not in it as it was made")
+    return found.of(steps)
+
+
+def write_preparation(folder: Path, preparation: Preparation) -> None:
+    """Write a preparation; a process that is killed meanwhile leaves the one before, or this one.
+
+    The hulls of both are in the file while what was done is exchanged.
+    """
+    try:
+        before = read_preparation(folder) or Preparation()
+    except AssetError:
+        before = Preparation()
+    own = [(name, preparation.hulls[known]) for name, known in preparation.made.items()]
+    old = [(f"{n}@before", before.hulls[k]) for n, k in before.made.items() if k not in preparation.hulls]
+    write_atomically(folder / _HULLS, _hulls_text([*own, *old]))
+    record = {"steps": [asdict(step) for step in preparation.steps]}
+    write_atomically(folder / RECORD, json.dumps(record, ensure_ascii=False, indent=2) + "\n")
+    if old:
+        write_atomically(folder / _HULLS, _hulls_text(own))
+
+
+def remove_preparation(folder: Path) -> None:
+    """Take a preparation away; what was done first, so that hulls are never missed."""
+    for name in (RECORD, _HULLS):
+        (folder / name).unlink(missing_ok=True)
+    if folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+
+
+def _steps() -> TypeAdapter[tuple[Step, ...]]:
+    from pydantic import TypeAdapter  # a tenth of a second, and only projects have preparations
+
+    return TypeAdapter(tuple[Step, ...])
+
+
+def _read_hulls(path: Path) -> dict[str, Polytope]:
+    found = {}
+    for surface in read_triangles(path):
+        used, local = np.unique(surface.faces, return_inverse=True)
+        hull = Polytope(surface.vertices[used], local.reshape(-1, 3))
+        found[hull_digest(hull)] = hull
+    return found
+
+
+def _hulls_text(hulls: Iterable[tuple[str, Polytope]]) -> bytes:
+    return obj_parts([Part(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls])
+
+
+def _damaged(path: Path, problem: Any) -> AssetError:
+    return AssetError(
+        f"this preparation is damaged: {problem}",
+        where=str(path),
+        remedy="Bring the file back as it was, or take the preparation away: meshforge prepare --remove",
+    )
