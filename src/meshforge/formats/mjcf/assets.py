@@ -39,7 +39,7 @@ class Folders:
         beside = self.beside(tree, node, attribute)
         reference = str(beside or node.attributes[attribute].replace("\\", "/"))
         if self.strip:
-            reference = os.path.basename(reference)
+            reference = Path(reference).name
         return self._joined(self._folder(node), reference)
 
     def beside(self, tree: Tree, node: Node, attribute: str) -> Path | None:

@@ -5,29 +5,63 @@ from __future__ import annotations
 from pathlib import Path
 
 from meshforge.asset import Asset, Body
+from meshforge.errors import AssetError
 from meshforge.formats.mjcf.document import MjcfDocument
-from meshforge.formats.mjcf.engine import compile_flat
-from meshforge.formats.mjcf.flat import flatten
+from meshforge.formats.mjcf.engine import Compiled, compile_flat
+from meshforge.formats.mjcf.flat import Flat, flatten
+from meshforge.formats.mjcf.fragments import refuse_fragment
+from meshforge.formats.mjcf.mechanism import read_mechanism
 from meshforge.formats.mjcf.model import Reading
-from meshforge.formats.mjcf.sources import gather
+from meshforge.formats.mjcf.reduce import reduced
+from meshforge.formats.mjcf.references import referenced
+from meshforge.formats.mjcf.sources import Tree, gather
+from meshforge.formats.mjcf.visuals import read_visuals
+from meshforge.words import counted
 
 
 def read_mjcf(path: Path) -> Asset:
     """The asset in an MJCF, its includes and collision meshes taken in.
 
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
-    there, a model that MuJoCo refuses for its collision geometry.
+    there, a model whose collision geometry MuJoCo refuses too.
     """
     tree = gather(path)
-    flat = flatten(tree)
-    made = compile_flat(tree, flat)
-    reading = Reading(flat, made)
+    refuse_fragment(tree)
+    flat, made, stand_ins, refusal = _compiled(tree)
+    reading = Reading(tree, flat, made)
     geoms, opaque = reading.pieces()
+    files, missing = referenced(tree)
     return Asset(
         path=path,
         format="mjcf",
         bodies=tuple(Body(body.name, body.pose) for body in reading.bodies),
         geoms=geoms,
-        document=MjcfDocument(tree.sources, reading.authored(), reading.bodies),
+        document=MjcfDocument(tree.sources, reading.authored(), reading.bodies, refusal),
         opaque=opaque,
+        visuals=read_visuals(reading, made.spec, stand_ins),
+        files=files,
+        missing=missing,
+        notes=_notes(made, refusal),
+        mechanism=read_mechanism(reading),
     )
+
+
+def _compiled(tree: Tree) -> tuple[Flat, Compiled, frozenset[int], str]:
+    """The text and what MuJoCo makes of it, of the collision geometry alone where it refuses the whole, and why."""
+    flat = flatten(tree)
+    try:
+        made = compile_flat(tree, flat)
+    except AssetError as error:
+        part = reduced(tree, error)
+        line = f" ({Path(error.where or '').name})"
+        return part.flat, part.made, part.stand_ins, error.problem + line
+    return flat, made, frozenset(), "; ".join(tree.faults)
+
+
+def _notes(made: Compiled, refusal: str) -> tuple[str, ...]:
+    notes = [f"MuJoCo warns: {warning}" for warning in made.warnings]
+    if refusal:
+        notes.insert(0, f"{refusal}; read for its collision geometry only")
+    if made.model.nflex:
+        notes.append(f"{counted(int(made.model.nflex), 'flexible body', 'flexible bodies')} left as they are: no hulls")
+    return tuple(notes)

@@ -9,62 +9,118 @@ import numpy as np
 from meshforge.asset import Surface
 from meshforge.errors import GeometryError
 from meshforge.formats.mesh_parts import MeshPart
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
+from meshforge.geometry import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Floats,
+    Polytope,
+    Pose,
+    Shape,
+    Sphere,
+    convex_hull,
+)
 
 if TYPE_CHECKING:
     import mujoco
 
 
-def part_of(model: mujoco.MjModel, geom: int, pose: Pose) -> MeshPart:
-    """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
-    import mujoco
+class Shapes:
+    """The shapes of one model; the hull of a mesh that several geoms share is made once."""
 
-    size = model.geom_size[geom].astype(np.float64)
-    kind = mujoco.mjtGeom(int(model.geom_type[geom]))
-    match kind:
-        case mujoco.mjtGeom.mjGEOM_BOX:
-            shape: Shape = Box(pose, size)
-        case mujoco.mjtGeom.mjGEOM_SPHERE:
-            shape = Sphere(pose, float(size[0]))
-        case mujoco.mjtGeom.mjGEOM_CAPSULE:
-            shape = Capsule(pose, float(size[0]), float(size[1]))
-        case mujoco.mjtGeom.mjGEOM_CYLINDER:
-            shape = Cylinder(pose, float(size[0]), float(size[1]))
-        case mujoco.mjtGeom.mjGEOM_ELLIPSOID:
-            shape = Ellipsoid(pose, size)
-        case mujoco.mjtGeom.mjGEOM_MESH:
-            return _mesh(model, int(model.geom_dataid[geom]), pose)
-        case mujoco.mjtGeom.mjGEOM_PLANE:
-            return MeshPart(None, "a plane has no end")
-        case mujoco.mjtGeom.mjGEOM_HFIELD:
-            return MeshPart(None, "a height field is no convex hull")
-        case mujoco.mjtGeom.mjGEOM_SDF:
-            return MeshPart(None, "a signed distance field is no convex hull", mesh_surface(model, geom, pose))
-        case _:
-            return MeshPart(None, f"{kind.name} is no geometry that is known")
-    return MeshPart(shape)
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model = model
+        self._hulls: dict[int, Polytope | str] = {}
 
+    def part(self, geom: int, pose: Pose) -> MeshPart:
+        """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
+        import mujoco
 
-def _mesh(model: mujoco.MjModel, mesh: int, pose: Pose) -> MeshPart:
-    start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    vertices = model.mesh_vert[start : start + count].astype(np.float64)
-    if model.mesh_graphadr[mesh] >= 0:
-        graph = model.mesh_graph[int(model.mesh_graphadr[mesh]) :]
-        corners = int(graph[0])
-        vertices = vertices[graph[2 + corners : 2 + 2 * corners]]
-    points = pose.apply(vertices)
-    try:
-        return MeshPart(convex_hull(points))
-    except GeometryError as error:
-        return MeshPart(None, error.problem)
+        kinds = mujoco.mjtGeom
+        kind = kinds(int(self.model.geom_type[geom]))
+        data = int(self.model.geom_dataid[geom])
+        match kind:
+            case kinds.mjGEOM_MESH:
+                return self._mesh(data, pose)
+            case kinds.mjGEOM_PLANE:
+                return MeshPart(None, "a plane has no end")
+            case kinds.mjGEOM_HFIELD:
+                return MeshPart(None, "a height field is no convex hull", field_surface(self.model, data, pose))
+            case kinds.mjGEOM_SDF:
+                surface = mesh_surface(self.model, data, pose) if data >= 0 else None
+                return MeshPart(None, "a signed distance field is no convex hull", surface)
+        shape = self.primitive(geom, pose)
+        return MeshPart(shape) if shape else MeshPart(None, f"{kind.name} is no geometry that is known")
 
+    def primitive(self, geom: int, pose: Pose) -> Shape | None:
+        """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
+        import mujoco
 
-def mesh_surface(model: mujoco.MjModel, geom: int, pose: Pose) -> Surface | None:
-    """The triangles of a geom's mesh in the root frame, None where it has none."""
-    mesh = int(model.geom_dataid[geom])
-    if mesh < 0:
+        kinds = mujoco.mjtGeom
+        size = self.model.geom_size[geom].astype(np.float64)
+        match kinds(int(self.model.geom_type[geom])):
+            case kinds.mjGEOM_BOX:
+                return Box(pose, size)
+            case kinds.mjGEOM_SPHERE:
+                return Sphere(pose, float(size[0]))
+            case kinds.mjGEOM_CAPSULE:
+                return Capsule(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_CYLINDER:
+                return Cylinder(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_ELLIPSOID:
+                return Ellipsoid(pose, size)
         return None
-    start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    first, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-    vertices = model.mesh_vert[start : start + count].astype(np.float64)
-    return Surface(pose.apply(vertices), model.mesh_face[first : first + faces].astype(np.int64))
+
+    def _mesh(self, mesh: int, pose: Pose) -> MeshPart:
+        if mesh not in self._hulls:
+            try:
+                self._hulls[mesh] = convex_hull(_corners(self.model, mesh))
+            except GeometryError as error:
+                self._hulls[mesh] = error.problem
+        hull = self._hulls[mesh]
+        if isinstance(hull, str):
+            return MeshPart(None, hull, mesh_surface(self.model, mesh, pose))
+        return MeshPart(hull.moved(pose))
+
+
+def _corners(model: mujoco.MjModel, mesh: int) -> Floats:
+    """The vertices of MuJoCo's own hull of a mesh, fewer where `maxhullvert` says so; else all vertices."""
+    vertices = _vertices(model, mesh)
+    start = int(model.mesh_graphadr[mesh])
+    if start < 0:
+        return vertices
+    count = int(model.mesh_graph[start])
+    first = start + 2 + count  # after the numbers of vertices and faces, and each vertex's place among the edges
+    corners: Floats = vertices[model.mesh_graph[first : first + count]]
+    return corners
+
+
+def mesh_surface(model: mujoco.MjModel, mesh: int, pose: Pose) -> Surface:
+    """The triangles of a mesh in the root frame; pose: root_T_geom."""
+    first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+    faces = model.mesh_face[first : first + count].astype(np.int64)
+    return Surface(pose.apply(_vertices(model, mesh)), faces)
+
+
+def _vertices(model: mujoco.MjModel, mesh: int) -> Floats:
+    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+    vertices: Floats = model.mesh_vert[first : first + count].astype(np.float64)
+    return vertices
+
+
+def field_surface(model: mujoco.MjModel, field: int, pose: Pose) -> Surface:
+    """The upper side of a height field in the root frame."""
+    rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
+    start = int(model.hfield_adr[field])
+    x, y, z, _ = model.hfield_size[field].astype(np.float64)
+    heights = model.hfield_data[start : start + rows * columns].astype(np.float64) * z
+    ys, xs = np.meshgrid(np.linspace(-y, y, rows), np.linspace(-x, x, columns), indexing="ij")
+    corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    faces = np.concatenate(
+        [
+            np.stack([corner, corner + 1, corner + columns], axis=1),
+            np.stack([corner + 1, corner + columns + 1, corner + columns], axis=1),
+        ]
+    )
+    return Surface(pose.apply(np.stack([xs.ravel(), ys.ravel(), heights], axis=1)), faces)

@@ -1,0 +1,151 @@
+"""Files that MuJoCo refuses, read for their collision geometry: what that does not need is left out of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from meshforge.errors import AssetError
+from meshforge.formats.mjcf.assets import Folders
+from meshforge.formats.mjcf.engine import Compiled, compile_spec, parse_flat
+from meshforge.formats.mjcf.flat import Flat, flatten
+from meshforge.formats.mjcf.sources import Node, Tree
+from meshforge.formats.references import Resolver
+
+if TYPE_CHECKING:
+    import mujoco
+
+_ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
+_KEPT = {
+    "mujoco": "model",
+    "compiler": "angle eulerseq coordinate meshdir assetdir strippath fitaabb autolimits inertiafromgeom"
+    " inertiagrouprange",
+    "default": "class",
+    "asset": "",
+    "mesh": "name class file content_type vertex face normal texcoord refpos refquat scale maxhullvert inertia builtin"
+    " params smoothnormal",
+    "hfield": "name file content_type nrow ncol size elevation",
+    "model": "name file content_type",
+    "worldbody": "",
+    "body": f"name childclass mocap {_ORIENTATION}",
+    "frame": f"name childclass {_ORIENTATION}",
+    "replicate": "count sep offset euler childclass",
+    "attach": "model body frame prefix",
+    "inertial": f"mass diaginertia fullinertia {_ORIENTATION}",
+    "joint": "name class type pos axis ref range limited damping frictionloss",
+    "freejoint": "name",
+    "geom": f"name class type size fromto mesh hfield fitscale contype conaffinity group mass density shellinertia rgba"
+    f" {_ORIENTATION}",
+    "contact": "",
+    "pair": "geom1 geom2",
+}
+"""The elements that collision geometry, masses and joints need, and their attributes."""
+_WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
+_LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reduced:
+    """What was read of a refused file; stand_ins: geoms in the place of visual ones that cannot be had."""
+
+    flat: Flat
+    made: Compiled
+    stand_ins: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class _Attempt:
+    """How much is left out: all visual meshes or only missing ones, and the authored masses."""
+
+    all_visuals: bool
+    masses: bool
+
+    def keep(self, node: Node) -> Mapping[str, str] | None:
+        if node.tag in _WHOLE:
+            return node.attributes
+        if node.tag not in _KEPT or (node.tag == "inertial" and not self.masses):
+            return None
+        kept = _KEPT[node.tag].split()
+        return {name: value for name, value in node.attributes.items() if name in kept}
+
+
+_ATTEMPTS = (_Attempt(False, True), _Attempt(True, True), _Attempt(True, False))
+
+
+def reduced(tree: Tree, refusal: AssetError) -> Reduced:
+    """The collision geometry of a tree that MuJoCo refuses as a whole.
+
+    Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
+    """
+    for attempt in _ATTEMPTS:
+        flat = flatten(tree, attempt.keep)
+        try:
+            spec = parse_flat(tree, flat)
+        except AssetError:
+            continue
+        _refuse_missing(tree, flat, spec)
+        infos = _stood_in(tree, flat, spec, attempt.all_visuals)
+        spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
+        spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
+        spec.compiler.balanceinertia = True
+        try:
+            made = compile_spec(tree, flat, spec)
+        except AssetError:
+            continue
+        return Reduced(flat, made, frozenset(geom.id for geom in spec.geoms if geom.info in infos))
+    raise refusal
+
+
+def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom is not there."""
+    lost = _lost(tree, flat, spec)
+    for geom in spec.geoms:
+        node = flat.node(geom.info)
+        if node is None or geom.meshname not in lost or not _collides(geom, spec):
+            continue
+        mesh = lost[geom.meshname]
+        path = Folders.of(tree).find(tree, mesh)
+        name = geom.name or f"of body {geom.parent.name!r}"
+        raise AssetError(
+            f"the mesh {geom.meshname!r} of collision geom {name!r} is not there: {mesh.attributes['file']!r}",
+            where=tree.where(mesh),
+            remedy=Resolver(tree.main.path.parent).advice(str(path)),
+        )
+
+
+def _lost(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> dict[str, Node]:
+    """The meshes whose files are not there, by name."""
+    folders = Folders.of(tree)
+    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    return {
+        name: node
+        for name, node in nodes.items()
+        if node is not None and node.attributes.get("file") and not tree.has(folders.find(tree, node))
+    }
+
+
+def _stood_in(tree: Tree, flat: Flat, spec: mujoco.MjSpec, all_visuals: bool) -> set[str]:
+    """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
+
+    Returns the lines of these geoms. Meshes that no geom is left to use go.
+    """
+    import mujoco
+
+    lost = _lost(tree, flat, spec)
+    infos = set()
+    for geom in spec.geoms:
+        if geom.meshname and not _collides(geom, spec) and (all_visuals or geom.meshname in lost):
+            infos.add(geom.info)
+            geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
+    used = {geom.meshname for geom in spec.geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name not in used:
+            spec.delete(mesh)
+    return infos
+
+
+def _collides(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
+    if geom.contype or geom.conaffinity:
+        return True
+    return bool(geom.name) and any(geom.name in (pair.geomname1, pair.geomname2) for pair in spec.pairs)
