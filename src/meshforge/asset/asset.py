@@ -25,12 +25,14 @@ class Geom:
     name: unique in the asset, for ever: a made geom never takes the name of a source geom.
     parent: None for a geom of the file, which is written back as authored; for a made one, the source geom
     whose contact attributes it inherits.
+    contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
     """
 
     name: str
     body: str
     shape: Shape
     parent: str | None = None
+    contact: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

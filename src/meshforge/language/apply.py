@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from meshforge.geometry import FLATNESS
 from meshforge.language.actions import Action, Edit, Group, Made
 from meshforge.language.evaluate import length
+from meshforge.language.inheritance import inheritance_notes
 from meshforge.language.sound import sound
 from meshforge.language.template import Template, check_templates
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits
@@ -56,7 +57,8 @@ def apply_action(
     gone = {hull.name for group, edit in zip(groups, edits, strict=True) if edit.removes for hull in group.hulls}
     renamed = _relabelled(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
-    notes = dict.fromkeys(edit.note for edit in edits if edit.note)
+    inherited = inheritance_notes((m for _, m in made), mesh)
+    notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inherited])
     changed = bool(made or gone or renamed)
     return Applied(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if changed else mesh,
