@@ -1,12 +1,15 @@
 """What every file becomes: an asset of bodies and convex geoms, with its kept source document."""
 
 from meshforge.asset.asset import Asset, Body, Document, Geom, Opaque, Surface, unique_names
+from meshforge.asset.features import PRIMITIVES, Feature, What, features
 from meshforge.asset.mechanism import Inertial, Joint, JointKind, Mechanism, unit
 
 __all__ = [
+    "PRIMITIVES",
     "Asset",
     "Body",
     "Document",
+    "Feature",
     "Geom",
     "Inertial",
     "Joint",
@@ -14,6 +17,8 @@ __all__ = [
     "Mechanism",
     "Opaque",
     "Surface",
+    "What",
+    "features",
     "unique_names",
     "unit",
 ]

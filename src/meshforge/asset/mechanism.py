@@ -16,7 +16,7 @@ JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "plana
 class Joint:
     """How a body moves against another, described where all joints are at zero.
 
-    name: empty where the file gives none; parent: None where it is the world that no body stands for.
+    name: empty where the file gives none; parent, child: the bodies it joins.
     anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
     joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
     damping, friction: of the file, 0 where it tells none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
@@ -25,7 +25,7 @@ class Joint:
 
     name: str
     kind: JointKind
-    parent: str | None
+    parent: str
     child: str
     anchor: Floats
     axis: Floats

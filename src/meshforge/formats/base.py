@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from meshforge.asset import Asset
+from meshforge.asset import Asset, Feature, What
+from meshforge.formats.losses import Loss
 
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
@@ -35,6 +37,7 @@ class Output:
     input, by the same kind of path. `save` puts them on disk atomically.
     notes: what the format could not hold, or holds in another form (a capsule written as a hull mesh).
     names: of geoms that the written file reads back under another name, that name (formats without names).
+    lost: by a created output, what it does not hold of an asset beyond what its format never holds.
     """
 
     main: bytes
@@ -42,17 +45,26 @@ class Output:
     copies: dict[str, Path] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     names: dict[str, str] = field(default_factory=dict)
+    lost: tuple[Loss, ...] = ()
 
 
 class Format(ABC):
     """One file format: reads an asset with its source document, writes it back with edited geoms.
 
     is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
+    title: its name for people; up: the axis that points up in its files, None where the format does not say.
+    holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
+    leaves out all the same; instead: how it writes what the format does not hold (`written as hulls`).
     """
 
     name: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
     is_folder: ClassVar[bool] = False
+    title: ClassVar[str]
+    up: ClassVar[Literal["y", "z"] | None] = None
+    holds: ClassVar[frozenset[What]] = frozenset()
+    could: ClassVar[frozenset[What]] = frozenset()
+    instead: ClassVar[Mapping[What, str]] = {}
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -76,6 +88,10 @@ class Format(ABC):
         from meshforge.errors import AssetError
 
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
+
+    def features(self, asset: Asset) -> Iterable[Feature]:
+        """What the document of an asset of this format holds that the asset itself does not tell."""
+        return ()
 
     def sniffs(self, path: Path, head: bytes) -> bool:
         """Whether a file of one of the suffixes is of this format; head: its first kilobytes."""

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Document
+from meshforge.asset import Asset, Body, Document, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.folder_tree import Member, Tree
-from meshforge.formats.parts import Part, as_parts, member_names, natural
-from meshforge.formats.plain import BODY, PlainFormat
+from meshforge.formats.parts import all_parts, as_parts, member_names, natural, renaming
+from meshforge.formats.plain import AS_HULLS, BODY, PlainFormat
 from meshforge.geometry import Pose
 
 
@@ -29,6 +29,9 @@ class Folder(Format):
     name = "folder"
     suffixes = ()
     is_folder = True
+    title = "a folder of mesh files"
+    holds = frozenset({What.NAMES, What.OPAQUE})
+    instead = AS_HULLS
 
     def __init__(self, members: Sequence[PlainFormat]) -> None:
         self.members = tuple(members)
@@ -77,7 +80,8 @@ class Folder(Format):
         parts, notes = as_parts(g for g in asset.geoms if g.name not in kept)
         for part in parts:
             tree.add(part, suffix)
-        return tree.output(notes, {g.name for g in asset.geoms})
+        output = tree.output({g.name for g in asset.geoms})
+        return replace(output, notes=(*notes, *renaming(output.names)))
 
     def _usual_suffix(self, document: FolderDocument) -> str:
         """The suffix of most files that can be written, as they write it."""
@@ -85,10 +89,7 @@ class Folder(Format):
         return counts.most_common(1)[0][0] if counts else ".obj"
 
     def create(self, asset: Asset, name: str) -> Output:
-        parts, notes = as_parts(asset.geoms)
-        parts += tuple(Part(o.name, o.surface) for o in asset.opaque if o.surface)
-        unseen = tuple(f"{o.name} is left out: {o.reason}" for o in asset.opaque if not o.surface)
         tree = Tree(self.format_of)
-        for part in parts:
+        for part in all_parts(asset):
             tree.add(part, ".obj")
-        return tree.output((*notes, *unseen), {g.name for g in asset.geoms})
+        return tree.output({g.name for g in asset.geoms})

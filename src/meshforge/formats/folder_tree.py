@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.formats.base import Output
 from meshforge.formats.companions import companions
-from meshforge.formats.parts import Part, PlainDocument, member_names, natural, renaming
+from meshforge.formats.parts import Part, PlainDocument, member_names, natural
 from meshforge.formats.plain import PlainFormat
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
@@ -62,7 +62,7 @@ class Tree:
         self._put(file, self.format_of(Path(file)).made([part]))
         self.hulls[file] = dict.fromkeys(self.documents[file].names, part.name)
 
-    def output(self, notes: tuple[str, ...], hulls: Collection[str]) -> Output:
+    def output(self, hulls: Collection[str]) -> Output:
         """All files, and which of the hulls will read back under another name."""
         files = sorted(self.documents, key=natural)
         back = member_names(files, [self.documents[file] for file in files])
@@ -73,7 +73,7 @@ class Tree:
             if wanted in hulls and found[piece] != wanted
         }
         copies = {**self.beside, **self.copies}
-        return Output(b"", self.made, copies, (*notes, *renaming(names)), names)
+        return Output(b"", self.made, copies, names=names)
 
     def _edit(self, member: Member, stay: list[str], file: str) -> None:
         geoms = [geom for geom in member.asset.geoms if geom.name in stay]

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from meshforge.asset import Asset, Feature, What
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.obj import parse_obj
 from meshforge.formats.obj_edit import edited_obj
 from meshforge.formats.obj_text import parts_text
-from meshforge.formats.parts import Part
+from meshforge.formats.parts import Part, PlainDocument
 from meshforge.formats.plain import Edit, PlainFormat
+
+_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
+_COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)
+_COMMENT = re.compile(rb"^[ \t]*#", re.M)
 
 
 class Obj(PlainFormat):
     """OBJ files."""
 
     name = "obj"
+    title = "OBJ"
+    holds = frozenset({What.NAMES, What.OPAQUE})
+    could = frozenset({What.MATERIALS, What.TEXTURES, What.TEXTURE_COORDINATES, What.COMMENTS})
     suffixes = (".obj",)
 
     def soup(self, data: bytes, path: Path) -> Soup:
@@ -27,3 +36,11 @@ class Obj(PlainFormat):
 
     def made(self, parts: Sequence[Part]) -> bytes:
         return parts_text(parts)
+
+    def features(self, asset: Asset) -> Iterator[Feature]:
+        if isinstance(asset.document, PlainDocument):
+            data = asset.document.data
+            materials = dict.fromkeys(name.decode("utf-8", "replace").strip() for name in _MATERIAL.findall(data))
+            yield Feature(What.MATERIALS, tuple(materials))
+            yield Feature(What.TEXTURE_COORDINATES, unnamed=len(_COORDINATE.findall(data)))
+            yield Feature(What.COMMENTS, unnamed=len(_COMMENT.findall(data)))

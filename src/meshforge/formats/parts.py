@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.asset import Document, Geom, Surface, unique_names
+from meshforge.asset import Asset, Document, Geom, Surface, unique_names
 from meshforge.errors import AssetError
 from meshforge.geometry import Box, Ints, Piece, Polytope
 from meshforge.words import listed
@@ -87,6 +87,15 @@ def as_parts(geoms: Iterable[Geom]) -> tuple[tuple[Part, ...], tuple[str, ...]]:
         for kind, count in sorted(round_ones.items())
     )
     return tuple(parts), notes
+
+
+def all_parts(asset: Asset) -> tuple[Part, ...]:
+    """The hulls and the opaque surfaces of an asset. Raises AssetError where there are none."""
+    seen = tuple(Part(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
+    parts = as_parts(asset.geoms)[0] + seen
+    if not parts:
+        raise AssetError("there is no hull to write", where=str(asset.path))
+    return parts
 
 
 def read_back(

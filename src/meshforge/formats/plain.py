@@ -7,7 +7,7 @@ that, and under which names.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
@@ -15,17 +15,19 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.asset import Asset, Body, Geom, Opaque, Surface
+from meshforge.asset import PRIMITIVES, Asset, Body, Geom, Opaque, Surface, What
 from meshforge.errors import AssetError, GeometryError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.meshfile import Soup
-from meshforge.formats.parts import Part, PlainDocument, as_parts, piece_names, read_back, renaming
+from meshforge.formats.parts import Part, PlainDocument, all_parts, as_parts, piece_names, read_back, renaming
 from meshforge.formats.triangles import contents
 from meshforge.geometry import Piece, Pose, pieces
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
+AS_HULLS: Mapping[What, str] = dict.fromkeys(PRIMITIVES.values(), "written as hulls")
+"""How formats without native shapes hold them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,6 +65,8 @@ class PlainFormat(Format):
     """A format of mesh files without structure; writable: whether it can hold an edit."""
 
     writable: ClassVar[bool] = True
+    holds: ClassVar[frozenset[What]] = frozenset({What.OPAQUE})
+    instead: ClassVar[Mapping[What, str]] = AS_HULLS
 
     @abstractmethod
     def soup(self, data: bytes, path: Path) -> Soup:
@@ -122,15 +126,10 @@ class PlainFormat(Format):
         return Output(data, copies=beside, notes=(*notes, *renaming(names)), names=names)
 
     def create(self, asset: Asset, name: str) -> Output:
-        parts, notes = as_parts(asset.geoms)
-        hulls = {part.name for part in parts}
-        parts += tuple(Part(o.name, o.surface) for o in asset.opaque if o.surface)
-        unseen = tuple(f"{o.name} is left out: {o.reason}" for o in asset.opaque if not o.surface)
-        if not parts:
-            raise AssetError("there is no hull to write", where=str(asset.path))
+        parts = all_parts(asset)
         data = self.made(parts)
-        names = self._checked(data, Path(name), owners(parts), hulls, asset.path)
-        return Output(data, notes=(*notes, *unseen, *renaming(names)), names=names)
+        hulls = {geom.name for geom in asset.geoms}
+        return Output(data, names=self._checked(data, Path(name), owners(parts), hulls, asset.path))
 
     def _settled(self, edit: Edit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
         """The edited file, and the names that read back otherwise; with explicit names where that mends them."""

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from meshforge.asset import Asset, Feature, What
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile import Soup, joined
 from meshforge.formats.meshfile.ply import INDICES, PlyText, Rows, parse_ply
-from meshforge.formats.parts import Part
+from meshforge.formats.parts import Part, PlainDocument
 from meshforge.formats.plain import Edit, PlainFormat
 from meshforge.formats.ply_rows import ended, made_row, renumbered
 from meshforge.geometry import Floats, Ints
@@ -28,11 +29,16 @@ property list uchar int vertex_indices
 end_header
 """
 
+_HEAD = 10_000  # bytes, more than headers have
+_COLOR = re.compile(rb"^property\s+\w+\s+red\s*$", re.M)
+
 
 class Ply(PlainFormat):
     """PLY files; new ones are binary, in double precision."""
 
     name = "ply"
+    title = "PLY"
+    could = frozenset({What.COLORS, What.TEXTURE_COORDINATES, What.COMMENTS})
     suffixes = (".ply",)
 
     def soup(self, data: bytes, path: Path) -> Soup:
@@ -40,6 +46,11 @@ class Ply(PlainFormat):
 
     def edited(self, edit: Edit) -> bytes:
         return _Editor(parse_ply(edit.document.data, str(edit.path)), edit).written()
+
+    def features(self, asset: Asset) -> Iterator[Feature]:
+        if isinstance(asset.document, PlainDocument):
+            colors = len(_COLOR.findall(asset.document.data[:_HEAD].partition(b"end_header")[0]))
+            yield Feature(What.COLORS, unnamed=colors)
 
     def made(self, parts: Sequence[Part]) -> bytes:
         vertices, faces = _stacked(parts, 0)

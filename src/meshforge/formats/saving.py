@@ -12,9 +12,11 @@ from pathlib import Path
 from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.errors import AssetError
 from meshforge.files import write_atomically
-from meshforge.formats.base import Mass, Output
+from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.copying import copy_atomically, same_content
-from meshforge.formats.registry import FOLDER, format_for
+from meshforge.formats.registry import FOLDER, FORMATS, format_for
+from meshforge.formats.reporting import Report, report
+from meshforge.formats.turning import stood_up
 from meshforge.geometry import Pose
 from meshforge.symbolic import SymbolicMesh
 
@@ -27,12 +29,14 @@ class Saved:
     """What was written: the main file or folder, all files of its tree, and what the format could not hold.
 
     names: of hulls that the file reads back under another name, that name.
+    report: on an asset that was read from another format, what this one holds and what it does not.
     """
 
     path: Path
     files: tuple[Path, ...]
     notes: tuple[str, ...] = ()
     names: Mapping[str, str] = field(default_factory=dict)
+    report: Report = field(default=Report())
 
 
 def save(
@@ -49,7 +53,7 @@ def save(
     asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
-    output = known.write(asset, out.name, mass) if known.name == asset.format else known.create(asset, out.name)
+    output, told = _written(asset, known, out.name, mass)
     plan = _plan(output, out, known.is_folder)
     _refuse(plan, asset, overwrite)
     extra = _extra(plan, out, overwrite) if known.is_folder else []
@@ -58,7 +62,18 @@ def save(
             _put(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
         path.unlink()
-    return Saved(out, tuple(plan), output.notes, output.names)
+    return Saved(out, tuple(plan), told.sentences, output.names, told)
+
+
+def _written(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, Report]:
+    """The files of an asset in its own format or another, and what there is to say about them."""
+    if known.name == asset.format:
+        output = known.write(asset, name, mass)
+        return output, Report(remarks=output.notes)
+    source = next((own for own in FORMATS if own.name == asset.format), None)
+    standing, said = stood_up(asset, source, known)
+    output = known.create(standing, name)
+    return output, report(standing, source, known, output, said)
 
 
 def _of_memory(mesh: SymbolicMesh) -> Asset:

@@ -21,6 +21,7 @@ class Stl(PlainFormat):
     """STL files, binary and ASCII; new ones are binary."""
 
     name = "stl"
+    title = "STL"
     suffixes = (".stl",)
 
     def soup(self, data: bytes, path: Path) -> Soup:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import overload
 
@@ -11,17 +11,30 @@ from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
 from meshforge.formats.mesh_parts import placed
 from meshforge.formats.triangles import read_triangles
-from meshforge.geometry import Floats, Shape
+from meshforge.geometry import Floats, Pose, Shape
+
+Rgba = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Visual:
-    """What a body shows, in the root frame: a shape, or a mesh file under x -> linear @ x + offset."""
+    """What a body shows, in the root frame: a shape, or a mesh file under x -> linear @ x + offset.
+
+    rgba: its colour, four shares of 1; None where that is left to the mesh file.
+    """
 
     body: str
     what: Shape | Path
     linear: Floats
     offset: Floats
+    rgba: Rgba | None = None
+
+    def moved(self, pose: Pose) -> Visual:
+        """The visual in another root frame; pose: new_T_old."""
+        if isinstance(self.what, Shape):
+            return replace(self, what=self.what.moved(pose))
+        offset = pose.rotation @ self.offset + pose.translation
+        return replace(self, linear=pose.rotation @ self.linear, offset=offset)
 
     def surfaces(self) -> list[Surface]:
         """Its surfaces; none where the file cannot be read."""
@@ -39,6 +52,11 @@ class LazySurfaces(Sequence[Surface]):
     def __init__(self, visuals: tuple[Visual, ...]) -> None:
         self._visuals = visuals
         self._made: tuple[Surface, ...] | None = None
+
+    @property
+    def visuals(self) -> tuple[Visual, ...]:
+        """What the surfaces are made from."""
+        return self._visuals
 
     @property
     def _surfaces(self) -> tuple[Surface, ...]:

@@ -18,6 +18,7 @@ class Wrl(PlainFormat):
     """VRML files, to be read only."""
 
     name = "wrl"
+    title = "VRML"
     suffixes = (".wrl",)
     writable = False
 

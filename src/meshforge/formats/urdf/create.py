@@ -1,98 +1,138 @@
-"""Making a URDF from an asset of another format: a link for each body, an element for each hull."""
+"""Making a URDF from an asset of another format: links and joints, an element for each hull, masses and visuals."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Body, Opaque
+from meshforge.asset import Asset, Opaque, What
 from meshforge.formats.base import Output
 from meshforge.formats.hull_files import HullFiles
+from meshforge.formats.losses import Loss
 from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
-from meshforge.formats.urdf.elements import fresh, mesh_tag, origin_tag
+from meshforge.formats.urdf.chain import Chain, chain_of
+from meshforge.formats.urdf.elements import fresh, mesh_tag
 from meshforge.formats.urdf.made import Maker
+from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
 from meshforge.formats.urdf.slots import settle
+from meshforge.formats.visual_files import VisualFiles, visuals_of
 from meshforge.formats.xml import escaped
-from meshforge.geometry import Pose
+from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
+from meshforge.words import counted, listed
 
 _LEAD = b"    "
-_UNKNOWN = (
-    "masses, joints and visuals are not carried over: links are joined rigidly; without masses PyBullet takes 1 kg a "
-    "link and MuJoCo fixes the root to the world"
-)
+_MESHES = (".obj", ".stl", ".dae")  # what ROS, PyBullet and others read
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
-    Bodies become links at their poses, hulls native shapes or mesh files. Opaque pieces with a surface become meshes
-    as they are; what is left out is noted.
+    Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
+    become native shapes or mesh files, opaque pieces meshes as they are.
     """
-    stem = Path(name).stem
-    maker = Maker(b"", b"\n", HullFiles(stem))
-    slots: dict[str, list[Slot]] = {body.name: [] for body in asset.bodies}
-    for geom in asset.geoms:
-        slots[geom.body].append(maker.slot(geom, asset.body_poses[geom.body], None, _LEAD))
-    for opaque in asset.opaque:
-        slots[opaque.body] += _opaque(opaque, asset.body_poses[opaque.body], maker)
-    names = settle([slot for own in slots.values() for slot in own])
-    root, joints = _joints(asset.bodies)
-    links = [_link(link, slots.get(link, [])) for link in (slots if root in slots else [root, *slots])]
-    head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escaped(stem)]
-    main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
-    return Output(main, dict(maker.files.made), notes=(*maker.notes, _UNKNOWN), names=names)
+    return _Creator(asset, Path(name).stem).output()
 
 
-def _opaque(opaque: Opaque, root_t_link: Pose, maker: Maker) -> list[Slot]:
-    """The element of an opaque piece; none, with a note, where it has no surface, or a flat one that engines refuse."""
-    surface = opaque.surface
-    if surface is None or not len(surface.faces) or is_flat(surface.vertices):
-        maker.notes.append(f"opaque {opaque.name!r} is left out: {opaque.reason}")
-        return []
-    vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
-    tag = mesh_tag(maker.files.add(opaque.name, "", vertices, surface.faces))
-    maker.notes.append(f"opaque {opaque.name!r} is written as a mesh, of which engines take the convex hull")
-    return [Slot(opaque.body, (opaque.name,), text=fresh(Pose.identity(), tag, _LEAD, b"\n"))]
+class _Creator:
+    def __init__(self, asset: Asset, stem: str) -> None:
+        self.asset, self.stem = asset, stem
+        self.maker = Maker(b"", b"\n", HullFiles(stem))
+        self.visuals = VisualFiles(self.maker.files, _MESHES)
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.lost: list[Loss] = []
+        shown = visuals_of(asset)
+        self.visuals.gather(shown)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
+        bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
+        self.chain: Chain = chain_of(asset, bare)
+        self.slots = self._slots()
+        self.shown = {link: self._visuals(link) for link in self.chain.frames}
 
+    def output(self) -> Output:
+        names = settle([slot for own in self.slots.values() for slot in own])
+        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escaped(self.stem)]
+        links = [line for link in self.chain.frames for line in self._link(link)]
+        joints = [line for joint in self.chain.joints for line in joint_element(joint)]
+        main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
+        if self.visuals.refused:
+            refused = tuple(dict.fromkeys(self.visuals.refused))
+            self.lost.append(Loss(What.VISUALS, refused, "their files cannot be read"))
+        lost = (*self.chain.lost, *self.lost)
+        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._notes(), names, lost)
 
-def _joints(bodies: Sequence[Body]) -> tuple[str, list[bytes]]:
-    """The name of the root link, and fixed joints from it to all others.
+    def _slots(self) -> dict[str, list[Slot]]:
+        slots: dict[str, list[Slot]] = {link: [] for link in self.chain.frames}
+        for geom in self.asset.geoms:
+            link = self.chain.of_body[geom.body]
+            slots[link].append(self.maker.slot(geom, self.chain.frames[link], None, _LEAD))
+        for piece in self.asset.opaque:
+            link = self.chain.of_body[piece.body]
+            slots[link] += self._opaque(piece, self.chain.frames[link])
+        return slots
 
-    The root is the first body that is in the root frame, else a link of its own.
-    """
-    identity = [b.name for b in bodies if _is_identity(b.pose)]
-    root = identity[0] if identity else _free_name({b.name for b in bodies})
-    return root, [_joint(root, body) for body in bodies if body.name != root]
+    def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The element of an opaque piece; none where it has no surface, or a flat one, which engines refuse."""
+        surface = piece.surface
+        if surface is None or piece.plane is not None:
+            return []
+        if not len(surface.faces) or is_flat(surface.vertices):
+            self.lost.append(Loss(What.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
+            return []
+        vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
+        tag = mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=fresh(Pose.identity(), tag, _LEAD, b"\n"))]
 
+    def _visuals(self, link: str) -> list[bytes]:
+        lines = []
+        for body, visual in visuals_of(self.asset):
+            if self.chain.of_body[body] == link:
+                shown = self.visuals.shown(body, visual, self.chain.frames[link])
+                if shown is not None:
+                    lines += visual_element(shown, self._mesh_of(body, shown.what))
+        return lines
 
-def _is_identity(pose: Pose) -> bool:
-    return np.array_equal(pose.rotation, np.eye(3)) and not pose.translation.any()
+    def _mesh_of(self, body: str, shape: Shape | str) -> str | None:
+        """The file of a shown shape that URDF lacks."""
+        if isinstance(shape, str | Box | Cylinder | Sphere):
+            return None
+        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
 
+    def _link(self, link: str) -> list[bytes]:
+        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
+        inertial = self.inertials.get(body) if body else LIGHT if link in self.chain.light else None
+        frame = self.chain.frames[link] if body else Pose.identity()
+        inside = inertial_element(inertial, frame) if inertial else []
+        inside += [*self.shown[link], *(_LEAD + slot.written(b"") for slot in self.slots[link])]
+        if not inside:
+            return [b'  <link name="%s"/>' % escaped(link)]
+        return [b'  <link name="%s">' % escaped(link), *inside, b"  </link>"]
 
-def _free_name(taken: set[str]) -> str:
-    name, number = "base", 2
-    while name in taken:
-        name, number = f"base_{number}", number + 1
-    return name
+    def _notes(self) -> tuple[str, ...]:
+        """What engines make of what is not told in the file."""
+        notes = list(self.chain.notes)
+        opaque = [
+            name for slots in self.slots.values() for slot in slots for name in slot.names if self._is_opaque(name)
+        ]
+        if opaque:
+            notes.append(f"of opaque pieces ({listed(opaque, 3)}) engines take the convex hull")
+        unlimited = [
+            j.name for j in self.chain.joints if j.joint and j.joint.kind == "prismatic" and not j.joint.limits
+        ]
+        if unlimited:
+            notes.append(
+                f"prismatic joints without limits ({listed(unlimited, 3)}) are limited to {ENDLESS:g} m each way"
+            )
+        if self.chain.light:
+            notes.append(f"{counted(len(self.chain.light), 'link')} of {LIGHT.mass:g} kg between joints of one body")
+        weightless = [link for link, slots in self.slots.items() if slots and link not in self.inertials]
+        if weightless:
+            notes.append(
+                f"{counted(len(weightless), 'link')} without a mass ({listed(weightless, 3)}): PyBullet takes 1 kg, "
+                "MuJoCo computes it from the hulls"
+            )
+        return tuple(notes)
 
-
-def _joint(root: str, body: Body) -> bytes:
-    name = escaped(body.name)
-    lines = [
-        b'  <joint name="%s_fixed" type="fixed">' % name,
-        b"    " + origin_tag(body.pose),
-        b'    <parent link="%s"/>' % escaped(root),
-        b'    <child link="%s"/>' % name,
-        b"  </joint>",
-    ]
-    return b"\n".join(lines)
-
-
-def _link(name: str, slots: Sequence[Slot]) -> bytes:
-    if not slots:
-        return b'  <link name="%s"/>' % escaped(name)
-    inside = [_LEAD + slot.written(b"") for slot in slots]
-    return b"\n".join([b'  <link name="%s">' % escaped(name), *inside, b"  </link>"])
+    def _is_opaque(self, name: str) -> bool:
+        return any(piece.name == name for piece in self.asset.opaque)

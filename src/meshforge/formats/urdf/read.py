@@ -49,7 +49,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         geoms=_geoms(authored, parts),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
         opaque=_opaque(authored, parts),
-        visuals=read_visuals(links.elements, links.poses, resolver, where),
+        visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
         notes=(*_notes(robot, links), *_empty(authored, found)),

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
-from meshforge.asset import Asset
+from meshforge.asset import Asset, Feature, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.urdf.create import create_urdf
 from meshforge.formats.urdf.document import UrdfDocument
+from meshforge.formats.urdf.features import COULD, HOLDS, features_of
 from meshforge.formats.urdf.read import read_urdf
 from meshforge.formats.urdf.write import write_urdf
 
@@ -19,6 +21,11 @@ class UrdfFormat(Format):
 
     name: ClassVar[str] = "urdf"
     suffixes: ClassVar[tuple[str, ...]] = (".urdf",)
+    title: ClassVar[str] = "URDF"
+    up: ClassVar[Literal["y", "z"] | None] = "z"
+    holds: ClassVar[frozenset[What]] = HOLDS
+    could: ClassVar[frozenset[What]] = COULD
+    instead: ClassVar[Mapping[What, str]] = {What.CAPSULES: "written as hulls", What.ELLIPSOIDS: "written as hulls"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_urdf(path, options)
@@ -30,3 +37,6 @@ class UrdfFormat(Format):
 
     def create(self, asset: Asset, name: str) -> Output:
         return create_urdf(asset, name)
+
+    def features(self, asset: Asset) -> Iterable[Feature]:
+        return features_of(asset.document) if isinstance(asset.document, UrdfDocument) else ()

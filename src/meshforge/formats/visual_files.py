@@ -1,0 +1,124 @@
+"""The visuals of an asset for a format that shows mesh files: copied as they are where it reads them, else as OBJs."""
+
+from __future__ import annotations
+
+import os
+import posixpath
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.asset import Asset, Surface
+from meshforge.errors import MeshForgeError
+from meshforge.formats.companions import companions
+from meshforge.formats.hull_files import HullFiles
+from meshforge.formats.meshfile import joined
+from meshforge.formats.triangles import read_triangles
+from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
+from meshforge.geometry import Floats, Pose, Shape
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Shown:
+    """A visual in the frame of its link: a shape, or a mesh file under a pose and scales (3,), one negative at most."""
+
+    what: Shape | str
+    pose: Pose
+    scale: Floats
+    rgba: Rgba | None
+
+
+def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
+    """What each body shows; what belongs to none is shown by the first."""
+    first = asset.bodies[0].name if asset.bodies else ""
+    found = asset.visuals.visuals if isinstance(asset.visuals, LazySurfaces) else asset.visuals
+    return [(visual.body or first, visual) for visual in found]
+
+
+@dataclass(slots=True)
+class VisualFiles:
+    """Collects the files; suffixes: of mesh files that the format reads, lower case.
+
+    copies: by their place beside the main file; refused: bodies whose visual cannot be read.
+    """
+
+    files: HullFiles
+    suffixes: tuple[str, ...]
+    copies: dict[str, Path] = field(default_factory=dict)
+    refused: list[str] = field(default_factory=list)
+    _base: Path | None = None
+    _made: dict[Path, str | None] = field(default_factory=dict)
+
+    def gather(self, visuals: Iterable[tuple[str, Visual | Surface]]) -> None:
+        """Find the folder that holds all mesh files with what they need beside them; it becomes one of the output."""
+        paths = {v.what for _, v in visuals if isinstance(v, Visual) and isinstance(v.what, Path)}
+        beside = {path for mesh in paths for path in companions(mesh).values()}
+        if paths:
+            self._base = Path(os.path.commonpath([path.parent for path in (*paths, *beside)]))
+
+    def shown(self, body: str, visual: Visual | Surface, root_t_link: Pose) -> Shown | None:
+        """A visual as it is to be written; None where its file cannot be read."""
+        link_t_root = root_t_link.inverse()
+        if isinstance(visual, Surface):
+            reference = self.files.add(f"{body}-visual", "", link_t_root.apply(visual.vertices), visual.faces)
+            return Shown(reference, Pose.identity(), np.ones(3), None)
+        moved = visual.moved(link_t_root)
+        if isinstance(moved.what, Shape):
+            return Shown(moved.what, Pose.identity(), np.ones(3), moved.rgba)
+        split = _split(moved.linear)
+        if split is None:
+            return self._baked(body, moved)
+        file = self._placed(moved.what)
+        if file is None:
+            self.refused.append(body)
+            return None
+        return Shown(file, Pose(split[0], moved.offset), split[1], moved.rgba)
+
+    def _placed(self, mesh: Path) -> str | None:
+        """The reference to a mesh file in the output."""
+        if mesh not in self._made:
+            self._made[mesh] = self._copied(mesh) if mesh.suffix.lower() in self.suffixes else self._converted(mesh)
+        return self._made[mesh]
+
+    def _copied(self, mesh: Path) -> str:
+        place = self._place(mesh)
+        self.copies[place] = mesh
+        for key, path in companions(mesh).items():
+            self.copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), path)
+        return place
+
+    def _place(self, mesh: Path) -> str:
+        assert self._base is not None  # `gather` saw the file
+        return f"{self.files.stem}--visuals/{mesh.relative_to(self._base).as_posix()}"
+
+    def _converted(self, mesh: Path) -> str | None:
+        """An OBJ of a file of another kind; None where it cannot be read."""
+        try:
+            soup = joined(read_triangles(mesh))
+        except MeshForgeError:
+            return None
+        return self.files.add(f"{mesh.stem}-visual", "", soup.vertices, soup.faces)
+
+    def _baked(self, body: str, visual: Visual) -> Shown | None:
+        """An OBJ of a visual under a map that shears."""
+        surfaces = visual.surfaces()
+        if not surfaces:
+            self.refused.append(body)
+            return None
+        starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
+        faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
+        reference = self.files.add(f"{body}-visual", "", np.concatenate([s.vertices for s in surfaces]), faces)
+        return Shown(reference, Pose.identity(), np.ones(3), visual.rgba)
+
+
+def _split(linear: Floats) -> tuple[Floats, Floats] | None:
+    """A map as a rotation (3, 3) after scales (3,), the last negative for a reflection; None where it shears."""
+    scale = np.linalg.norm(linear, axis=0)
+    if not scale.all():
+        return None
+    if np.linalg.det(linear) < 0:
+        scale[2] = -scale[2]
+    rotation = linear / scale
+    return (rotation, scale) if np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-9 else None
