@@ -77,12 +77,14 @@ def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
     """The names that geoms read as; for each, in MuJoCo's order, the name of its body and its own, empty without one.
 
     `body/name`, or `body/geomK` for the K-th geom of a body, visual ones counted too: so a name does not depend on
-    contact bits, which a default class may set.
+    contact bits, which a default class may set. A name that begins with `body/` is the whole name: in MuJoCo names are
+    unique in the model, so an edit names a geom so where its plain name is another body's geom's already.
     """
     count: dict[str, int] = {}
     names = []
     for body, name in geoms:
-        names.append(f"{body}/{name or 'geom' + str(count.get(body, 0))}")
+        tail = name.removeprefix(f"{body}/") or f"geom{count.get(body, 0)}"
+        names.append(f"{body}/{tail}")
         count[body] = count.get(body, 0) + 1
     return unique_names(names)
 
