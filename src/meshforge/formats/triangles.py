@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from meshforge.errors import AssetError
+from meshforge.formats.lookalike import refuse_lookalike
 from meshforge.formats.meshfile import RawSurface, joined
 from meshforge.geometry import Piece, pieces
 
@@ -22,11 +23,15 @@ def read_triangles(path: Path) -> list[RawSurface]:
 
 
 def contents(path: Path) -> bytes:
-    """The bytes of a file. Raises AssetError: it is not there, or may not be read."""
+    """The bytes of a file. Raises AssetError: not there, may not be read, no regular file, or plainly of another kind."""
     try:
-        return path.read_bytes()
+        if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
+            raise AssetError("this is a folder, a pipe or a device, not a file", where=str(path))
+        data = path.read_bytes()
     except OSError as error:
         raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    refuse_lookalike(data, path)
+    return data
 
 
 def surfaces_in(data: bytes, path: Path) -> list[RawSurface]:

@@ -140,7 +140,7 @@ def test_a_folder_without_meshes_is_no_asset(tmp_path: Path) -> None:
 
 def test_a_broken_file_in_a_folder_is_named(folder: Path) -> None:
     (folder / "hull_2.stl").write_bytes(b"")
-    with pytest.raises(AssetError, match=r"hull_2\.stl: this is no STL file"):
+    with pytest.raises(AssetError, match=r"hull_2\.stl: the file is empty"):
         read(folder)
 
 

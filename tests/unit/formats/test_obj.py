@@ -99,9 +99,9 @@ BROKEN = {
     "a word for a corner": (vertex_lines(box()) + "f a b c\n", "a.obj:9: a face needs vertex numbers"),
     "not a number": (vertex_lines(box()).replace("v 1 1 1", "v 1 nan 1") + quad_lines(1), "not a finite number"),
     "infinite": (vertex_lines(box()).replace("v 1 1 1", "v 1 1 1e999") + quad_lines(1), "not a finite number"),
-    "nothing": ("", "there is no triangle in this file"),
+    "nothing": ("", "the file is empty"),
     "no faces": (vertex_lines(box()), "there is no triangle in this file"),
-    "bytes": (bytes(range(256)) * 9, "there is no triangle in this file"),
+    "bytes": (bytes(range(256)) * 9, "this is no OBJ file"),
 }
 
 

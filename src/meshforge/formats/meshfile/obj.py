@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import itertools
 import re
 from dataclasses import dataclass
@@ -9,11 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, Soup, checked
+from meshforge.formats.meshfile.surface import RawSurface, Soup, checked, is_number, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
 Group = tuple[str, str]
 """The object (`o`) and the group (`g`) that a face is in; an empty text where there is none."""
+_STATEMENTS = frozenset((b"v", b"vn", b"vt", b"vp", b"f", b"fo", b"l", b"p", b"o", b"g", b"s", b"mtllib", b"usemtl"))
+_SHOWN = 60  # characters of a statement in a message
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -46,8 +49,8 @@ class ObjText:
 
 
 def statements_of(data: bytes) -> list[bytes]:
-    """The statements of an OBJ file, line ends included."""
-    lines = data.splitlines(keepends=True)
+    """The statements of an OBJ file, line ends included, without a byte order mark."""
+    lines = data.removeprefix(codecs.BOM_UTF8).splitlines(keepends=True)
     if b"\\\n" not in data and b"\\\r" not in data:
         return lines
     joined: list[bytes] = []
@@ -77,6 +80,7 @@ def parse_obj(data: bytes, where: str) -> ObjText:
     """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
     statements = statements_of(data)
     words = [keyword(s) for s in statements]
+    _refuse_others(statements, words, where)
     vertex_at = np.array([k for k, word in enumerate(words) if word == b"v"], dtype=np.int64)
     vertices = _vertices(statements, vertex_at, where)
     face_at, faces = _faces(statements, words, vertex_at, where)
@@ -114,19 +118,25 @@ def arguments(statement: bytes) -> list[bytes]:
     return statement.split(b"#", 1)[0].split()[1:]
 
 
+def _refuse_others(statements: list[bytes], words: list[bytes], where: str) -> None:
+    """Raise AssetError where no statement of a file is one of OBJ."""
+    first = next((k for k, word in enumerate(words) if word and word[:1] != b"#"), None)
+    if first is None:
+        raise AssetError("the file holds no statement", where=where)
+    if _STATEMENTS.isdisjoint(words):
+        raise _error(f"this is no OBJ file: it begins with {_quoted(statements[first])}", statements, first, where)
+
+
 def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
     rows = [arguments(statements[k])[:3] for k in at]
     try:
+        if any(b"_" in word for row in rows for word in row):  # Python's own digit separators, which no one else reads
+            raise ValueError
         return np.array([[float(x) for x in row] for row in rows], dtype=np.float64).reshape(len(rows), 3)
     except ValueError:
-        for k, row in zip(at, rows, strict=True):
-            if len(row) < 3 or not all(map(_is_number, row)):
-                raise _error("a vertex needs three numbers", statements, int(k), where) from None
-        raise
-
-
-def _is_number(word: bytes) -> bool:
-    return re.fullmatch(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf)\w*", word, re.IGNORECASE) is not None
+        k = next(int(k) for k, row in zip(at, rows, strict=True) if len(row) < 3 or not all(map(is_number, row)))
+        problem = f"a vertex needs three numbers, here is {_quoted(statements[k])}"
+        raise _error(problem, statements, k, where, remedy_for(arguments(statements[k]))) from None
 
 
 def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
@@ -138,9 +148,12 @@ def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: 
         if word not in (b"f", b"fo"):
             continue
         try:
+            if b"_" in statements[k]:
+                raise ValueError
             corners = [int(w.partition(b"/")[0]) for w in arguments(statements[k])]
         except ValueError:
-            raise _error("a face needs vertex numbers", statements, k, where) from None
+            problem = f"a face needs vertex numbers, here is {_quoted(statements[k])}"
+            raise _error(problem, statements, k, where) from None
         indices = [c - 1 if c > 0 else int(before[k]) + c for c in corners]
         for corner, index in zip(corners, indices, strict=True):
             if corner == 0 or not 0 <= index < len(vertex_at):
@@ -169,8 +182,14 @@ def _groups(statements: list[bytes], words: list[bytes]) -> tuple[list[Group], I
 def name_in(statement: bytes) -> str:
     """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
     rest = statement.strip()[1:].strip()
-    return rest.decode("utf-8", errors="surrogateescape")
+    return text_of(rest)
 
 
-def _error(problem: str, statements: list[bytes], index: int, where: str) -> AssetError:
-    return AssetError(problem, where=f"{where}:{line_of(statements, index)}")
+def _quoted(statement: bytes) -> str:
+    """A statement as messages show it, of a long one the beginning."""
+    text = text_of(statement.strip())
+    return repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}...")
+
+
+def _error(problem: str, statements: list[bytes], index: int, where: str, remedy: str | None = None) -> AssetError:
+    return AssetError(problem, where=f"{where}:{line_of(statements, index)}", remedy=remedy)

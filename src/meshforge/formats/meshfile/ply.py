@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,9 +12,11 @@ import numpy.typing as npt
 
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.ply_header import Element, Header, parse_header
-from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.formats.meshfile.surface import RawSurface, checked, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
+_SHOWN = 60  # characters of a row in a message
+NEWLINE = b"\n"
 INDICES = ("vertex_indices", "vertex_index")
 """The names under which files keep the corners of a face."""
 
@@ -55,12 +58,30 @@ def parse_ply(data: bytes, where: str) -> PlyText:
             raise _cut_short(element, where)
         try:
             rows.append((_binary if header.order else _ascii)(data, at, element, header.order))
+        except _OddRowError as odd:
+            raise odd.told(element, data, where) from None
         except (ValueError, IndexError):
             raise _cut_short(element, where) from None
         at = int(rows[-1].spans[-1, 1]) if element.rows else at
     vertices = _vertices(rows, where)
     faces, face_at = _faces(rows, len(vertices), where)
     return PlyText(header, tuple(rows), vertices, faces, face_at)
+
+
+class _OddRowError(Exception):
+    """A row of an ASCII file that is not as its element says: its number, its place in the file, its text."""
+
+    def __init__(self, row: int, at: int, text: bytes) -> None:
+        super().__init__(row)
+        self.row, self.at, self.text = row, at, text
+
+    def told(self, element: Element, data: bytes, where: str) -> AssetError:
+        if not self.text.strip():
+            return _cut_short(element, where)
+        place = f"{where}:{data.count(NEWLINE, 0, self.at) + 1}"
+        shown = text_of(self.text.strip())[:_SHOWN]
+        problem = f"row {self.row} of {element.name} is cut short or damaged: {shown!r}"
+        return AssetError(problem, where=place, remedy=remedy_for(self.text.split()))
 
 
 def _cut_short(element: Element, where: str) -> AssetError:
@@ -72,22 +93,36 @@ def _ascii(data: bytes, at: int, element: Element, _: str) -> Rows:
     spans = np.empty((element.rows, 2), dtype=np.int64)
     read: list[list[float]] = []
     for k in range(element.rows):
-        stop = data.find(b"\n", at)
-        stop = len(data) if stop < 0 else stop + 1
+        stop = _end_of_line(data, at)
+        while element.properties and stop < len(data) and not data[at:stop].strip():  # blank lines between rows
+            at, stop = stop, _end_of_line(data, stop)
         spans[k] = at, stop
-        read.append([float(word) for word in data[at:stop].split()])
+        try:
+            read.append([float(word) for word in data[at:stop].split()])
+        except ValueError:
+            raise _OddRowError(k, at, data[at:stop]) from None
         at = stop
     values: dict[str, Any] = {p.name: [] for p in element.properties}
-    for row in read:
+    for k, row in enumerate(read):
         place = 0
         for p in element.properties:
-            length = int(row[place]) if p.count else 1
+            length = _whole(row[place : place + 1]) if p.count else 1
             place += 1 if p.count else 0
             if length < 0 or place + length > len(row):
-                raise ValueError(row)
+                raise _OddRowError(k, int(spans[k, 0]), data[slice(*spans[k])])
             values[p.name].append(row[place : place + length] if p.count else row[place])
             place += length
     return Rows(element, spans, values)
+
+
+def _end_of_line(data: bytes, at: int) -> int:
+    stop = data.find(b"\n", at)
+    return len(data) if stop < 0 else stop + 1
+
+
+def _whole(values: Sequence[float]) -> int:
+    """The one value, -1 where there is none, or one that is no whole number."""
+    return int(values[0]) if len(values) and float(values[0]).is_integer() else -1
 
 
 def _binary(data: bytes, at: int, element: Element, order: str) -> Rows:
@@ -128,9 +163,11 @@ def _one_by_one(data: bytes, at: int, element: Element, order: str) -> Rows:
         for p in element.properties:
             length = 1
             if p.count:
-                length = int(np.frombuffer(data, order + p.count, 1, at)[0])
+                length = _whole(np.frombuffer(data, order + p.count, 1, at).tolist())
+                if length < 0:
+                    raise ValueError(length)
                 at += np.dtype(p.count).itemsize
-            read = np.frombuffer(data, order + p.type, max(length, 0), at) if length else np.zeros(0)
+            read = np.frombuffer(data, order + p.type, length, at) if length else np.zeros(0)
             at += length * np.dtype(p.type).itemsize
             values[p.name].append(read if p.count else read[0])
         spans[k] = start, at
@@ -140,7 +177,9 @@ def _one_by_one(data: bytes, at: int, element: Element, order: str) -> Rows:
 def _vertices(rows: list[Rows], where: str) -> Floats:
     found = next((r for r in rows if r.element.name == "vertex"), None)
     if found is None or not all(axis in found.values for axis in "xyz"):
-        raise AssetError("there are no vertices in this file", where=where)
+        raise AssetError("there are no vertices with x, y and z in this file", where=where)
+    if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
+        raise AssetError("its coordinates are lists, not numbers", where=where)
     return np.column_stack([np.asarray(found.values[axis], dtype=np.float64) for axis in "xyz"]).reshape(-1, 3)
 
 
@@ -148,14 +187,20 @@ def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
     """Triangles (m, 3) and the row of each (m,)."""
     found = next((r for r in rows if r.element.name == "face"), None)
     key = next((k for k in INDICES if found and k in found.values), None)
+    if found is None and any(r.element.name == "tristrips" for r in rows):
+        raise AssetError("its faces are triangle strips, which are not read", where=where, remedy="Export triangles.")
+    if found is not None and key is None:
+        raise AssetError(f"its faces have no list {' or '.join(INDICES)}", where=where)
     if found is None or key is None:
         return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
     at: list[int] = []
     triangles: list[tuple[int, int, int]] = []
     for k, corners in enumerate(found.values[key]):
+        if not all(0 <= c < count and c == int(c) for c in corners):
+            names = ", ".join(f"{c:g}" for c in corners[:8])
+            problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
+            raise AssetError(problem, where=where)
         indices = [int(c) for c in corners]
-        if indices and not (min(indices) >= 0 and max(indices) < count):
-            raise AssetError(f"face {k} names a vertex that is not there, the file has {count}", where=where)
         for second, third in itertools.pairwise(indices[1:]):
             at.append(k)
             triangles.append((indices[0], second, third))

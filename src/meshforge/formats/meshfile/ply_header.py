@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ TYPES = {
     **{"double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
     **{"float32": "f4", "float64": "f8"},
 }
+_SHOWN = 60  # characters of a line in a message
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -48,9 +50,13 @@ class Header:
 
 def parse_header(data: bytes, where: str) -> Header:
     """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
-    end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
-    if data[:3] != b"ply" or end is None:
+    if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
         raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
+    end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
+    if end is None and re.search(rb"\rend_header\r", data):
+        raise AssetError("its lines end in CR alone", where=where, remedy="Convert its line ends, or export it again.")
+    if end is None:
+        raise AssetError("the file is cut short: its header does not end", where=where, remedy="Export it again.")
     order: str | None = None
     elements: list[Element] = []
     for number, line in enumerate(data[: end.start()].splitlines(), start=1):
@@ -62,20 +68,22 @@ def parse_header(data: bytes, where: str) -> Header:
                 case ["element", name, rows]:
                     elements.append(Element(name, _count(rows), ()))
                 case ["property", *rest]:
-                    last = elements.pop()
-                    elements.append(Element(last.name, last.rows, (*last.properties, _property(rest))))
+                    last, made = elements.pop(), _property(rest)
+                    if any(p.name == made.name for p in last.properties):
+                        raise ValueError(made.name)
+                    elements.append(Element(last.name, last.rows, (*last.properties, made)))
         except (KeyError, IndexError, ValueError):
-            raise AssetError("this line of the header makes no sense", where=f"{where}:{number}") from None
+            shown = " ".join(words)[:_SHOWN]
+            raise AssetError(f"this line of the header makes no sense: {shown!r}", where=f"{where}:{number}") from None
     if order is None:
         raise AssetError("the header names no format", where=where)
     return Header(end.end(), order, tuple(elements))
 
 
 def _count(text: str) -> int:
-    rows = int(text)
-    if rows < 0:
+    if not text.isdecimal():
         raise ValueError(text)
-    return rows
+    return int(text)
 
 
 def _property(words: list[str]) -> Property:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import dataclass
 
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.formats.meshfile.surface import RawSurface, checked, is_number, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
 HEADER = 84  # bytes before the first triangle of a binary file: 80 of text, 4 of count
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_AGAIN = "Export it again."
+_TEXT = 200  # bytes at the start of a file, beyond the title of a binary one, that tell text from numbers
 _FACET = re.compile(rb"facet\b.*?\bendfacet\b[^\S\n]*\n?", re.S | re.I)
 _SOLID = re.compile(rb"^[^\S\n]*solid\b[^\S\n]*([^\r\n]*)", re.M | re.I)
+_OPENED = re.compile(rb"\bfacet\s+normal\b", re.I)
+_TITLE = re.compile(rb"^[^\S\n]*(?:end)?solid\b[^\r\n]*", re.M | re.I)
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.I)
 
 
@@ -49,17 +54,26 @@ def _in_order(corners: Floats) -> Ints:
 def parse_stl(data: bytes, where: str) -> StlText:
     """An STL file taken apart. Raises AssetError: cut short, or not an STL file."""
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
-    size = HEADER + count * RECORD.itemsize
-    text = data.lstrip()[:5].lower() == b"solid"
-    if count >= 0 and (size == len(data) or (size < len(data) and not text)):
+    room = (len(data) - HEADER) // RECORD.itemsize
+    text = _is_text(data)
+    if 0 <= count <= room and (not text or len(data) == HEADER + count * RECORD.itemsize):
+        if count == 0 and room > 0:
+            raise AssetError(f"it says it has no triangle, yet {room} may follow", where=where, remedy=_AGAIN)
         return _binary(data, count)
     if text:
         return _ascii(data, where)
-    if count < 0:
-        raise AssetError("this is no STL file", where=where, remedy="Export it again.")
-    room = (len(data) - HEADER) // RECORD.itemsize
-    problem = f"the file is cut short: it says {count} triangles and holds {room}"
-    raise AssetError(problem, where=where, remedy="Export it again.")
+    if count < 0 or _is_prose(data[:HEADER]):
+        raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
+    raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
+
+
+def _is_text(data: bytes) -> bool:
+    """Whether a file begins as a text; the title of a binary one may say `solid` too, the numbers behind it do not."""
+    return data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data[:_TEXT]
+
+
+def _is_prose(head: bytes) -> bool:
+    return all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in head)
 
 
 def _binary(data: bytes, count: int) -> StlText:
@@ -70,20 +84,27 @@ def _binary(data: bytes, count: int) -> StlText:
 
 
 def _ascii(data: bytes, where: str) -> StlText:
-    solids = [(m.start(), m[1].strip().decode("utf-8", "surrogateescape")) for m in _SOLID.finditer(data)]
+    solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
     facets = list(_FACET.finditer(data))
     numbers: list[tuple[bytes, ...]] = []
     for facet in facets:
         found = _VERTEX.findall(facet[0])
         if len(found) != 3:
-            raise AssetError("a facet needs three vertices", where=f"{where}:{_line(data, facet.start())}")
+            whole = len(re.findall(rb"\bvertex\b", facet[0], re.I)) == 3
+            problem = "a vertex needs three numbers" if whole else "a facet needs three vertices"
+            raise AssetError(problem, where=f"{where}:{_line(data, facet.start())}")
         numbers += found
-    if len(re.findall(rb"\bfacet\s+normal\b", data, re.I)) > len(facets):
-        raise AssetError("the file is cut short: a facet does not end", where=where, remedy="Export it again.")
+    if len(_OPENED.findall(_TITLE.sub(b"", data))) > len(facets):
+        raise AssetError("the file is cut short: a facet does not end", where=where, remedy=_AGAIN)
     try:
         corners = np.array([[float(x) for x in row] for row in numbers], dtype=np.float64).reshape(-1, 3, 3)
-    except ValueError as error:
-        raise AssetError(f"a coordinate is not a number ({error})", where=where) from None
+        if any(b"_" in x for row in numbers for x in row):  # Python's own digit separators, which no one else reads
+            raise ValueError
+    except ValueError:
+        k = next(k for k, row in enumerate(numbers) if not all(map(is_number, row)))
+        line = _line(data, facets[k // 3].start())
+        problem = f"a vertex needs three numbers, here is {text_of(b' '.join(numbers[k]))!r}"
+        raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(numbers[k])) from None
     spans = np.array([f.span() for f in facets], dtype=np.int64).reshape(-1, 2)
     solid = np.searchsorted([start for start, _ in solids], spans[:, 0], side="right") - 1
     return StlText(corners, spans, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)

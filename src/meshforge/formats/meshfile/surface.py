@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -10,6 +11,11 @@ import numpy as np
 
 from meshforge.errors import AssetError
 from meshforge.geometry import Floats, Ints
+from meshforge.words import counted
+
+_NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
+FARTHEST = 1e15
+"""The largest coordinate that is read: farther out, doubles are coarser than a decimetre, and volumes overflow."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -28,16 +34,24 @@ class RawSurface:
 def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     """The surfaces that have triangles.
 
-    Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite.
+    Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite or
+    so large that its square is none.
     """
+    surfaces = list(surfaces)
     found = [s for s in surfaces if len(s.faces)]
     if not found:
-        raise AssetError("there is no triangle in this file", where=where)
+        points = max((len(s.vertices) for s in surfaces), default=0)
+        holds = f", only {counted(points, 'vertex', 'vertices')}" if points else ""
+        raise AssetError(f"there is no triangle in this file{holds}", where=where, remedy="Export it with its faces.")
     for surface in found:
         if surface.faces.min() < 0 or surface.faces.max() >= len(surface.vertices):
             raise AssetError("a face names a vertex that is not there", where=where)
-        if not np.isfinite(surface.vertices[np.unique(surface.faces)]).all():
+        used = surface.vertices[np.unique(surface.faces)]
+        if not np.isfinite(used).all():
             raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
+        if (largest := float(np.abs(used).max())) > FARTHEST:
+            remedy = "No mesh is that large: mend or export it again."
+            raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
     return found
 
 
@@ -65,3 +79,22 @@ def joined(surfaces: Sequence[RawSurface]) -> Soup:
     faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
     group = np.repeat(np.arange(len(surfaces)), [len(s.faces) for s in surfaces])
     return Soup(vertices, faces, group, tuple(s.name for s in surfaces))
+
+
+def text_of(name: bytes) -> str:
+    """A name in a mesh file as text: UTF-8, or what is none taken byte by byte, as Windows has it in the west."""
+    try:
+        return name.decode("utf-8")
+    except UnicodeDecodeError:
+        return name.decode("latin-1")
+
+
+def is_number(word: bytes) -> bool:
+    """Whether a word is a decimal number as mesh files have them, `nan` and `inf` included."""
+    return _NUMBER.fullmatch(word) is not None
+
+
+def remedy_for(words: Sequence[bytes]) -> str:
+    """What to do about words that are no numbers."""
+    commas = any(b"," in word for word in words)
+    return "Decimal commas are not read: export it with points." if commas else "Mend or export it again."

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
+
 import numpy as np
 
 from meshforge.errors import AssetError
@@ -11,17 +14,26 @@ from meshforge.geometry import Floats
 
 _SOLIDS = {"Box", "Sphere", "Cylinder", "Cone", "Extrusion", "ElevationGrid"}
 _PARENTS = {"Group", "Transform", "Anchor", "Collision", "Billboard", "Switch", "LOD"}
+_MOST = 100_000  # nodes; USE in USE multiplies them without end
 
 
 def parse_vrml(data: bytes, where: str) -> list[RawSurface]:
     """The surfaces of a VRML 2.0 file. Raises AssetError: not such a file, or shapes that are no face sets."""
     found: list[RawSurface] = []
-    for node in parse_nodes(data.decode("utf-8", "replace"), where):
-        _walk(node, np.eye(4), None, found, where)
+    steps = itertools.count()
+    try:
+        for node in parse_nodes(data.decode("utf-8-sig", "replace"), where):
+            _walk(node, np.eye(4), None, found, steps, where)
+    except ValueError as error:
+        raise AssetError(str(error), where=where, remedy="Export it as OBJ.") from error
     return checked(found, where)
 
 
-def _walk(node: Node, world: Floats, name: str | None, found: list[RawSurface], where: str) -> None:
+def _walk(
+    node: Node, world: Floats, name: str | None, found: list[RawSurface], steps: Iterator[int], where: str
+) -> None:
+    if next(steps) > _MOST:
+        raise AssetError(f"it has more than {_MOST:,} nodes, most by USE", where=where, remedy="Export it as OBJ.")
     name = node.name or name
     if node.type == "Shape":
         for geometry in node.nodes("geometry"):
@@ -30,7 +42,7 @@ def _walk(node: Node, world: Floats, name: str | None, found: list[RawSurface], 
         world = world @ _transform(node) if node.type == "Transform" else world
         for key in ("children", "choice", "level"):
             for child in node.nodes(key):
-                _walk(child, world, name, found, where)
+                _walk(child, world, name, found, steps, where)
 
 
 def _surface(node: Node, world: Floats, name: str | None, where: str) -> list[RawSurface]:
@@ -42,8 +54,13 @@ def _surface(node: Node, world: Floats, name: str | None, where: str) -> list[Ra
     numbers = coordinates[0].numbers("point")
     if len(numbers) % 3:
         raise AssetError("its points are not all of three numbers", where=where)
+    if not np.isfinite(numbers).all():
+        raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
     points = np.array(numbers, dtype=np.float64).reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
-    faces = fans(_polygons([int(x) for x in node.numbers("coordIndex")]))
+    indices = node.numbers("coordIndex")
+    if not all(x.is_integer() for x in indices):
+        raise AssetError("a face names a vertex by a number that is not whole", where=where)
+    faces = fans(_polygons([int(x) for x in indices]))
     return [RawSurface(name, points, faces[:, ::-1] if node.word("ccw") == "FALSE" else faces)]
 
 
@@ -60,11 +77,11 @@ def _polygons(indices: list[int]) -> list[list[int]]:
 
 def _transform(node: Node) -> Floats:
     """The matrix of a Transform: translation, center, rotation, scale orientation, scale."""
-    move = _moved(node.numbers("translation"))
-    center = node.numbers("center")
-    turn = _turned(node.numbers("rotation"))
-    lean = _turned(node.numbers("scaleOrientation"))
-    scale = np.diag([*(node.numbers("scale") or [1.0, 1.0, 1.0]), 1.0])
+    move = _moved(node.vector("translation", 3))
+    center = node.vector("center", 3)
+    turn = _turned(node.vector("rotation", 4))
+    lean = _turned(node.vector("scaleOrientation", 4))
+    scale = np.diag([*(node.vector("scale", 3) or [1.0, 1.0, 1.0]), 1.0])
     back = _moved([-x for x in center])
     return move @ _moved(center) @ turn @ lean @ scale @ lean.T @ back
 

@@ -11,6 +11,7 @@ from meshforge.errors import AssetError
 
 _TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|[{}\[\]]|[^\s,{}\[\]"#]+|#[^\n\r]*')
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|0[xX][0-9a-fA-F]+")
+_OTHER = "Export it as OBJ."
 _DEPTH = 200  # nodes in nodes; beyond, a file is damaged
 
 
@@ -29,6 +30,13 @@ class Node:
     def nodes(self, key: str) -> list[Node]:
         return [x for x in self.fields.get(key, []) if isinstance(x, Node)]
 
+    def vector(self, key: str, size: int) -> list[float]:
+        """The numbers of a field that has so many, none where it is not there. Raises ValueError: it has others."""
+        found = self.numbers(key)
+        if key in self.fields and len(found) != size:
+            raise ValueError(f"the field {key} of a {self.type} needs {size} numbers")
+        return found
+
     def word(self, key: str) -> str | None:
         return next((x for x in self.fields.get(key, []) if isinstance(x, str)), None)
 
@@ -36,7 +44,7 @@ class Node:
 def parse_nodes(text: str, where: str) -> list[Node]:
     """The nodes of a VRML 2.0 file. Raises AssetError: not such a file, cut short, or beyond what is read."""
     if not text.startswith("#VRML V2.0"):
-        raise AssetError("this is no VRML 2.0 file", where=where, remedy="Export it as OBJ.")
+        raise AssetError("this is no VRML 2.0 file", where=where, remedy=_OTHER)
     parser = _Parser([t for t in _TOKEN.findall(text) if t[0] != "#"], where)
     return list(parser.top())
 
@@ -69,13 +77,17 @@ class _Parser:
     def node(self) -> Node:
         word, name = self.take(), None
         if word in ("PROTO", "EXTERNPROTO"):
-            raise AssetError("prototypes are not read", where=self.where, remedy="Export it as OBJ.")
+            raise AssetError("prototypes are not read", where=self.where, remedy=_OTHER)
         if word == "USE":
-            return self.known.get(self.take(), Node("unknown"))
+            return self.used(self.take())
         if word == "DEF":
             name, word = self.take(), self.take()
-        if self.take() != "{" or self.depth > _DEPTH:
-            raise AssetError(f"a node was expected where {word!r} stands", where=self.where)
+        if self.depth > _DEPTH:
+            raise AssetError(f"its nodes are nested more than {_DEPTH} deep", where=self.where)
+        if word == "Inline":
+            raise AssetError("it includes other files (Inline), which are not read", where=self.where, remedy=_OTHER)
+        if self.take() != "{":
+            raise AssetError(f"a node was expected where {word!r} stands", where=self.where, remedy=_OTHER)
         made = Node(word, name)
         self.depth += 1
         while self.peek() != "}":
@@ -86,6 +98,11 @@ class _Parser:
         if name:
             self.known[name] = made
         return made
+
+    def used(self, name: str) -> Node:
+        if name not in self.known:
+            raise AssetError(f"USE {name}: no node of this name comes ahead of it", where=self.where, remedy=_OTHER)
+        return self.known[name]
 
     def value(self) -> list[Any]:
         if self.peek() == "[":

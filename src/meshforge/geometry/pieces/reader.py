@@ -126,6 +126,8 @@ class Reader:
         if whole.verdict.shape is not None and is_simple(corners):
             return [whole]
         proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
+        if len(proper) == 0:
+            return []
         inward = volume_and_centroid(self.points, corners)[0] < 0
         component = by_edges(self.points, corners[proper], inward)
         parts = self._with_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
