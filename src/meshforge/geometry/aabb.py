@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +31,8 @@ class Aabb:
     @staticmethod
     def union(boxes: Iterable[Aabb]) -> Aabb:
         """The smallest box around all boxes, of which there is at least one."""
-        boxes = list(boxes)
-        return Aabb(np.min([b.min for b in boxes], axis=0), np.max([b.max for b in boxes], axis=0))
+        low, high = bounds(list(boxes))
+        return Aabb(low.min(axis=0), high.max(axis=0))
 
     @property
     def center(self) -> Floats:
@@ -52,3 +52,9 @@ class Aabb:
     def corners(self) -> Floats:
         """The eight corners (8, 3)."""
         return np.array(list(itertools.product(*zip(self.min, self.max, strict=True))))
+
+
+def bounds(boxes: Sequence[Aabb]) -> tuple[Floats, Floats]:
+    """The lowest corners (n, 3) of n boxes, at least one, and the highest."""
+    low, high = np.concatenate([box.min for box in boxes]), np.concatenate([box.max for box in boxes])
+    return low.reshape(-1, 3), high.reshape(-1, 3)

@@ -44,7 +44,7 @@ class SymbolicMesh:
         """The box around all hulls, None where there is none."""
         return Aabb.union(h.aabb for h in self.hulls) if self.hulls else None
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
         """The diagonal of the AABB of all hulls [m], 0 where there is none."""
         return self.aabb.diagonal if self.aabb else 0.0
@@ -63,7 +63,8 @@ class SymbolicMesh:
     @cached_property
     def contacts(self) -> frozenset[tuple[int, int]]:
         """The pairs (i, j), i < j, of hulls in contact."""
-        return frozenset(pair for pair, gap in self.graph.items() if gap <= self.contact_distance)
+        reach = self.contact_distance
+        return frozenset(pair for pair, gap in self.graph.items() if gap <= reach)
 
     @cached_property
     def adjacency(self) -> tuple[int, ...]:
@@ -81,7 +82,8 @@ class SymbolicMesh:
     @property
     def near_misses(self) -> tuple[tuple[int, int, float], ...]:
         """Pairs apart, yet within three times the contact distance, with their distance [m], nearest first."""
-        apart = [(i, j, gap) for (i, j), gap in self.graph.items() if gap > self.contact_distance]
+        reach = self.contact_distance
+        apart = [(i, j, gap) for (i, j), gap in self.graph.items() if gap > reach]
         return tuple(sorted(apart, key=lambda row: (row[2], row[0], row[1])))
 
     @cached_property
