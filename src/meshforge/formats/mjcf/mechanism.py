@@ -44,6 +44,7 @@ def _joint(reading: Reading, k: int, parent: str, child: str) -> Joint:
         limits,
         damping=float(np.ravel(model.dof_damping[dof])[0]),
         friction=float(np.ravel(model.dof_frictionloss[dof])[0]),
+        effort=float(model.jnt_actfrcrange[k, 1]) if model.jnt_actfrclimited[k] else None,
     )
 
 

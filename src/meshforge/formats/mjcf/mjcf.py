@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
-from meshforge.asset import Asset
+from meshforge.asset import Asset, Feature, What
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.mjcf.create import create_mjcf
+from meshforge.formats.mjcf.document import MjcfDocument
+from meshforge.formats.mjcf.features import COULD, HOLDS, features_of
 from meshforge.formats.mjcf.read import read_mjcf
 
 
@@ -15,9 +19,19 @@ class MjcfFormat(Format):
 
     name: ClassVar[str] = "mjcf"
     suffixes: ClassVar[tuple[str, ...]] = (".xml", ".mjcf")
+    title: ClassVar[str] = "MJCF"
+    up: ClassVar[Literal["y", "z"] | None] = "z"
+    holds: ClassVar[frozenset[What]] = HOLDS
+    could: ClassVar[frozenset[What]] = COULD
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_mjcf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         raise self._cannot_create(asset)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        return create_mjcf(asset, name)
+
+    def features(self, asset: Asset) -> Iterable[Feature]:
+        return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()

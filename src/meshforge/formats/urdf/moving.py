@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshforge.asset import Inertial
+from meshforge.formats.numbers import tidy
 from meshforge.formats.urdf.chain import LinkJoint
 from meshforge.formats.urdf.elements import mesh_tag, native_tag, origin_tag
 from meshforge.formats.visual_files import Shown
@@ -83,11 +84,6 @@ def _material(rgba: Rgba) -> bytes:
     """A colour, named by its numbers: equal names must be equal colours."""
     text = shown(rgba)
     return b'      <material name="rgba %s"><color rgba="%s"/></material>' % (text.encode(), text.encode())
-
-
-def tidy(values: Floats) -> Floats:
-    """The numbers without those that are but the rounding of larger ones."""
-    return np.where(np.abs(values) < 1e-14 * np.abs(values).max(), 0.0, values)
 
 
 def _number(value: float) -> bytes:

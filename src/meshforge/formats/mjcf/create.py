@@ -1,0 +1,240 @@
+"""Making an MJCF from an asset of another format: nested bodies with joints and masses, a geom for each hull."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.asset import Asset, Geom, Joint, Opaque, Surface, What
+from meshforge.formats.base import Output
+from meshforge.formats.body_tree import BodyTree, free_name
+from meshforge.formats.losses import Loss
+from meshforge.formats.mjcf.document import geom_names
+from meshforge.formats.mjcf.elements import Native, geom_attributes, mesh_geom_attributes, pose_attributes, tag
+from meshforge.formats.mjcf.joints import joint_tag, parts_of
+from meshforge.formats.mjcf.masses import inertial_tag, light_tag
+from meshforge.formats.mjcf.mesh_assets import MeshAssets
+from meshforge.formats.visual_files import VisualFiles, visuals_of
+from meshforge.formats.visuals import Rgba
+from meshforge.formats.xml import shown
+from meshforge.geometry import Pose
+from meshforge.words import counted, listed
+
+WORLD = "world"
+"""What MuJoCo calls the body that never moves; no other may have this name."""
+
+
+def create_mjcf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
+    geoms or meshes, one a file; opaque pieces and visuals geoms that do not collide.
+    """
+    return _Creator(asset, Path(name).stem).output()
+
+
+class _Creator:
+    def __init__(self, asset: Asset, stem: str) -> None:
+        self.asset, self.stem = asset, stem
+        self.tree = BodyTree.of(asset)
+        self.poses = asset.body_poses
+        self.shown = visuals_of(asset)
+        self.meshes = MeshAssets(stem)
+        self.visuals = VisualFiles(self.meshes.files, (".obj", ".stl"))
+        self.visuals.gather(self.shown)
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.joint_names = {joint.name for joint in asset.mechanism.joints}
+        self.bodies = self._body_names()
+        self.geoms = self._geom_names()
+        self.lost: list[Loss] = []
+        self.notes: dict[str, list[str]] = {}
+
+    def output(self) -> Output:
+        body = list(self._lines())
+        head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
+        defaults = _DEFAULTS if self.shown or self.asset.opaque else []
+        main = b"\n".join([*head, *defaults, *self.meshes.lines(), *body, b"</mujoco>", b""])
+        names = {geom.name: read for geom, (_, read) in self.geoms.items() if read != geom.name}
+        return Output(
+            main, dict(self.meshes.files.made), self.visuals.copies, self._told(), names, tuple(self._losses())
+        )
+
+    def _body_names(self) -> dict[str, str]:
+        """What each body is called; the root of that name is the world."""
+        roots = [name for name in self.tree.roots if name == WORLD]
+        taken = {WORLD} | {body.name for body in self.asset.bodies}
+        return {
+            b.name: free_name(b.name, taken) if b.name == WORLD and not roots else b.name for b in self.asset.bodies
+        }
+
+    def _geom_names(self) -> dict[Geom, tuple[str, str]]:
+        """The name attribute of each geom, empty where it needs none, and the name that it reads back as."""
+        ordered = [geom for body in self.tree.order for geom in self.asset.geoms if geom.body == body]
+        plain = [geom.name.removeprefix(f"{geom.body}/") for geom in ordered]
+        seen = Counter(plain)
+        bodies = [self.bodies[geom.body] for geom in ordered]
+        wanted = [f"{body}/{name}" if seen[name] > 1 else name for body, name in zip(bodies, plain, strict=True)]
+        unnamed = geom_names([(body, "") for body in bodies])
+        attributes = [
+            "" if read == f"{body}/{name}" else attribute
+            for read, body, name, attribute in zip(unnamed, bodies, plain, wanted, strict=True)
+        ]
+        back = geom_names(list(zip(bodies, attributes, strict=True)))
+        return {geom: (name, read) for geom, name, read in zip(ordered, attributes, back, strict=True)}
+
+    def _lines(self) -> Iterator[bytes]:
+        """The `<worldbody>`, bodies nested in it."""
+        below: dict[str, list[str]] = {}
+        for body in self.tree.order:
+            if self.bodies[body] != WORLD:
+                below.setdefault(self._place_of(body), []).append(body)
+        yield b"  <worldbody>"
+        if self.bodies.get(WORLD) == WORLD:
+            yield from self._inside(WORLD, b"    ")
+        waiting: list[tuple[str, int] | bytes] = [(body, 2) for body in reversed(below.get("", []))]
+        while waiting:
+            entry = waiting.pop()
+            if isinstance(entry, bytes):
+                yield entry
+                continue
+            body, depth = entry
+            lead = b"  " * depth
+            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(self._pose(body))}, closed=False)
+            yield from self._inside(body, lead + b"  ")
+            waiting.append(lead + b"</body>")
+            waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
+        yield b"  </worldbody>"
+
+    def _place_of(self, body: str) -> str:
+        """The body in which the element of a body stands, empty for the world."""
+        parent = self.tree.parent(body)
+        floats = [joint.kind for joint in self.tree.joints[body]] == ["floating"]
+        if parent is None or self.bodies[parent] == WORLD or (floats and self.tree.is_static(parent)):
+            return ""
+        return parent
+
+    def _pose(self, body: str) -> Pose:
+        """place_T_body."""
+        place = self._place_of(body)
+        return self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]
+
+    def _inside(self, body: str, lead: bytes) -> Iterator[bytes]:
+        """Joints, mass, geoms and visuals of a body."""
+        top = not self._place_of(body)
+        joints = [part for joint in self.tree.joints[body] for part in self._parts(joint, top)]
+        own = [geom for geom in self.asset.geoms if geom.body == body]
+        yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
+        if self.bodies[body] != WORLD:
+            yield from (lead + text for text in self._mass(body, moves=bool(joints), hulls=bool(own)))
+        yield from (lead + self._geom(geom) for geom in own)
+        yield from (lead + text for text in self._visuals(body))
+        yield from (lead + text for piece in self.asset.opaque if piece.body == body for text in self._opaque(piece))
+
+    def _parts(self, joint: Joint, top: bool) -> Sequence[Joint]:
+        parts = parts_of(joint, top, self.joint_names)
+        if len(parts) > 1:
+            how = f"{listed([part.name for part in parts])} together move as {joint.kind} {joint.name or joint.child}"
+            self.notes.setdefault(how, [])
+        return parts
+
+    def _mass(self, body: str, moves: bool, hulls: bool) -> Iterator[bytes]:
+        inertial = self.inertials.get(body)
+        if inertial is not None:
+            text, changed = inertial_tag(inertial, self.poses[body])
+            if changed:
+                self.notes.setdefault(_MENDED, []).append(body)
+            yield text
+        elif hulls:
+            self.notes.setdefault(_COMPUTED, []).append(body)
+        elif moves:
+            self.notes.setdefault(_LIGHT, []).append(body)
+            yield light_tag()
+
+    def _geom(self, geom: Geom) -> bytes:
+        named = {"name": name} if (name := self.geoms[geom][0]) else {}
+        class_ = {"class": "collision"} if self.shown else {}
+        body_t_root = self.poses[geom.body].inverse()
+        shape = geom.shape.moved(body_t_root)
+        if isinstance(shape, Native):
+            return tag("geom", {**named, **class_, **geom_attributes(shape)})
+        mesh = self.meshes.hull(geom.name, shape.tessellated())
+        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, Pose.identity())})
+
+    def _visuals(self, body: str) -> Iterator[bytes]:
+        for own, visual in self.shown:
+            if own != body or (seen := self.visuals.shown(body, visual, self.poses[body])) is None:
+                continue
+            if isinstance(seen.what, Native):
+                yield _visual(geom_attributes(seen.what), seen.rgba)
+            elif isinstance(seen.what, str):
+                mesh = self.meshes.shown(seen.what, seen.scale)
+                yield _visual(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
+            else:
+                file = self.meshes.files.add(f"{body}-visual", "", seen.what.vertices, seen.what.faces)
+                yield _visual(mesh_geom_attributes(self.meshes.shown(file, np.ones(3)), Pose.identity()), seen.rgba)
+
+    def _opaque(self, piece: Opaque) -> Iterator[bytes]:
+        """An endless plane; a surface to look at, where its body shows nothing else."""
+        body_t_root = self.poses[piece.body].inverse()
+        if piece.plane is not None:
+            if self.tree.is_static(piece.body):
+                yield tag("geom", {"type": "plane", "size": "0 0 1", **pose_attributes(body_t_root @ piece.plane)})
+            else:
+                self.lost.append(Loss(What.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only"))
+            return
+        why = "MuJoCo would collide with the convex hull"
+        if piece.surface is None:
+            return
+        if any(body == piece.body for body, _ in self.shown):
+            self.lost.append(Loss(What.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
+            return
+        seen = self.visuals.shown(
+            piece.name, Surface(piece.surface.vertices, piece.surface.faces), body_t_root.inverse()
+        )
+        assert seen is not None  # only files may be unreadable
+        assert isinstance(seen.what, str)
+        self.lost.append(Loss(What.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
+        yield _visual(mesh_geom_attributes(self.meshes.shown(seen.what, seen.scale), seen.pose), None)
+
+    def _losses(self) -> Iterator[Loss]:
+        """What is lost, like things together."""
+        if self.visuals.refused:
+            yield Loss(What.VISUALS, tuple(dict.fromkeys(self.visuals.refused)), "their files cannot be read")
+        for key in dict.fromkeys((loss.what, loss.why, loss.instead) for loss in self.lost):
+            names = [n for loss in self.lost if (loss.what, loss.why, loss.instead) == key for n in loss.names]
+            yield Loss(key[0], tuple(names), key[1], key[2])
+
+    def _told(self) -> tuple[str, ...]:
+        notes = [f"{text} ({listed(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
+        if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
+            roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
+            roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
+            if roots:
+                notes.append(
+                    f"{counted(len(roots), 'body', 'bodies')} fixed to the world ({listed(roots, 3)}): for one that moves"
+                    " freely, write <freejoint/> as the first thing in its <body>"
+                )
+        return tuple(notes)
+
+
+_MENDED = "moments of inertia that no rigid body has are replaced by their mean"
+_COMPUTED = "MuJoCo computes the masses that are not told, at 1000 kg/m^3"
+_LIGHT = "moving bodies without a mass or a hull get 1e-06 kg"
+_DEFAULTS = [
+    b"  <default>",
+    b'    <default class="collision">',
+    b'      <geom group="3"/>',
+    b"    </default>",
+    b'    <default class="visual">',
+    b'      <geom contype="0" conaffinity="0" group="2" mass="0"/>',
+    b"    </default>",
+    b"  </default>",
+]
+
+
+def _visual(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
+    color = {"rgba": shown(rgba)} if rgba else {}
+    return tag("geom", {"class": "visual", **attributes, **color})
