@@ -23,6 +23,7 @@ from meshforge.batch.stamp import Inputs, read_stamp
 from meshforge.errors import told
 from meshforge.formats import read
 from meshforge.language import RunResult
+from meshforge.preparation import prepared_by, record_digest
 from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
 from meshforge.words import listed
 
@@ -46,7 +47,8 @@ def edit(work: tuple[Task, AssetJob]) -> Worked:
             return skipped
         asset = read(job.path)
         inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
-        return _edited(task, job, asset, inputs, started)
+        ready = prepared_by(asset, job.preparation) if job.preparation else asset
+        return _edited(task, job, ready, inputs, started)
     except Exception as error:  # a failed asset never stops the others
         return Worked(Failed(job.id, told(error, str(job.path)), time.perf_counter() - started), inputs)
 
@@ -55,6 +57,7 @@ def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
     return Inputs(
         asset=files,
+        preparation=record_digest(job.preparation) if job.preparation else None,
         labels=file_digest(job.labels) if job.labels else None,
         program=program_digest(task.program),
         templates=template_digests(task.templates),
@@ -83,7 +86,7 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
     draft = planned(task, job, asset)
     if not task.dry_run:
         draft = written(draft, mesh, labels.vocabulary or task.program.labels, mass=task.mass, link=task.link)
-    outcome = (Unchanged if _same_hulls(source, mesh) else Edited)(
+    outcome = (Unchanged if _same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
         rules=_lines(result),

@@ -18,7 +18,7 @@ class AssetJob:
     """One asset of a batch.
 
     id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels;
-    corrections: edits by hand, replayed after the program.
+    corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before.
     """
 
     id: str
@@ -26,6 +26,7 @@ class AssetJob:
     base: Path
     labels: Path | None = None
     corrections: tuple[Correction, ...] = ()
+    preparation: Path | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

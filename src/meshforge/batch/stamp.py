@@ -20,6 +20,7 @@ class Inputs(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     asset: dict[str, str]
+    preparation: str | None = None
     labels: str | None
     program: str
     templates: dict[str, str]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Json, Labels
+from meshforge.cli.options import Json, Labels, Workers
 
 if TYPE_CHECKING:
     from meshforge.batch import Outcome
@@ -24,7 +24,7 @@ def apply(
         Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
     ] = None,
     labels: Labels = None,
-    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")] = None,
+    workers: Workers = None,
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep",

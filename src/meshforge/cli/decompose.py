@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from meshforge.cli.engines import Hollow, Method, Seconds, Set, engine_settings
 
 if TYPE_CHECKING:
     from meshforge.asset import Asset
     from meshforge.geometry import Polytope
-    from meshforge.geometry.decompose import DecomposeSettings
-
-
-class Method(StrEnum):
-    """The decomposition engines."""
-
-    COACD = "coacd"
-    VHACD = "vhacd"
 
 
 def decompose(
     mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")],
     out: Annotated[Path, typer.Option("-o", "--out", help="The file of hulls to write; its suffix names the format.")],
     method: Annotated[Method, typer.Option("--method", help="The engine.")] = Method.COACD,
-    option: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="An option of the engine, such as threshold=0.1; repeatable."),
-    ] = None,
-    timeout: Annotated[float | None, typer.Option("--timeout", help="Seconds to try.")] = None,
+    option: Set = None,
+    hollow: Hollow = False,
+    timeout: Seconds = None,
     cache: Annotated[bool, typer.Option("--cache/--no-cache", help="Keep results, and use kept ones.")] = True,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file if it is there.")] = False,
 ) -> None:
@@ -44,7 +34,7 @@ def decompose(
     from meshforge.geometry.decompose import decompose as run
     from meshforge.words import counted
 
-    settings = _settings(method, option or [])
+    settings = engine_settings(method, option)
     surfaces = read_triangles(mesh)
     starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
     console = Console(stderr=True)
@@ -53,6 +43,7 @@ def decompose(
             np.concatenate([s.vertices for s in surfaces]),
             np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)]),
             settings,
+            close=not hollow,
             cache=cache_folder() if cache else None,
             progress=lambda text: status.update(f"{method.value} on {mesh.name}: {text}"),
             timeout=timeout,
@@ -62,32 +53,6 @@ def decompose(
     for note in saved.notes:
         remark(f"note: {note}")
     remark(f"wrote {saved.path}: {counted(len(hulls), 'hull')}")
-
-
-def _settings(method: Method, given: list[str]) -> DecomposeSettings:
-    from meshforge.errors import UsageError
-    from meshforge.geometry.decompose import CoacdSettings, VhacdSettings
-
-    kind = CoacdSettings if method is Method.COACD else VhacdSettings
-    known = {f.name: f for f in fields(kind)}
-    values: dict[str, Any] = {}
-    for text in given:
-        name, _, value = text.partition("=")
-        if name not in known:
-            listed = "\n".join(f"    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
-            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:\n{listed}")
-        values[name] = _value(text, value, type(known[name].default))
-    return kind(**values)
-
-
-def _value(text: str, value: str, kind: type) -> Any:
-    from meshforge.errors import UsageError
-
-    words = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
-    try:
-        return words[value.lower()] if kind is bool else kind(value)
-    except (KeyError, ValueError):
-        raise UsageError(f"--set {text}: {value!r} is not {'yes or no' if kind is bool else 'a number'}") from None
 
 
 def _asset(mesh: Path, hulls: list[Polytope]) -> Asset:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from meshforge.cli.options import Workers
+
 if TYPE_CHECKING:
     from meshforge.batch import Outcome
     from meshforge.batch.report import ReportAsset
@@ -23,7 +25,7 @@ OURS = ".meshforge-demo"
 
 def demo(
     out: Annotated[Path, typer.Option("-o", "--out", help="Folder to make.")] = Path("meshforge-demo"),
-    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")] = None,
+    workers: Workers = None,
 ) -> None:
     """The whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report."""
     from time import perf_counter

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from meshforge.cli.options import AssetFile, Json, Labels
+from meshforge.cli.opening import opened
+from meshforge.cli.options import AssetFile, InProject, Json, Labels
 
 if TYPE_CHECKING:
     from meshforge.geometry import Shape
@@ -16,14 +17,14 @@ if TYPE_CHECKING:
 def info(
     asset: AssetFile,
     labels: Labels = None,
+    project: InProject = None,
     json: Json = False,
     geometry: Annotated[bool, typer.Option("--geometry", help="With --json: the points of every hull.")] = False,
 ) -> None:
     """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
     from meshforge.cli.output import print_json
-    from meshforge.formats import load
 
-    mesh = load(asset, labels=labels)
+    mesh = opened(asset, labels, project)
     if json:
         print_json(described(mesh, str(asset), geometry=geometry))
     else:

@@ -13,6 +13,8 @@ import typer
 COMMANDS = (
     "demo",
     "new",
+    "prepare",
+    "split",
     "status",
     "label",
     "demonstrate",

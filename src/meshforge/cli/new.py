@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.options import AssetFiles
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.options import AssetFiles, Workers
+from meshforge.cli.prepare import AssetTimeout, decomposed
 
 
 def new(
@@ -17,14 +19,29 @@ def new(
     orient: Annotated[
         str, typer.Option("--orient", help="How assets are turned first: '+Z: Is(leg) -> Is(panel)'.")
     ] = "",
+    method: Annotated[
+        Method | None,
+        typer.Option("--decompose", help="Make hulls of opaque pieces, and of bodies without collision geometry."),
+    ] = None,
+    option: Set = None,
+    hollow: Hollow = False,
+    workers: Workers = None,
+    timeout: AssetTimeout = 600.0,
 ) -> None:
-    """Make a project folder; the assets stay where they are and are never written to."""
+    """Make a project folder; the assets stay where they are and are never written to.
+
+    With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
+    """
     from meshforge.project import Project
     from meshforge.words import counted
 
+    settings = engine_settings(method, option) if method else None
     made = Project.create(project, assets, vocabulary=_words(vocabulary), orient=orient)
     typer.echo(f"{project}: a project of {counted(len(made.assets()), 'asset')}")
+    options: dict[str, Any] = {"hollow": hollow, "workers": workers, "timeout": timeout}
+    failed = decomposed(made, made.assets(), settings, **options) if settings else 0
     typer.echo(f"Next: meshforge status {project}")
+    raise typer.Exit(failed)
 
 
 def _words(text: str) -> list[str]:

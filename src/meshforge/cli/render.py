@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import AssetFile, Labels
+from meshforge.cli.opening import opened
+from meshforge.cli.options import AssetFile, InProject, Labels
 
 if TYPE_CHECKING:
     from meshforge.views import View
@@ -17,6 +18,7 @@ def render(
     asset: AssetFile,
     out: Annotated[Path, typer.Option("-o", "--out", help="The PNG to write.")],
     labels: Labels = None,
+    project: InProject = None,
     color_by: Annotated[
         Literal["hull", "label", "body", "confidence"] | None,
         typer.Option("--color-by", help="Default: label where there are labels, else hull."),
@@ -30,11 +32,10 @@ def render(
 ) -> None:
     """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
     from meshforge.cli.output import remark
-    from meshforge.formats import load
     from meshforge.views import render as picture
     from meshforge.views import write_png
 
-    mesh = load(asset, labels=labels)
+    mesh = opened(asset, labels, project)
     visuals = tuple(mesh.asset.visuals) if ghost and mesh.asset else None
     image = picture(
         mesh,

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from meshforge.cli.options import AssetFile, Json, Labels
+from meshforge.cli.opening import opened
+from meshforge.cli.options import AssetFile, InProject, Json, Labels
 
 if TYPE_CHECKING:
     from meshforge.symbolic import SymbolicMesh
@@ -17,16 +18,16 @@ def select(
     expression: Annotated[str, typer.Argument(help="An extractor, for example 'Attach(Is(handle), Is(drawer))'.")],
     asset: AssetFile,
     labels: Labels = None,
+    project: InProject = None,
     json: Json = False,
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
     from meshforge.cli.output import print_json, remark
-    from meshforge.formats import load
     from meshforge.language import labels_used, parse_extractor
     from meshforge.views import render, write_png
 
-    mesh = load(asset, labels=labels)
+    mesh = opened(asset, labels, project)
     extractor = parse_extractor(expression)
     for label in labels_used(extractor):
         _warn(label, mesh)

@@ -44,7 +44,8 @@ def _print(found: Status) -> None:
 
 def _row(asset: AssetStatus) -> tuple[object, ...]:
     stale = f"stale: {', '.join(asset.stale)} changed" if asset.stale else None
-    remarks = [text for text in (asset.error, stale, asset.review, *asset.flags) if text]
+    bare = f"{asset.sources} without hulls (meshforge prepare)" if asset.sources else None
+    remarks = [text for text in (asset.error, stale, asset.review, bare, *asset.prepared, *asset.flags) if text]
     labelled = "" if not asset.hulls else "all" if asset.labelled == asset.hulls else asset.labelled
     output = "" if asset.output == "none" else asset.output
     return asset.id, asset.hulls, labelled, "yes" if asset.demonstrated else "", output, "; ".join(remarks)

@@ -3,8 +3,10 @@
 from meshforge.preparation.decomposing import Decomposed, decompose_asset
 from meshforge.preparation.file import (
     RECORD,
+    prepared_by,
     read_preparation,
     read_prepared,
+    record_digest,
     remove_preparation,
     write_preparation,
 )
@@ -25,8 +27,10 @@ __all__ = [
     "decompose_asset",
     "fitting",
     "prepared",
+    "prepared_by",
     "read_preparation",
     "read_prepared",
+    "record_digest",
     "remove_preparation",
     "sources",
     "split_hull",

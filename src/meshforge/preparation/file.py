@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -32,7 +33,12 @@ def read_prepared(path: Path, folder: Path | None) -> Asset:
     Raises AssetError: the asset cannot be read, or its preparation is damaged or out of date.
     """
     asset = read(path)
-    preparation = read_preparation(folder) if folder else None
+    return prepared_by(asset, folder) if folder else asset
+
+
+def prepared_by(asset: Asset, folder: Path) -> Asset:
+    """An asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of date."""
+    preparation = read_preparation(folder)
     return prepared(asset, preparation) if preparation else asset
 
 
@@ -51,6 +57,14 @@ def read_preparation(folder: Path) -> Preparation | None:
         if known not in hulls:
             raise _damaged(folder / _HULLS, f"the hull {name} is not in it as it was made")
     return found.of(steps)
+
+
+def record_digest(folder: Path) -> str | None:
+    """The digest of what was done, hulls included, None where nothing was."""
+    try:
+        return hashlib.blake2b((folder / RECORD).read_bytes(), digest_size=16).hexdigest()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
 
 
 def write_preparation(folder: Path, preparation: Preparation) -> None:

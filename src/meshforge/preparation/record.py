@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from meshforge.geometry import Polytope
+from meshforge.words import counted
 
 Kind = Literal["opaque", "body", "hull"]
 """What is replaced: an opaque piece; nothing, by what a body without collision geometry shows; or a hull."""
@@ -42,9 +43,12 @@ class Step:
     replaced: tuple[Replaced, ...]
 
     def __str__(self) -> str:
-        """`decompose by coacd: link/geom0 into 12`."""
+        """`link/geom0 decomposed into 12 hulls by coacd`."""
+        names = [entry.what for entry in self.replaced]
+        what = names[0] if len(names) == 1 else f"{len(names)} pieces"
+        done = {"decompose": "decomposed", "cut": "cut", "split": "split"}[self.do]
         by = f" by {self.settings['method']}" if "method" in self.settings else ""
-        return f"{self.do}{by}: " + ", ".join(f"{r.what} into {len(r.made)}" for r in self.replaced)
+        return f"{what} {done} into {counted(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"
 
 
 @dataclass(frozen=True, eq=False, slots=True)

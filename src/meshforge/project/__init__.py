@@ -3,6 +3,7 @@
 from meshforge.project.advice import Advice
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
+from meshforge.project.preparing import Prepared
 from meshforge.project.project import Project
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings
@@ -13,6 +14,7 @@ __all__ = [
     "AssetStatus",
     "Labelled",
     "Layout",
+    "Prepared",
     "Project",
     "Review",
     "Settings",

@@ -35,11 +35,23 @@ def advice(
     if problem:
         return Advice(f"The program cannot be applied: {problem}")
     return (
-        _labels(folder, paths, assets, vocabulary, rules)
+        _hulls(folder, assets)
+        or _labels(folder, paths, assets, vocabulary, rules)
         or _demonstrations(folder, paths, assets, rules)
         or _program(folder, rules, outdated)
         or _output(folder, assets)
         or _review(folder, assets)
+    )
+
+
+def _hulls(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
+    bare = [asset for asset in assets if asset.hulls == 0 and asset.sources]
+    if not bare:
+        return None
+    count = "an asset has" if len(bare) == 1 else f"{len(bare)} assets have"
+    return Advice(
+        f"{count.capitalize()} no hulls, first {bare[0].id}: decompose what has none.",
+        f"meshforge prepare {_word(folder)} --decompose coacd",
     )
 
 
@@ -67,7 +79,7 @@ def _demonstrations(
     example = next((asset.id for asset in assets if asset.labelled), assets[0].id)
     return Advice(
         "Nothing is demonstrated yet: show the steps of the edit on an asset or two. "
-        f"The names of hulls: meshforge info {_word(paths[example])}",
+        f"The names of hulls: meshforge info {_word(Path(example))} --project {_word(folder)}",
         f"meshforge demonstrate {_word(folder)} {_word(Path(example))} 'HULLS => ACTION' ...",
     )
 

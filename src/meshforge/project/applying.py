@@ -10,6 +10,7 @@ from meshforge.batch import AssetJob, Outcome, Task, apply
 from meshforge.errors import ProjectError
 from meshforge.formats import Mass
 from meshforge.language import Program
+from meshforge.preparation import RECORD
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -25,6 +26,7 @@ def jobs(project: Project) -> tuple[AssetJob, ...]:
             base,
             layout.labels(asset) if layout.labels(asset).exists() else None,
             project.corrections(asset),
+            layout.preparation(asset) if (layout.preparation(asset) / RECORD).is_file() else None,
         )
         for asset, path in project.found.ids.items()
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,13 +42,17 @@ def demonstrate(project: Project, asset: str, done: tuple[Step, ...]) -> None:
 
 def _check(asset: str, mesh: SymbolicMesh, done: tuple[Step, ...]) -> None:
     """Every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made."""
+    for rule, name in astray(done, mesh.index):
+        like = nearest(name, mesh.index)
+        raise ProjectError(
+            f"rule {rule}: there is no hull {name!r}", where=asset, remedy=f"Did you mean {like!r}?" if like else None
+        )
+
+
+def astray(done: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
+    """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
     for step in done:
         for name in sorted(step.select or ()):
             stem = name.rpartition("~")[0] if step.rule > 1 else name
-            if name not in mesh.index and stem not in mesh.index:
-                like = nearest(name, mesh.index)
-                raise ProjectError(
-                    f"rule {step.rule}: there is no hull {name!r}",
-                    where=asset,
-                    remedy=f"Did you mean {like!r}?" if like else None,
-                )
+            if name not in hulls and stem not in hulls:
+                yield step.rule, name

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,7 +43,7 @@ def give(project: Project, asset: str, given: Mapping[str, Label], away: Sequenc
     problems = [*report.problems, *gone]
     if problems:
         raise ProjectError(problems[0], where=asset, remedy=f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
-    _write(project, asset, labelled.labelled(dict.fromkeys(away)))
+    write_merged(project, asset, labelled.labelled(dict.fromkeys(away)))
     return report
 
 
@@ -74,14 +74,17 @@ def _taken_over(project: Project, asset: str, file: LabelFile) -> Labelled:
     missing = {name: file.labels[name] for name in followed.gone}
     labelled, report = merged(asset, mesh, missing | followed.mesh.labels, project.vocabulary)
     if report.taken:
-        _write(project, asset, labelled)
+        write_merged(project, asset, labelled)
     return report
 
 
-def _write(project: Project, asset: str, mesh: SymbolicMesh) -> None:
-    """Write the labels of a mesh; those of hulls that are gone stay in the file, since hulls may come back."""
+def write_merged(project: Project, asset: str, mesh: SymbolicMesh, away: Collection[str] = ()) -> None:
+    """Write the labels of a mesh; those of hulls that are gone stay in the file, since hulls may come back.
+
+    away: names of hulls whose labels do not stay.
+    """
     path = project.layout.labels(asset)
-    gone = follow_labels(project.labels(asset), mesh).gone
+    gone = [name for name in follow_labels(project.labels(asset), mesh).gone if name not in away]
     if not gone:
         write_labels(path, mesh, project.vocabulary)
         return

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.batch import STATE
+from meshforge.preparation import RECORD
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +23,10 @@ class Layout:
 
     def corrections(self, asset: str) -> Path:
         return self.folder / "corrections" / f"{asset}.json"
+
+    def preparation(self, asset: str) -> Path:
+        """The folder of what is done to an asset before the program."""
+        return self.folder / "prepared" / asset
 
     @property
     def templates(self) -> tuple[Path, Path]:
@@ -58,3 +63,8 @@ class Layout:
         """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
         root = self.folder / kind
         return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))
+
+    def prepared(self) -> tuple[str, ...]:
+        """The ids of all assets that have a preparation, sorted."""
+        root = self.folder / "prepared"
+        return tuple(sorted(path.parent.relative_to(root).as_posix() for path in root.rglob(RECORD)))

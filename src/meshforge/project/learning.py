@@ -8,6 +8,7 @@ from meshforge.batch import file_digest, program_digest, text_digest
 from meshforge.errors import ProjectError
 from meshforge.files import write_atomically
 from meshforge.language import Program
+from meshforge.preparation import RECORD
 from meshforge.project.json_files import JsonFile, read_json, write_json
 from meshforge.synthesis import Found, Options, Outcome, synthesize
 
@@ -79,6 +80,6 @@ def lesson_digest(project: Project) -> str:
     words = [settings.orient, str(settings.vocabulary), str(settings.thresholds)]
     for asset, path in project.found.ids.items():
         if layout.demonstration(asset).exists():
-            files = [layout.demonstration(asset), layout.labels(asset), path]
+            files = [layout.demonstration(asset), layout.labels(asset), layout.preparation(asset) / RECORD, path]
             words += [asset, *(file_digest(file) for file in files if file.is_file())]
     return text_digest("\n".join(words))

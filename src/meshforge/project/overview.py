@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
@@ -10,6 +10,7 @@ from meshforge.errors import MeshForgeError
 from meshforge.language import Program
 from meshforge.project.advice import advice
 from meshforge.project.applying import jobs, task
+from meshforge.project.demonstrating import astray
 from meshforge.project.learning import is_outdated
 from meshforge.project.reviewing import Review, output_digest
 from meshforge.project.status import AssetStatus, State, Status
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 def status(project: Project, workers: int | None, progress: Callable[[], None] | None) -> Status:
     """How far everything is. Raises ProjectError for a file of the project that cannot be read."""
     settings, work, reviews = project.settings, jobs(project), project.reviews()
-    facts = survey(project.found, project.layout.survey, workers=workers, progress=progress)
+    facts = survey(project.found, project.layout, workers=workers, progress=progress)
     program, what, problem = _program(project, work)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
     outdated = program is not None and is_outdated(project, program)
@@ -56,9 +57,24 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
         output=_state(stamp),
         stale=_stale(stamp, job, facts, what),
         error=facts.error or unreadable or failed,
-        flags=stamp.flags if stamp else (),
+        flags=(*_astray(project, job.id, facts), *(stamp.flags if stamp else ())),
         review=review.verdict if review and review.output == output_digest(stamp) else None,
+        prepared=facts.prepared,
+        sources=facts.sources,
     )
+
+
+def _astray(project: Project, asset: str, facts: Facts) -> Iterator[str]:
+    """A sentence for each hull that is demonstrated and is no more."""
+    try:
+        steps = () if facts.error else project.steps(asset)
+    except MeshForgeError as error:
+        yield error.message
+        return
+    for rule, name in astray(steps, facts.hulls):
+        parts = facts.replaced.get(name)
+        fate = f"was split into {', '.join(parts)}" if parts else "is gone"
+        yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
 def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
@@ -96,4 +112,5 @@ def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) 
 def _lost(project: Project) -> tuple[str, ...]:
     """The ids that something is kept for, though there is no such asset."""
     kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.kept_for(kind)}
+    kept |= set(project.layout.prepared())
     return tuple(sorted(kept - set(project.assets())))

@@ -8,13 +8,16 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.batch import SETTINGS, Correction, Found, Outcome, expand, labels_for, locked, named_templates
+from meshforge.batch import SETTINGS, TIMEOUT, Correction, Found, Outcome, expand, labels_for, locked, named_templates
 from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
-from meshforge.formats import Mass, read
+from meshforge.formats import Mass
+from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
-from meshforge.project import applying, correcting, demonstrating, labelling, learning, overview, reviewing
+from meshforge.preparation import Preparation, cut_hull, read_preparation, read_prepared
+from meshforge.project import applying, correcting, demonstrating, labelling, learning, overview, preparing, reviewing
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
+from meshforge.project.preparing import Prepared
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import (
     Settings,
@@ -146,8 +149,9 @@ class Project:
         return ids[asset]
 
     def mesh(self, asset: str) -> SymbolicMesh:
-        """An asset with its labels. Raises AssetError where it cannot be read."""
-        mesh = follow_labels(self.labels(asset), SymbolicMesh.of(read(self.path(asset)))).mesh
+        """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
+        source = read_prepared(self.path(asset), self.layout.preparation(asset))
+        mesh = follow_labels(self.labels(asset), SymbolicMesh.of(source)).mesh
         contact = self.settings.thresholds.contact
         return mesh if contact is None else replace(mesh, epsilon=contact)
 
@@ -158,6 +162,66 @@ class Project:
                 yield self.mesh(asset)
             except MeshForgeError:
                 continue
+
+    # Preparation
+
+    def preparation(self, asset: str) -> Preparation:
+        """What is done to an asset before the program. Raises AssetError where its files are damaged."""
+        self.path(asset)
+        return read_preparation(self.layout.preparation(asset)) or Preparation()
+
+    def decompose(
+        self,
+        assets: Iterable[str] | None = None,
+        settings: DecomposeSettings | None = None,
+        *,
+        only: Sequence[str] = (),
+        again: bool = False,
+        hollow: bool = False,
+        workers: int | None = None,
+        timeout: float | None = TIMEOUT,
+        progress: Callable[[], None] | None = None,
+    ) -> Iterator[Prepared]:
+        """Make hulls of what has none: opaque pieces, and what bodies without collision geometry show.
+
+        assets: all when None; settings: CoACD's defaults when None; only: names of pieces and bodies, or patterns;
+        again: anew, also where that is done; hollow: shells of one sheet are not filled. workers, timeout [s] for an
+        asset, progress: as of `meshforge.batch.apply`. What is done stays done when the caller stops in the midst.
+        """
+        return preparing.decompose(
+            self,
+            self.assets() if assets is None else tuple(assets),
+            settings or CoacdSettings(),
+            only=only,
+            again=again,
+            hollow=hollow,
+            workers=workers,
+            timeout=timeout,
+            progress=progress,
+        )
+
+    def cut(self, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> Prepared:
+        """Cut a hull along the plane through `at` (3,) [m] across `across` (3,), in the frame that the asset comes in.
+
+        Raises GeometryError: no such hull, or a plane that misses it.
+        """
+        return preparing.change(self, asset, lambda source, before: cut_hull(source, before, hull, at, across))
+
+    def split(
+        self, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
+    ) -> Prepared:
+        """Split a hull by a decomposition of what its body shows, or of the opaque piece that it was made of.
+
+        Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
+        """
+        return preparing.split(self, asset, hull, settings or CoacdSettings(), hollow)
+
+    def unprepare(self, asset: str, *, everything: bool = False) -> Prepared:
+        """Take back the last thing that was done to an asset before the program, or everything.
+
+        Raises ProjectError where nothing was done.
+        """
+        return preparing.unprepare(self, asset, everything)
 
     # Labels
 

@@ -18,7 +18,9 @@ class AssetStatus:
     output: what the last `apply` made; stale: what changed since then (`asset`, `labels`, `program`, ...), or `output`
     where written files are gone. error: why it cannot be read, or why it failed.
     doubtful: labelled hulls that are gone, or have another geometry than was labelled.
-    flags: edits by hand that were left out; review: what a person said about the output as it is.
+    prepared: what was done to it before the program; sources: pieces and bodies without hulls that can be decomposed.
+    flags: edits by hand that were left out, demonstrated hulls that are no more; review: what a person said about the
+    output as it is.
     """
 
     id: str
@@ -31,6 +33,8 @@ class AssetStatus:
     error: str | None = None
     flags: tuple[str, ...] = ()
     review: Literal["accepted", "flagged"] | None = None
+    prepared: tuple[str, ...] = ()
+    sources: int = 0
 
     @property
     def is_done(self) -> bool:
@@ -77,6 +81,8 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
     return {
         "asset": asset.id,
         "hulls": asset.hulls,
+        "sources": asset.sources,
+        "prepared": list(asset.prepared),
         "labelled": asset.labelled,
         "doubtful": list(asset.doubtful),
         "demonstrated": asset.demonstrated,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -12,6 +13,8 @@ from meshforge.errors import told
 from meshforge.files import relative_name, write_atomically
 from meshforge.formats import read
 from meshforge.geometry import digest
+from meshforge.preparation import Preparation, prepared, read_preparation, record_digest, sources
+from meshforge.project.layout import Layout
 
 TIMEOUT = 600.0
 """Seconds for reading one asset."""
@@ -20,6 +23,8 @@ TIMEOUT = 600.0
 class Facts(BaseModel):
     """What one asset holds. hulls: the digest of each by its name; files: the digest of each by its path from the base.
 
+    sources: how many pieces and bodies have no hulls but could be decomposed; preparation: the digest of what was done
+    to the asset before; prepared: that in words; replaced: what each hull that was split has become.
     times: modification time [ns] and size of each file, by which a change is guessed without reading it; only the
     digests decide what is stale. error: why the asset cannot be read.
     """
@@ -27,7 +32,10 @@ class Facts(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     hulls: dict[str, str] = {}
-    opaque: int = 0
+    sources: int = 0
+    preparation: str | None = None
+    prepared: tuple[str, ...] = ()
+    replaced: dict[str, tuple[str, ...]] = {}
     files: dict[str, str] = {}
     times: dict[str, tuple[int, int]] = {}
     error: str | None = None
@@ -39,21 +47,19 @@ class _SurveyFile(BaseModel):
 
 
 def survey(
-    found: Found, memory: Path, *, workers: int | None = None, progress: Callable[[], None] | None = None
+    found: Found, layout: Layout, *, workers: int | None = None, progress: Callable[[], None] | None = None
 ) -> dict[str, Facts]:
     """The facts of all assets by id; those whose files changed since are read, in worker processes.
 
-    memory: the file where facts are kept; workers, progress: as of `meshforge.batch.isolated`.
+    layout: where the project keeps preparations, and these facts; workers, progress: as of `meshforge.batch.isolated`.
     """
+    memory = layout.survey
     known = _remembered(memory)
-    fresh = {
-        key: known[key] for key, path in found.ids.items() if key in known and _holds(known[key], path, found.base)
-    }
-    todo = [(key, path) for key, path in found.ids.items() if key not in fresh]
-    results = isolated(
-        _facts, [(path, found.base) for _, path in todo], workers=workers, timeout=TIMEOUT, done=progress
-    )
-    for (key, _), result in zip(todo, results, strict=True):
+    work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in found.ids.items()}
+    fresh = {key: known[key] for key, own in work.items() if key in known and _holds(known[key], own)}
+    todo = {key: own for key, own in work.items() if key not in fresh}
+    results = isolated(_facts, tuple(todo.values()), workers=workers, timeout=TIMEOUT, done=progress)
+    for key, result in zip(todo, results, strict=True):
         fresh[key] = Facts(error=result.why) if isinstance(result, Lost) else result
     facts = {key: fresh[key] for key in found.ids}
     if todo or facts.keys() != known.keys():
@@ -71,24 +77,41 @@ def _remembered(memory: Path) -> dict[str, Facts]:
     return kept.assets if kept.software == software() else {}
 
 
-def _holds(facts: Facts, path: Path, base: Path) -> bool:
-    """Whether every file still has the time and size it had."""
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """An asset, the folder that names of its files count from, and that of its preparation."""
+
+    path: Path
+    base: Path
+    preparation: Path
+
+
+def _holds(facts: Facts, work: _Work) -> bool:
+    """Whether every file still has the time and size it had, and the preparation is what it was."""
+    base = work.base
     try:
-        main = {relative_name(file, base) for file in source_files(path)}
-        return main <= facts.times.keys() and all(_time(base / name) == time for name, time in facts.times.items())
+        main = {relative_name(file, base) for file in source_files(work.path)}
+        same = main <= facts.times.keys() and all(_time(base / name) == time for name, time in facts.times.items())
+        return same and record_digest(work.preparation) == facts.preparation
     except OSError:
         return False
 
 
-def _facts(work: tuple[Path, Path]) -> Facts:
-    path, base = work
+def _facts(work: _Work) -> Facts:
+    path, base = work.path, work.base
     try:
-        asset = read(path)
-        times = {relative_name(file, base): _time(file) for file in (*source_files(path), *asset.files)}
+        source = read(path)
+        times = {relative_name(file, base): _time(file) for file in (*source_files(path), *source.files)}
+        preparation = read_preparation(work.preparation) or Preparation()
+        asset = prepared(source, preparation)
+        entries = [entry for step in preparation.steps for entry in step.replaced]
         return Facts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
-            opaque=len(asset.opaque),
-            files=asset_digests(path, asset.files, base),
+            sources=len(sources(asset)),
+            preparation=record_digest(work.preparation),
+            prepared=tuple(map(str, preparation.steps)),
+            replaced={entry.what: tuple(entry.made) for entry in entries if entry.kind == "hull"},
+            files=asset_digests(path, source.files, base),
             times=times,
         )
     except Exception as error:  # one asset never hides the others

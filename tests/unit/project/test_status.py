@@ -164,6 +164,8 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
     assert data["assets"][0] == {
         "asset": FIRST,
         "hulls": 6,
+        "sources": 0,
+        "prepared": [],
         "labelled": 6,
         "doubtful": [],
         "demonstrated": True,

@@ -1,0 +1,104 @@
+"""`meshforge prepare`: hulls for what has none, before any program sees the assets of a project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.options import Json, Workers
+
+if TYPE_CHECKING:
+    from meshforge.project import Prepared, Project
+
+AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
+
+
+def prepare(
+    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None,
+    method: Annotated[
+        Method | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
+    ] = None,
+    option: Set = None,
+    only: Annotated[
+        list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
+    ] = None,
+    again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False,
+    hollow: Hollow = False,
+    undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False,
+    remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False,
+    workers: Workers = None,
+    timeout: AssetTimeout = 600.0,
+    json: Json = False,
+) -> None:
+    """Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls.
+
+    The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
+    asset; the asset's own files stay as they are. To split one hull: meshforge split.
+    Exit code 1 when some pieces could not be decomposed (each named).
+    """
+    from meshforge.errors import UsageError
+    from meshforge.project import Project
+
+    if (method is not None) + undo + remove != 1:
+        raise UsageError("say what to do: --decompose METHOD, --undo or --remove")
+    if undo and not assets:
+        raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
+    opened = Project.open(project)
+    if method is None:
+        for asset in _named(opened, assets):
+            show([opened.unprepare(asset, everything=remove)], json)
+        return
+    settings = engine_settings(method, option)
+    options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
+    raise typer.Exit(decomposed(opened, assets or opened.assets(), settings, json=json, **options))
+
+
+def decomposed(project: Project, assets: Iterable[str], settings: Any, *, json: bool = False, **options: Any) -> int:
+    """Decompose assets of a project and show what became of each; the exit code."""
+    from meshforge.cli.output import progress
+
+    ids = tuple(assets)
+    with progress(len(ids), "decomposing") as advance:
+        found = project.decompose(ids, settings, progress=advance, **options)
+        return show(found, json)
+
+
+def show(found: Iterable[Prepared], json: bool = False) -> int:
+    """Print what became of assets; 1 where one has a problem, else 0."""
+    from meshforge.cli.output import print_json
+
+    failed = 0
+    for done in found:
+        failed |= bool(done.problems)
+        if json:
+            print_json(asdict(done) | {"hulls": list(done.hulls)}, compact=True)
+        else:
+            _print(done)
+    return int(failed)
+
+
+def _print(done: Prepared) -> None:
+    from meshforge.words import counted
+
+    pieces = f"{counted(len(done.made), 'piece')} into {counted(len(done.hulls), 'hull')}"
+    typer.echo(f"{done.asset}: {pieces if done.made else 'taken back' if done.undone else 'nothing new'}")
+    for step in done.undone:
+        typer.echo(f"    {step}")
+    for entry in done.made:
+        typer.echo(f"    {entry.what}: {entry.told or counted(len(entry.made), 'hull')}")
+    for note in done.notes:
+        typer.echo(f"    note: {note}")
+    for problem in done.problems:
+        typer.echo("    failed: " + problem.replace("\n", "\n    "))
+
+
+def _named(project: Project, assets: list[str] | None) -> list[str]:
+    """The assets that were named; without names all that something was done to."""
+    kept = set(project.layout.prepared())
+    return assets or [asset for asset in project.assets() if asset in kept]

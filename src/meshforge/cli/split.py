@@ -1,0 +1,57 @@
+"""`meshforge split`: one hull of an asset made several, before any program sees it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.options import Json
+from meshforge.cli.prepare import show
+
+
+def split(
+    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")],
+    hull: Annotated[str, typer.Argument(help="The name of a hull, as `info ASSET --project PROJECT` lists it.")],
+    at: Annotated[
+        str, typer.Option("--at", metavar="X,Y,Z", help="A point of the cutting plane [m], in the asset's own frame.")
+    ] = "",
+    across: Annotated[
+        str, typer.Option("--across", metavar="X,Y,Z", help="The direction across the plane; part #1 is on that side.")
+    ] = "",
+    method: Annotated[
+        Method | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
+    ] = None,
+    option: Set = None,
+    hollow: Hollow = False,
+    json: Json = False,
+) -> None:
+    """Split a hull: along a plane, or by a decomposition of the visual mesh of its body.
+
+    The plane is given in metres in the frame that the asset comes in (root frame, joints at zero), as `info` shows it.
+    The parts are called HULL#0, HULL#1, ... and take over its label. Take it back with: meshforge prepare --undo.
+    """
+    from meshforge.errors import UsageError
+    from meshforge.project import Project
+
+    if bool(at or across) == (method is not None) or bool(at) != bool(across):
+        raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
+    opened = Project.open(project)
+    if method is None:
+        done = opened.cut(asset, hull, _vector(at, "--at"), _vector(across, "--across"))
+    else:
+        done = opened.split(asset, hull, engine_settings(method, option), hollow=hollow)
+    show([done], json)
+
+
+def _vector(text: str, option: str) -> tuple[float, float, float]:
+    from meshforge.errors import UsageError
+
+    try:
+        x, y, z = map(float, text.split(","))
+    except ValueError:
+        raise UsageError(f"{option} {text}: three numbers are needed, with commas between") from None
+    return x, y, z

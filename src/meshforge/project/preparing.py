@@ -1,0 +1,206 @@
+"""What is done to assets before the program: geometry decomposed, hulls split, and all that taken back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.asset import Asset
+from meshforge.batch import Lost, isolated
+from meshforge.errors import AssetError, MeshForgeError, ProjectError, told
+from meshforge.formats import read
+from meshforge.geometry import Shape
+from meshforge.geometry.decompose import DecomposeSettings, cache_folder
+from meshforge.preparation import (
+    Decomposed,
+    Preparation,
+    Replaced,
+    decompose_asset,
+    fitting,
+    prepared,
+    read_preparation,
+    record_digest,
+    remove_preparation,
+    split_hull,
+    write_preparation,
+)
+from meshforge.project.demonstrating import astray
+from meshforge.project.relabelling import relabelled
+from meshforge.symbolic import SymbolicMesh
+from meshforge.words import listed
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """What became of one asset.
+
+    made: the pieces that got hulls now; notes: what that means for labels and demonstrations, and what was given up;
+    problems: why a piece, or the whole asset, could not be prepared; undone: what was taken back, in words.
+    """
+
+    asset: str
+    made: tuple[Replaced, ...] = ()
+    undone: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    problems: tuple[str, ...] = ()
+
+    @property
+    def hulls(self) -> tuple[str, ...]:
+        """The names of all hulls that were made."""
+        return tuple(name for entry in self.made for name in entry.made)
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """One asset to be decomposed; folder: of its preparation."""
+
+    path: Path
+    folder: Path
+    settings: DecomposeSettings
+    only: tuple[str, ...]
+    again: bool
+    hollow: bool
+
+
+def decompose(
+    project: Project,
+    assets: Sequence[str],
+    settings: DecomposeSettings,
+    *,
+    only: Sequence[str],
+    again: bool,
+    hollow: bool,
+    workers: int | None,
+    timeout: float | None,
+    progress: Callable[[], None] | None,
+) -> Iterator[Prepared]:
+    """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
+    layout = project.layout
+    work = [
+        _Work(project.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow) for asset in assets
+    ]
+    results = isolated(_decomposed, work, workers=workers, timeout=timeout, done=progress)
+    for asset, result in zip(assets, results, strict=True):
+        if isinstance(result, Lost):
+            yield Prepared(asset, problems=(result.why,))
+        elif isinstance(result, str):
+            yield Prepared(asset, problems=(result,))
+        else:
+            yield _kept(project, asset, *result)
+
+
+def _decomposed(work: _Work) -> tuple[Decomposed, str | None] | str:
+    """What a worker makes of an asset and the digest of the preparation it saw, or why it failed."""
+    try:
+        seen = record_digest(work.folder)
+        before = read_preparation(work.folder) or Preparation()
+        asset = read(work.path)
+        done = decompose_asset(
+            asset,
+            before,
+            work.settings,
+            only=work.only,
+            again=work.again,
+            hollow=work.hollow,
+            cache=cache_folder(),
+        )
+        return done, seen
+    except Exception as error:  # one asset never stops the others
+        return told(error, str(work.path))
+
+
+def _kept(project: Project, asset: str, result: Decomposed, seen: str | None) -> Prepared:
+    problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
+    notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
+    try:
+        if result.made or result.dropped:
+            notes += _exchanged(project, asset, result.preparation, seen)
+    except MeshForgeError as error:
+        return Prepared(asset, problems=(*problems, error.message))
+    return Prepared(asset, result.made, tuple(notes), tuple(problems))
+
+
+def change(project: Project, asset: str, make: Callable[[Asset, Preparation], Preparation]) -> Prepared:
+    """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
+    folder = project.layout.preparation(asset)
+    seen = record_digest(folder)
+    before = read_preparation(folder) or Preparation()
+    after = make(read(project.path(asset)), before)
+    notes = _exchanged(project, asset, after, seen)
+    added = after.steps[len(before.steps) :]
+    return Prepared(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))
+
+
+def split(project: Project, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> Prepared:
+    """Split a hull by a decomposition of what its body shows."""
+
+    def make(source: Asset, before: Preparation) -> Preparation:
+        return split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
+
+    return change(project, asset, make)
+
+
+def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
+    """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was."""
+    project.path(asset)
+    folder = project.layout.preparation(asset)
+    seen = record_digest(folder)
+    if seen is None:
+        raise ProjectError("nothing was done to it that could be taken back", where=asset)
+    before = _readable(folder) if everything else read_preparation(folder) or Preparation()
+    left = 0 if everything else len(before.steps) - 1
+    notes = _exchanged(project, asset, before.of(before.steps[:left]), seen)
+    return Prepared(asset, undone=tuple(map(str, before.steps[left:])), notes=tuple(notes))
+
+
+def _readable(folder: Path) -> Preparation:
+    """The preparation in a folder, an empty one where there is none or a damaged one."""
+    try:
+        return read_preparation(folder) or Preparation()
+    except AssetError:
+        return Preparation()
+
+
+def _exchanged(project: Project, asset: str, after: Preparation, seen: str | None) -> list[str]:
+    """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
+    with project.lock():
+        if record_digest(project.layout.preparation(asset)) != seen:
+            raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
+        return _exchange(project, asset, after)
+
+
+def _hulls(source: Asset, folder: Path) -> dict[str, Shape]:
+    """The hulls of an asset by name as they are prepared, those of an outdated preparation too."""
+    before = _readable(folder)
+    made = {name: before.hulls[known] for name, known in before.made.items()}
+    return made | {geom.name: geom.shape for geom in fitting(source, before).asset.geoms}
+
+
+def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:
+    """Write a preparation, under the lock that the caller holds, and let labels follow; notes on what that means.
+
+    Labels of the new hulls are written before these, and labels of the old hulls go after them: killed in between,
+    labels of hulls that are not there are left, which is harmless.
+    """
+    folder = project.layout.preparation(asset)
+    source = read(project.path(asset))
+    mesh = SymbolicMesh.of(prepared(source, after))
+    follow = relabelled(project, asset, _hulls(source, folder), mesh)
+    if follow:
+        follow.write(keep_old=True)
+    if after.steps:
+        write_preparation(folder, after)
+    else:
+        remove_preparation(folder)
+    if follow:
+        follow.write(keep_old=False)
+    gone = sorted({name for _, name in astray(project.steps(asset), mesh.index)})
+    notes = list(follow.notes) if follow else []
+    if gone:
+        notes.append(f"the demonstration on it names {listed(gone)}, which it has no more: demonstrate it anew")
+    return notes
