@@ -19,7 +19,7 @@ _WORDING = {
     What.OTHERS: "{title} has no place for them",
     What.SETTINGS: "{title} has no place for them",
     What.VISUALS: "{title} does not tell visuals from hulls",
-    What.FIXED_JOINTS: "{title} joins bodies without naming it",
+    What.FIXED_JOINTS: "{title} has no named fixed joints",
 }
 
 

@@ -214,8 +214,8 @@ class _Creator:
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
             if roots:
                 notes.append(
-                    f"{counted(len(roots), 'body', 'bodies')} fixed to the world ({listed(roots, 3)}): for one that moves"
-                    " freely, write <freejoint/> as the first thing in its <body>"
+                    f"{counted(len(roots), 'body', 'bodies')} fixed to the world ({listed(roots, 3)}): for one that "
+                    "moves freely, write <freejoint/> as the first thing in its <body>"
                 )
         return tuple(notes)
 
