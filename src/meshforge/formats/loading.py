@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import glob
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.registry import SUFFIXES, format_of
+from meshforge.formats.units import unit_note
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
 
@@ -19,7 +21,9 @@ def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     options: None takes those of the environment.
     """
     path = Path(path)
-    return format_of(path).read(path, options or ReadOptions.from_environment())
+    asset = format_of(path).read(path, options or ReadOptions.from_environment())
+    note = unit_note(asset)
+    return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
 def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:

@@ -18,7 +18,10 @@ _MARK = b"\xef\xbb\xbf"  # the byte order mark of UTF-8
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """A kind of file: how it begins, its name for people, the suffixes under which it is right, and the remedy."""
+    """A kind of file: how it begins, its name for people, the suffixes under which it is right, and the remedy.
+
+    Without a remedy, it is to be renamed to the first of its suffixes.
+    """
 
     begins: re.Pattern[bytes]
     name: str
@@ -31,12 +34,13 @@ def _look(begins: bytes, name: str, *suffixes: str, remedy: str | None = None) -
 
 
 _FETCH = "Fetch the file itself: git lfs pull."
+_OTHER = "MeshForge does not read such files: export it as OBJ."
 _LOADED = "The download went wrong: take the raw file, not the page that shows it."
 _LOOKS = (
     _look(rb"version https://git-lfs\.github\.com/spec", "a Git LFS pointer, not the file itself", remedy=_FETCH),
     _look(rb"<!doctype html|<html", "a web page", remedy=_LOADED),
     _look(rb"\x1f\x8b", "a file compressed by gzip", remedy="Unpack it first (gunzip)."),
-    _look(rb"PK\x03\x04", "a ZIP archive", ".usdz", remedy="Unpack it first (unzip)."),
+    _look(rb"PK\x03\x04", "a ZIP archive", ".usdz", ".zae", remedy="Unpack it first (unzip)."),
     _look(rb"7z\xbc\xaf|Rar!", "a compressed archive", remedy="Unpack it first."),
     _look(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0", "a picture"),
     _look(rb"%PDF-", "a PDF document"),
@@ -44,12 +48,13 @@ _LOOKS = (
     _look(rb"ply\s+(?:format|comment|element|obj_info)\b", "a PLY file", ".ply"),
     _look(rb"#VRML V", "a VRML file", ".wrl"),
     _look(rb"solid\b.*\bfacet\b", "an ASCII STL file", ".stl"),
-    _look(rb"n?OFF\s+[\d#]", "an OFF file", ".off"),
-    _look(rb"Kaydara FBX|; FBX", "an FBX file", ".fbx"),
-    _look(rb"BLENDER", "a Blender file", ".blend"),
+    _look(rb"n?OFF\s+[\d#]", "an OFF file", remedy=_OTHER),
+    _look(rb"Kaydara FBX|; FBX", "an FBX file", remedy=_OTHER),
+    _look(rb"BLENDER", "a Blender file", remedy=_OTHER),
     _look(rb"PXR-USDC|#usda", "a USD file", ".usd", ".usda", ".usdc"),
     _look(rb"(?:#[^\n]*\n\s*)*(?:mtllib\s|o\s|g\s|v\s+[-\d.])", "an OBJ file", ".obj"),
-    _look(rb"\{\s*\"", "JSON", ".gltf", ".json"),
+    _look(rb"\{\s*\"asset\"", "a glTF file", ".gltf"),
+    _look(rb"\{\s*[\"}]", "JSON, not a mesh", ".gltf", remedy=_LOADED),
 )
 _ROOTS = {
     "collada": ("a Collada file", ".dae"),
@@ -57,7 +62,7 @@ _ROOTS = {
     "mujoco": ("an MJCF file", ".xml"),
     "mujocoinclude": ("an MJCF file", ".xml"),
     "sdf": ("an SDF file", ".sdf"),
-    "x3d": ("an X3D file", ".x3d"),
+    "x3d": ("an X3D file", ""),
     "error": ("the error of a web server", ""),
 }
 _MESHES = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
@@ -111,9 +116,9 @@ def _known(data: bytes, suffix: str) -> Found | None:
         if look.begins.match(data[:_HEAD]):
             if suffix in look.suffixes:
                 return None
-            if look.suffixes:
-                return _misnamed(look.name, look.suffixes[0])
-            return f"this is {look.name}", look.remedy
+            if look.remedy or not look.suffixes:
+                return f"this is {look.name}", look.remedy
+            return _misnamed(look.name, look.suffixes[0])
     return None
 
 
@@ -122,7 +127,7 @@ def _markup(data: bytes, suffix: str) -> Found | None:
         return None
     tag = root[1].decode("ascii", "replace")
     name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
-    return _misnamed(name, right) if right else (f"this is {name}", _LOADED)
+    return _misnamed(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
 
 
 def _conflict(data: bytes, suffix: str) -> Found | None:

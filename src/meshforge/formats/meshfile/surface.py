@@ -48,7 +48,9 @@ def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
             raise AssetError("a face names a vertex that is not there", where=where)
         used = surface.vertices[np.unique(surface.faces)]
         if not np.isfinite(used).all():
-            raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
+            x, y, z = used[~np.isfinite(used).all(axis=1)][0]
+            problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
+            raise AssetError(problem, where=where, remedy="Mend or export it again.")
         if (largest := float(np.abs(used).max())) > FARTHEST:
             remedy = "No mesh is that large: mend or export it again."
             raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)

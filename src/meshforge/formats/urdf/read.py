@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from meshforge.asset import Asset, Body, Geom, Opaque
-from meshforge.errors import AssetError
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.references import Resolver
+from meshforge.formats.triangles import contents
 from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.mechanism import read_mechanism
@@ -30,10 +30,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     tree, a collision mesh that is not there.
     """
     where = str(path)
-    try:
-        source = path.read_bytes()
-    except OSError as error:
-        raise AssetError(f"cannot be read: {error.strerror}", where=where) from error
+    source = contents(path)
     robot = robot_of(Text.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
