@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.obj import Group, ObjText, arguments, keyword, name_in
+from meshforge.formats.meshfile.obj import Group, ObjText, arguments, name_in
+from meshforge.formats.meshfile.obj_rows import keywords
 from meshforge.formats.obj_text import line_end, named, parts_text
 from meshforge.formats.plain import Edit
 
@@ -27,7 +28,7 @@ class _Editor:
     def __init__(self, text: ObjText, edit: Edit) -> None:
         self.text = text
         self.edit = edit
-        self.words = [keyword(s) for s in text.statements]
+        self.words = keywords(text.statements)
         if any(word in _FREE_FORM for word in self.words):
             raise AssetError("files with free-form surfaces cannot be edited", where=str(edit.path))
         self.stays = dict(zip(text.face_at.tolist(), edit.stays.tolist(), strict=True))

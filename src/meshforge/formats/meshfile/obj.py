@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.errors import AssetError
+from meshforge.formats.meshfile.obj_rows import keywords, plain_faces, plain_vertices
 from meshforge.formats.meshfile.surface import RawSurface, Soup, checked, is_number, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
@@ -79,13 +80,12 @@ def group_names(groups: tuple[Group, ...]) -> list[str | None]:
 def parse_obj(data: bytes, where: str) -> ObjText:
     """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
     statements = statements_of(data)
-    words = [keyword(s) for s in statements]
+    words = keywords(statements)
     _refuse_others(statements, words, where)
     vertex_at = np.array([k for k, word in enumerate(words) if word == b"v"], dtype=np.int64)
     vertices = _vertices(statements, vertex_at, where)
     face_at, faces = _faces(statements, words, vertex_at, where)
-    groups, of_statement = _groups(statements, words)
-    used = of_statement[face_at] if len(face_at) else np.zeros(0, dtype=np.int64)
+    groups, used = _groups(statements, words, face_at)
     kept, first, face_group = np.unique(used, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.argsort(order)
@@ -105,12 +105,6 @@ def line_of(statements: tuple[bytes, ...] | list[bytes], index: int) -> int:
     return 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
 
 
-def keyword(statement: bytes) -> bytes:
-    """The first word of a statement, none where it is empty."""
-    words = statement.split(None, 1)
-    return words[0] if words else b""
-
-
 def arguments(statement: bytes) -> list[bytes]:
     """The words after the keyword, without a comment at the end."""
     if b"\\" in statement:
@@ -128,6 +122,9 @@ def _refuse_others(statements: list[bytes], words: list[bytes], where: str) -> N
 
 
 def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
+    plain = plain_vertices([statements[k] for k in at.tolist()])
+    if plain is not None:
+        return plain
     rows = [arguments(statements[k])[:3] for k in at]
     try:
         if any(b"_" in word for row in rows for word in row):  # Python's own digit separators, which no one else reads
@@ -141,12 +138,14 @@ def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
 
 def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
     """The statement of each triangle, and the triangles (m, 3)."""
+    rows = np.array([k for k, word in enumerate(words) if word in (b"f", b"fo")], dtype=np.int64)
+    ahead = np.searchsorted(vertex_at, rows)
+    plain = plain_faces([statements[k] for k in rows.tolist()], ahead, len(vertex_at))
+    if plain is not None:
+        return rows[plain[0]], plain[1]
     at: list[int] = []
     triangles: list[tuple[int, int, int]] = []
-    before = np.searchsorted(vertex_at, np.arange(len(statements)))  # vertices ahead of a statement
-    for k, word in enumerate(words):
-        if word not in (b"f", b"fo"):
-            continue
+    for k, before in zip(rows.tolist(), ahead.tolist(), strict=True):
         try:
             if b"_" in statements[k]:
                 raise ValueError
@@ -154,10 +153,11 @@ def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: 
         except ValueError:
             problem = f"a face needs vertex numbers, here is {_quoted(statements[k])}"
             raise _error(problem, statements, k, where) from None
-        indices = [c - 1 if c > 0 else int(before[k]) + c for c in corners]
+        indices = [c - 1 if c > 0 else before + c for c in corners]
         for corner, index in zip(corners, indices, strict=True):
             if corner == 0 or not 0 <= index < len(vertex_at):
-                problem = f"a face names vertex {corner}, the file has {len(vertex_at)}"
+                there = f"the file has {len(vertex_at)}" if corner >= 0 else f"{before} lie ahead of it"
+                problem = f"a face names vertex {corner}, {there}"
                 raise _error(problem, statements, k, where)
         for second, third in itertools.pairwise(indices[1:]):
             at.append(k)
@@ -165,18 +165,17 @@ def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: 
     return np.array(at, dtype=np.int64), np.array(triangles, dtype=np.int64).reshape(-1, 3)
 
 
-def _groups(statements: list[bytes], words: list[bytes]) -> tuple[list[Group], Ints]:
-    """All groups in order of appearance, and the group in force at each statement."""
+def _groups(statements: list[bytes], words: list[bytes], at: Ints) -> tuple[list[Group], Ints]:
+    """All groups in order of appearance, and the group in force at each of some statements (n,)."""
     known: dict[Group, int] = {("", ""): 0}
     current: Group = ("", "")
-    in_force = np.zeros(len(statements), dtype=np.int64)
+    lines, in_force = [-1], [0]
     for k, word in enumerate(words):
-        if word == b"o":
-            current = (name_in(statements[k]), "")
-        elif word == b"g":
-            current = (current[0], name_in(statements[k]))
-        in_force[k] = known.setdefault(current, len(known))
-    return list(known), in_force
+        if word in (b"o", b"g"):
+            current = (name_in(statements[k]), "") if word == b"o" else (current[0], name_in(statements[k]))
+            lines.append(k)
+            in_force.append(known.setdefault(current, len(known)))
+    return list(known), np.array(in_force)[np.searchsorted(lines, at) - 1]
 
 
 def name_in(statement: bytes) -> str:
