@@ -15,6 +15,7 @@ from meshforge.formats.urdf import UrdfFormat
 from meshforge.formats.wrl import Wrl
 
 _HEAD = 4096  # bytes shown to a format that shares its suffix with another
+_UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
 FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
 FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), *FOLDER.members, FOLDER)
@@ -71,6 +72,8 @@ def _head(path: Path) -> bytes:
 
 
 def _unknown(path: Path) -> AssetError:
+    if told := _UNREAD.get(path.suffix.lower()):
+        return AssetError(told, where=str(path))
     guess = nearest(path.suffix.lower(), SUFFIXES)
     remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
     return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import threading
+import warnings as python_warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,13 +14,15 @@ from typing import TYPE_CHECKING
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.flat import Flat, flatten
 from meshforge.formats.mjcf.sources import Tree, gather
+from meshforge.formats.mjcf.submodels import submodels
 
 if TYPE_CHECKING:
     import mujoco
 
 _ONE_AT_A_TIME = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
-_LINE = re.compile(r"\bline (\d+)")
-_HEAD = re.compile(r"^(?:(?:XML )?Error|XML parse error \d+)\s*:\s*", re.I)
+_LINE = re.compile(r"\bline (?:number=)?(\d+)", re.I)
+_PARSER = re.compile(r"Error=\w+ ErrorID=\d+ \(0x\w+\) Line number=\d+: ")
+_HEAD = re.compile(r"^(?:(?:(?:XML )?Error|XML parse error \d+)\s*:\s*)+", re.I)
 _NAMELESS = re.compile(r"Element name '', id \d+(?:, line \d+)?\s*")
 _NAMED = re.compile(r"Element (?:name )?'([^']*)'(?:, id \d+)?(?:, line \d+)?\s*")
 
@@ -64,9 +67,10 @@ def compile_spec(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> Compiled:
     warnings: list[str] = []
     with _heard(warnings), _files(tree, flat) as vfs:
         try:
-            return Compiled(spec, spec.compile(vfs=vfs), tuple(dict.fromkeys(warnings)))
+            model = spec.compile(vfs=vfs)
         except _failures() as error:
             raise _told(str(error), tree, flat) from None
+    return Compiled(spec, model, tuple(dict.fromkeys(_plain(warning) for warning in warnings)))
 
 
 def _failures() -> tuple[type[Exception], ...]:
@@ -82,9 +86,9 @@ def _files(tree: Tree, flat: Flat) -> Iterator[mujoco.MjVfs]:
 
     with mujoco.MjVfs() as vfs:
         included = {source.path for source in tree.sources}
-        for path, data in tree.files.items():
-            if path not in included:
-                vfs[str(path)] = data
+        seen = {path: data for path, data in tree.files.items() if path not in included}
+        for path, data in (seen | submodels(tree, len(flat.nodes))).items():
+            vfs[str(path)] = data
         vfs[str(tree.main.path)] = flat.text
         yield vfs
 
@@ -94,7 +98,8 @@ def _heard(warnings: list[str]) -> Iterator[None]:
     """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
     import mujoco
 
-    with _ONE_AT_A_TIME:
+    with _ONE_AT_A_TIME, python_warnings.catch_warnings(record=True) as raised:
+        python_warnings.simplefilter("always")
         handler, config = mujoco.get_mju_user_warning(), mujoco.MjLogConfig.get()
         before = config.logto_console, config.logto_file
         config.logto_console = config.logto_file = False
@@ -106,12 +111,17 @@ def _heard(warnings: list[str]) -> Iterator[None]:
             mujoco.set_mju_user_warning(handler)
             config.logto_console, config.logto_file = before
             config.set()
+            warnings += [str(warning.message) for warning in raised]
 
 
 def _told(message: str, tree: Tree, flat: Flat) -> AssetError:
     """MuJoCo's message in one line, about the authored file and line."""
     lines = [node for number in _LINE.findall(message) if (node := flat.node(f"line {number}"))]
     where = tree.where(lines[-1]) if lines else str(tree.main.path)
-    text = _NAMELESS.sub("", _HEAD.sub("", message.strip()))
-    text = _NAMED.sub(r"(element '\1')", text)
-    return AssetError(f"MuJoCo refuses this file: {' '.join(text.split())}", where=where)
+    return AssetError(f"MuJoCo refuses this file: {_plain(message)}", where=where)
+
+
+def _plain(message: str) -> str:
+    """A message of MuJoCo in one line, without the line numbers of our text."""
+    text = _NAMELESS.sub("", _PARSER.sub("", _HEAD.sub("", message.strip())))
+    return " ".join(_NAMED.sub(r"(element '\1')", text).split())

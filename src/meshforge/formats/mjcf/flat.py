@@ -13,7 +13,7 @@ from meshforge.formats.xml import escaped
 Keep = Callable[[Node], Mapping[str, str] | None]
 """Which attributes of an element go into the text; None leaves the element out, with all below it."""
 
-_FUSING = ("fusestatic", "discardvisual")
+_FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,7 +66,7 @@ def _all(node: Node) -> Mapping[str, str]:
 def _start_tag(tree: Tree, folders: Folders, node: Node, attributes: Mapping[str, str], first: bool) -> bytes:
     parts = [b"<" if first else b"\n<", node.tag.encode()]
     for name, value in attributes.items():
-        if node.tag == "compiler" and name in _FUSING:
+        if name in _FUSING.get(node.tag, ()):
             continue
         if node.source and name.startswith("file") and (path := folders.beside(tree, node, name)):
             value = os.fspath(path)

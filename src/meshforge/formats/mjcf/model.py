@@ -16,7 +16,10 @@ from meshforge.formats.mjcf.shapes import Shapes
 from meshforge.formats.mjcf.sources import Node, Tree
 from meshforge.geometry import Pose
 
-_REPLICATED = "it is inside a <replicate>, which makes several geoms of one element"
+_INSIDE = {
+    "replicate": "it is inside a <replicate>, which makes several geoms of one element",
+    "frame": "it is inside a <frame> that scales what it holds",
+}
 _ATTACHED = "it comes out of another model, which is attached"
 
 
@@ -86,12 +89,20 @@ class Reading:
         copies: dict[int, list[int]] = {}
         for k, node in enumerate(self.elements):
             copies.setdefault(len(order) + k if node is None else order[id(node)], []).append(k)
-        replicated = {id(n) for top in self.flat.nodes if top.tag == "replicate" for n in top.walk()}
-        return tuple(self._entry(copies[key], replicated) for key in sorted(copies))
+        inside = self._inside()
+        return tuple(self._entry(copies[key], inside) for key in sorted(copies))
 
-    def _entry(self, copies: list[int], replicated: set[int]) -> Authored:
+    def _inside(self) -> dict[int, str]:
+        """Why what stands inside some elements cannot be edited, by the identity of its nodes."""
+        found: dict[int, str] = {}
+        for top in self.flat.nodes:
+            if top.tag == "replicate" or (top.tag == "frame" and "scale" in top.attributes):
+                found |= {id(node): _INSIDE[top.tag] for node in top.walk() if id(node) not in found}
+        return found
+
+    def _entry(self, copies: list[int], inside: dict[int, str]) -> Authored:
         node = self.elements[copies[0]]
-        fixed = _ATTACHED if node is None else _REPLICATED if id(node) in replicated else ""
+        fixed = _ATTACHED if node is None else inside.get(id(node), "")
         return Authored(
             source=node.source if node else -1,
             start=node.element.start if node else -1,

@@ -41,7 +41,7 @@ def read_mjcf(path: Path) -> Asset:
         visuals=read_visuals(reading, made.spec, stand_ins),
         files=files,
         missing=missing,
-        notes=_notes(made, refusal),
+        notes=_notes(tree, made, refusal),
         mechanism=read_mechanism(reading),
     )
 
@@ -53,15 +53,22 @@ def _compiled(tree: Tree) -> tuple[Flat, Compiled, frozenset[int], str]:
         made = compile_flat(tree, flat)
     except AssetError as error:
         part = reduced(tree, error)
-        line = f" ({Path(error.where or '').name})"
-        return part.flat, part.made, part.stand_ins, error.problem + line
-    return flat, made, frozenset(), "; ".join(tree.faults)
+        return part.flat, part.made, part.stand_ins, _refusal(error)
+    return flat, made, frozenset(), ""
 
 
-def _notes(made: Compiled, refusal: str) -> tuple[str, ...]:
-    notes = [f"MuJoCo warns: {warning}" for warning in made.warnings]
-    if refusal:
-        notes.insert(0, f"{refusal}; read for its collision geometry only")
+def _refusal(error: AssetError) -> str:
+    """What is wrong, with the name and line of the file where they are known."""
+    place = Path(error.where or "").name
+    return f"{error.problem} ({place})" if ":" in place else error.problem
+
+
+def _notes(tree: Tree, made: Compiled, refusal: str) -> tuple[str, ...]:
+    notes = [f"{refusal}; read for its collision geometry only"] if refusal else []
+    notes += [f"MuJoCo refuses this file: {fault}" for fault in tree.faults]
+    notes += [f"MuJoCo warns: {warning}" for warning in made.warnings]
     if made.model.nflex:
-        notes.append(f"{counted(int(made.model.nflex), 'flexible body', 'flexible bodies')} left as they are: no hulls")
+        notes.append(
+            f"{counted(int(made.model.nflex), 'flexible body', 'flexible bodies')}: no hulls, left as authored"
+        )
     return tuple(notes)

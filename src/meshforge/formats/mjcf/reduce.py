@@ -62,6 +62,7 @@ class _Attempt:
     masses: bool
 
     def keep(self, node: Node) -> Mapping[str, str] | None:
+        """The attributes of an element that are needed, None where the element is not."""
         if node.tag in _WHOLE:
             return node.attributes
         if node.tag not in _KEPT or (node.tag == "inertial" and not self.masses):
@@ -78,11 +79,13 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
 
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
     """
+    last = refusal
     for attempt in _ATTEMPTS:
         flat = flatten(tree, attempt.keep)
         try:
             spec = parse_flat(tree, flat)
-        except AssetError:
+        except AssetError as error:
+            last = error
             continue
         _refuse_missing(tree, flat, spec)
         infos = _stood_in(tree, flat, spec, attempt.all_visuals)
@@ -91,26 +94,28 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
         spec.compiler.balanceinertia = True
         try:
             made = compile_spec(tree, flat, spec)
-        except AssetError:
+        except AssetError as error:
+            last = error
             continue
         return Reduced(flat, made, frozenset(geom.id for geom in spec.geoms if geom.info in infos))
+    if last.message != refusal.message:
+        refusal = AssetError(refusal.problem, where=refusal.where, remedy=f"Mended, it would meet: {last.message}")
     raise refusal
 
 
 def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom is not there."""
     lost = _lost(tree, flat, spec)
-    for geom in spec.geoms:
-        node = flat.node(geom.info)
-        if node is None or geom.meshname not in lost or not _collides(geom, spec):
-            continue
-        mesh = lost[geom.meshname]
-        path = Folders.of(tree).find(tree, mesh)
-        name = geom.name or f"of body {geom.parent.name!r}"
+    geoms = [geom for geom in spec.geoms if geom.meshname in lost and flat.node(geom.info) and _collides(geom, spec)]
+    if geoms:
+        first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
+        mesh = lost[first.meshname]
+        told = f"collision geom {first.name!r}" if first.name else "a collision geom"
+        others = f" (and {len(meshes) - 1} more like it)" if len(meshes) > 1 else ""
         raise AssetError(
-            f"the mesh {geom.meshname!r} of collision geom {name!r} is not there: {mesh.attributes['file']!r}",
+            f"the mesh {mesh.attributes['file']!r} of {told} of body {first.parent.name!r} is not there{others}",
             where=tree.where(mesh),
-            remedy=Resolver(tree.main.path.parent).advice(str(path)),
+            remedy=Resolver(tree.main.path.parent).advice(str(Folders.of(tree).find(tree, mesh))),
         )
 
 

@@ -109,8 +109,11 @@ class _Gatherer:
         raw = self.files[path] if path in self.files else contents(path)
         absolute = bool(reference) and Path(reference).is_absolute()
         place = None if absolute else relative_name(path, self.main.parent)
+        text = Text.of(raw)
         self.sources.append(Source(path, place, reference, raw))
-        return parsed(self.sources[-1].text.data, str(path))
+        if text.encoding.startswith("utf-16"):
+            self.faults.append(f"{path.name} is text in UTF-16")
+        return parsed(text.data, str(path))
 
     def _node(self, element: Element, source: int, depth: int = 0) -> Node:
         top = Node(element, source)
