@@ -8,16 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.asset import Surface
-from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Shape, principal_extents
+from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, principal_extents
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MeshPart:
-    """A piece of collision geometry in the root frame: a shape, or None with the reason why it is no hull."""
+    """A piece of collision geometry in the root frame: a shape, or None with the reason why it is no hull.
+
+    plane: root_T_plane of an endless plane, whose normal is Z.
+    """
 
     shape: Shape | None
     reason: str = ""
     surface: Surface | None = None
+    plane: Pose | None = None
 
 
 def mesh_parts(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[MeshPart]:

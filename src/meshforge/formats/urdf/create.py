@@ -126,7 +126,8 @@ class _Creator:
             )
         if self.chain.light:
             notes.append(f"{counted(len(self.chain.light), 'link')} of {LIGHT.mass:g} kg between joints of one body")
-        weightless = [link for link, slots in self.slots.items() if slots and link not in self.inertials]
+        heavy = {*self.inertials, *self.chain.light, "world"}  # of that name, PyBullet knows that it has no mass
+        weightless = [link for link in self.chain.frames if link not in heavy]
         if weightless:
             notes.append(
                 f"{counted(len(weightless), 'link')} without a mass ({listed(weightless, 3)}): PyBullet takes 1 kg, "

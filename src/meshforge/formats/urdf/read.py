@@ -89,7 +89,7 @@ def _geoms(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) ->
 
 def _opaque(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) -> tuple[Opaque, ...]:
     return tuple(
-        Opaque(name, element.link, part.reason, part.surface)
+        Opaque(name, element.link, part.reason, part.surface, part.plane)
         for element, own in zip(authored, parts, strict=True)
         for name, part in zip(element.names, own, strict=True)
         if part.shape is None

@@ -10,8 +10,10 @@ from meshforge.formats.urdf.numbers import floats
 from meshforge.formats.xml import Element, shown
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 
+_LEAST = 1e-12  # a factor that is taken for zero
 KINDS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
 """The elements of a `<geometry>` that engines know."""
+_UP = (0.0, 0.0, 1.0)
 
 
 def geometry_of(element: Element) -> Element | None:
@@ -39,12 +41,22 @@ def primitive(kind: Element, pose: Pose, where: str) -> MeshPart:
             make = Cylinder if kind.tag == "cylinder" else Capsule
             shape = make(pose, float(extent[0]), float(extent[1]) / 2)
         case "plane":
-            return MeshPart(None, "a plane has no end")
+            return MeshPart(None, "a plane has no end", plane=pose @ _facing(floats(kind, "normal", 3, where, _UP)))
         case _:
             return MeshPart(None, f"<{kind.tag}> is no geometry that is known")
-    if extent.min() <= 0:
+    if extent.min() <= 0 or shape.volume == 0:
         return MeshPart(None, f"a {kind.tag} without volume: {shown(extent)} m")
     return MeshPart(shape)
+
+
+def _facing(normal: Floats) -> Pose:
+    """The least turn that takes Z onto a direction (3,)."""
+    length = float(np.linalg.norm(normal))
+    x, y, z = normal / length if length > 0 else np.array(_UP)
+    if z < -1 + 1e-12:
+        return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
+    cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
+    return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
 
 
 def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
@@ -54,10 +66,10 @@ def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
     """
     single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
     scale = floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
-    if not scale.all():
+    if np.abs(scale).min() < _LEAST:
         raise AssetError(
             f"collision {label!r} is scaled to nothing: scale={mesh.attributes['scale']!r}",
             where=f"{where}:{mesh.line}",
-            remedy="Give every axis a factor other than zero.",
+            remedy="Give every axis a factor that is not zero.",
         )
     return np.broadcast_to(scale, (3,))
