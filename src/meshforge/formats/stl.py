@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.formats.meshfile import Soup
-from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, parse_stl
+from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
 from meshforge.formats.parts import Part
 from meshforge.formats.plain import Edit, PlainFormat
 from meshforge.geometry import Floats
@@ -28,7 +28,7 @@ class Stl(PlainFormat):
         text = parse_stl(data, str(path))
         text.surfaces(str(path))  # raises where there is nothing to read
         corners = text.corners.reshape(-1, 3)
-        several = len(np.unique(text.solid)) > 1
+        several = len(text.solids) > 1 and len(np.unique(text.solid)) > 1
         names = tuple((name or None) if several else None for name in text.solids)
         return Soup(corners, np.arange(len(corners)).reshape(-1, 3), text.solid, names)
 
@@ -71,7 +71,7 @@ def _records(part: Part) -> npt.NDArray[np.void]:
 def _ascii(data: bytes, text: StlText, edit: Edit) -> bytes:
     """The text without the facets that go, and with those of the parts: in the one solid, or in solids of their own."""
     kept, at = [], 0
-    for start, stop in text.spans[~edit.stays].tolist():
+    for start, stop in facet_spans(data)[~edit.stays].tolist():
         kept.append(data[at:start].rstrip(b" \t"))
         at = stop
     body = b"".join([*kept, data[at:]])

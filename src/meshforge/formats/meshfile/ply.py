@@ -193,9 +193,17 @@ def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
         raise AssetError(f"its faces have no list {' or '.join(INDICES)}", where=where)
     if found is None or key is None:
         return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
+    read = found.values[key]
+    if (
+        isinstance(read, np.ndarray)
+        and read.dtype.kind in "iu"
+        and read.min(initial=0) >= 0
+        and read.max(initial=-1) < count
+    ):
+        return read.astype(np.int64), np.arange(len(read))
     at: list[int] = []
     triangles: list[tuple[int, int, int]] = []
-    for k, corners in enumerate(found.values[key]):
+    for k, corners in enumerate(read):
         if not all(0 <= c < count and c == int(c) for c in corners):
             names = ", ".join(f"{c:g}" for c in corners[:8])
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"

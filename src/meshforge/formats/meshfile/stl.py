@@ -21,24 +21,33 @@ _SOLID = re.compile(rb"^[^\S\n]*solid\b[^\S\n]*([^\r\n]*)", re.M | re.I)
 _OPENED = re.compile(rb"\bfacet\s+normal\b", re.I)
 _TITLE = re.compile(rb"^[^\S\n]*(?:end)?solid\b[^\r\n]*", re.M | re.I)
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.I)
+_WORDS = (
+    *(b"facet", b"normal", b"", b"", b"", b"outer", b"loop"),
+    *(b"vertex", b"", b"", b"") * 3,
+    *(b"endloop", b"endfacet"),
+)
+"""The words of a facet, empty where it has numbers."""
+_COORDINATES = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StlText:
     """An STL file taken apart.
 
-    corners: (m, 3, 3) of each triangle; spans: (m, 2) the bytes of each triangle in the file;
-    solid: (m,) into `solids`, the names of an ASCII file's solids; binary: whether it is a binary file.
+    corners: (m, 3, 3) of each triangle; solid: (m,) into `solids`, the names of an ASCII file's solids;
+    binary: whether it is a binary file.
     """
 
     corners: Floats
-    spans: Ints
     solid: Ints
     solids: tuple[str, ...]
     binary: bool
 
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each solid, named where there are several. Raises AssetError."""
+        if len(self.solids) == 1:
+            corners = self.corners.reshape(-1, 3)
+            return checked([RawSurface(None, corners, _in_order(corners))], where)
         several = len(np.unique(self.solid)) > 1
         parts = []
         for k, name in enumerate(self.solids):
@@ -78,12 +87,37 @@ def _is_prose(head: bytes) -> bool:
 
 def _binary(data: bytes, count: int) -> StlText:
     corners = np.frombuffer(data, RECORD, count, HEADER)["corners"].astype(np.float64)
-    starts = HEADER + RECORD.itemsize * np.arange(count, dtype=np.int64)
-    spans = np.column_stack([starts, starts + RECORD.itemsize])
-    return StlText(corners, spans, np.zeros(count, dtype=np.int64), ("",), True)
+    return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
+
+
+def facet_spans(data: bytes) -> Ints:
+    """The bytes (m, 2) of each triangle in an ASCII file."""
+    return np.array([f.span() for f in _FACET.finditer(data)], dtype=np.int64).reshape(-1, 2)
 
 
 def _ascii(data: bytes, where: str) -> StlText:
+    return _plain_ascii(data) or _any_ascii(data, where)
+
+
+def _plain_ascii(data: bytes) -> StlText | None:
+    """A text of one solid that has just the words it should, read all at once; None where it is otherwise."""
+    title, _, text = data.removeprefix(codecs.BOM_UTF8).lstrip().partition(b"\n")
+    body, ended, rest = text.lower().partition(b"endsolid")
+    words = body.split()
+    count = len(words) // len(_WORDS)
+    if title[5:6].strip() or not ended or b"\n" in rest.strip() or len(words) != count * len(_WORDS) or b"_" in body:
+        return None
+    if any(words[k :: len(_WORDS)].count(word) != count for k, word in enumerate(_WORDS) if word):
+        return None
+    try:
+        axes = [np.array(list(map(float, words[k :: len(_WORDS)]))) for k in _COORDINATES]
+    except ValueError:
+        return None
+    corners = np.column_stack(axes).reshape(-1, 3, 3)
+    return StlText(corners, np.zeros(count, dtype=np.int64), (text_of(title[len(b"solid") :].strip()),), False)
+
+
+def _any_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
     facets = list(_FACET.finditer(data))
     numbers: list[tuple[bytes, ...]] = []
@@ -105,9 +139,9 @@ def _ascii(data: bytes, where: str) -> StlText:
         line = _line(data, facets[k // 3].start())
         problem = f"a vertex needs three numbers, here is {text_of(b' '.join(numbers[k]))!r}"
         raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(numbers[k])) from None
-    spans = np.array([f.span() for f in facets], dtype=np.int64).reshape(-1, 2)
-    solid = np.searchsorted([start for start, _ in solids], spans[:, 0], side="right") - 1
-    return StlText(corners, spans, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)
+    starts = [facet.start() for facet in facets]
+    solid = np.searchsorted([start for start, _ in solids], starts, side="right") - 1
+    return StlText(corners, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)
 
 
 def _line(data: bytes, offset: int) -> int:

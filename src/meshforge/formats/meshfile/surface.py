@@ -43,18 +43,25 @@ def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
         points = max((len(s.vertices) for s in surfaces), default=0)
         holds = f", only {counted(points, 'vertex', 'vertices')}" if points else ""
         raise AssetError(f"there is no triangle in this file{holds}", where=where, remedy="Export it with its faces.")
+    arrays = {id(s.vertices): s.vertices for s in found}
+    fine = {key for key, vertices in arrays.items() if np.abs(vertices).max(initial=0.0) <= FARTHEST}
     for surface in found:
         if surface.faces.min() < 0 or surface.faces.max() >= len(surface.vertices):
             raise AssetError("a face names a vertex that is not there", where=where)
-        used = surface.vertices[np.unique(surface.faces)]
-        if not np.isfinite(used).all():
-            x, y, z = used[~np.isfinite(used).all(axis=1)][0]
-            problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
-            raise AssetError(problem, where=where, remedy="Mend or export it again.")
-        if (largest := float(np.abs(used).max())) > FARTHEST:
-            remedy = "No mesh is that large: mend or export it again."
-            raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
+        if id(surface.vertices) not in fine:
+            _refuse_far(surface.vertices[np.unique(surface.faces)], where)
     return found
+
+
+def _refuse_far(used: Floats, where: str) -> None:
+    """Raise AssetError where one of the vertices that faces use is not finite, or too far out."""
+    if not np.isfinite(used).all():
+        x, y, z = used[~np.isfinite(used).all(axis=1)][0]
+        problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
+        raise AssetError(problem, where=where, remedy="Mend or export it again.")
+    if (largest := float(np.abs(used).max())) > FARTHEST:
+        remedy = "No mesh is that large: mend or export it again."
+        raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
 
 
 def fans(polygons: Iterable[Sequence[int]]) -> Ints:
