@@ -22,8 +22,15 @@ def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     """
     path = Path(path)
     asset = format_of(path).read(path, options or ReadOptions.from_environment())
-    note = unit_note(asset)
-    return replace(asset, notes=(*asset.notes, note)) if note else asset
+    found = [note for note in (_absence(asset), unit_note(asset)) if note]
+    return replace(asset, notes=(*asset.notes, *found)) if found else asset
+
+
+def _absence(asset: Asset) -> str | None:
+    """A note on an asset that holds nothing to reason about."""
+    if asset.geoms or asset.opaque:
+        return None
+    return "it has no collision geometry: `meshforge new --decompose` makes hulls of what is shown"
 
 
 def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:

@@ -14,6 +14,7 @@ from meshforge.errors import nearest
 
 _PACKAGE = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = re.compile(r"file:(?://[^/]*(?=/)|//)?(.*)", re.S)
+_LONG = 300  # characters of a path in a message
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
@@ -26,7 +27,7 @@ class Resolver:
 
     def find(self, reference: str) -> Path | None:
         """The file a reference leads to, None where it is not there."""
-        return next((path for path in self.candidates(reference) if path.is_file()), None)
+        return next((path for path in self.candidates(reference) if _is_file(path)), None)
 
     def candidates(self, reference: str) -> Iterator[Path]:
         """The places where the file may be, likeliest first; none for an address in the network."""
@@ -60,6 +61,10 @@ class Resolver:
         reference = reference.strip()
         if is_address(reference):
             return "Addresses are not followed: download the file and refer to the copy."
+        if "$(" in reference or "${" in reference:
+            return "This is a xacro expression: expand the file with xacro first."
+        if reference.startswith(("package:", "model:")) and not _PACKAGE.fullmatch(reference):
+            return "Write package://NAME/PATH."
         looked = list(self.candidates(reference))
         like = next((near for path in looked if (near := _similar(path))), None)
         hint = f" A file of a similar name is there: {like}." if like else ""
@@ -72,7 +77,23 @@ class Resolver:
                 f"No folder {package[1]!r} is in {self.folder} or above it{roots}. "
                 "Put the folder that holds it on ROS_PACKAGE_PATH."
             )
-        return f"Looked for {' and '.join(map(str, looked))}.{hint} Put it there, or correct the reference."
+        if odd := next((path for path in looked if os.path.lexists(path)), None):
+            return f"{odd} is no file, or a link that leads nowhere."
+        return f"Looked for {' and '.join(map(_shown, looked))}.{hint} Put it there, or correct the reference."
+
+
+def _shown(path: Path) -> str:
+    """A path as messages show it, of a long one the beginning."""
+    text = str(path)
+    return text if len(text) <= _LONG else f"{text[:_LONG]}..."
+
+
+def _is_file(path: Path) -> bool:
+    """Whether there is a file of this name; no name is too long, or too odd, to ask."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
 
 
 def is_address(reference: str) -> bool:
@@ -105,8 +126,10 @@ def _package_name(folder: Path) -> str | None:
 def _similar(path: Path) -> Path | None:
     """A file in the same folder whose name is nearly that of `path`."""
     try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.suffix.lower() == path.suffix.lower()]
-    except OSError:
+        entries = [entry for entry in path.parent.iterdir() if entry.suffix.lower() == path.suffix.lower()]
+        names = sorted(entry.name for entry in entries if entry.is_file())
+    except (OSError, ValueError):
         return None
-    like = nearest(path.name, names)
+    cased = next((name for name in names if name.lower() == path.name.lower()), None)
+    like = cased or nearest(path.name, names)
     return path.parent / like if like else None

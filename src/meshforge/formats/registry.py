@@ -35,7 +35,7 @@ def format_of(path: Path) -> Format:
     if not path.exists():
         raise AssetError("there is no such file", where=str(path))
     if not path.is_file():  # reading a pipe would wait, a device may never end
-        raise AssetError("this is a pipe or a device, not a file", where=str(path))
+        raise AssetError("cannot be read: it is a pipe or a device", where=str(path))
     for known in _of_suffix(path):
         if known.sniffs(path, _head(path)):
             return known

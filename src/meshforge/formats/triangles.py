@@ -19,14 +19,19 @@ def read_triangles(path: Path) -> list[RawSurface]:
 
     Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
     """
+    if path.suffix.lower() not in MESH_SUFFIXES:
+        raise _unknown(path)
     return surfaces_in(contents(path), path)
 
 
 def contents(path: Path) -> bytes:
-    """The bytes of a file. Raises AssetError: not there, may not be read, no regular file, or plainly of another kind."""
+    """The bytes of a file.
+
+    Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
+    """
     try:
         if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
-            raise AssetError("this is a folder, a pipe or a device, not a file", where=str(path))
+            raise AssetError("cannot be read: it is a folder, a pipe or a device", where=str(path))
         data = path.read_bytes()
     except OSError as error:
         raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
@@ -62,11 +67,7 @@ def surfaces_in(data: bytes, path: Path) -> list[RawSurface]:
             from meshforge.formats.meshfile.vrml import parse_vrml
 
             return parse_vrml(data, where)
-    raise AssetError(
-        f"{path.suffix or 'a file without suffix'} is no mesh file that MeshForge reads",
-        where=where,
-        remedy=f"It reads {', '.join(MESH_SUFFIXES)}.",
-    )
+    raise _unknown(path)
 
 
 def pieces_of(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
@@ -75,3 +76,9 @@ def pieces_of(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
         return []
     soup = joined(surfaces)
     return pieces(soup.vertices, soup.faces, name=name, groups=soup.group)
+
+
+def _unknown(path: Path) -> AssetError:
+    kind = path.suffix or "a file without suffix"
+    remedy = f"It reads {', '.join(MESH_SUFFIXES)}."
+    return AssetError(f"{kind} is no mesh file that MeshForge reads", where=str(path), remedy=remedy)

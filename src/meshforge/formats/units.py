@@ -18,7 +18,7 @@ def unit_note(asset: Asset) -> str | None:
     if len(corners) == 0:
         return None
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    if _SMALL <= size <= _LARGE:
+    if _SMALL <= size <= _LARGE or size == 0:
         return None
     advice = "export it in metres, or scale it where a URDF or MJCF refers to it"
     if size > _LARGE:

@@ -7,6 +7,7 @@ themselves. `RawSurface.unit` tells readers of formats whose engines obey it (Ga
 from __future__ import annotations
 
 import io
+import re
 import warnings
 from collections.abc import Iterator
 from typing import Any
@@ -15,7 +16,11 @@ import numpy as np
 
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.surface import RawSurface, checked
+from meshforge.formats.xml import Text, blanked
 from meshforge.geometry import Floats
+from meshforge.words import counted
+
+_NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
 
 def parse_dae(data: bytes, where: str) -> list[RawSurface]:
@@ -23,17 +28,24 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     import collada
     from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
 
-    if b"<!ENTITY" in data:
-        raise AssetError("entities are not read", where=where)
+    data = blanked(Text.of(data).data)
+    if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
+        raise AssetError("it declares XML entities, which are not read", where=where)
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), np.errstate(over="ignore", invalid="ignore"):
             warnings.simplefilter("ignore", PendingDeprecationWarning)  # pycollada counts on numpy.matrix
             document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
             unit = float(document.assetInfo.unitmeter or 1.0)
             nodes = document.scene.nodes if document.scene else []
             found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
+            geometries = len(document.geometries)
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
-        raise AssetError(f"this Collada file cannot be read: {error}", where=where) from error
+        reason = " ".join(str(error).split())
+        raise AssetError(
+            f"this Collada file cannot be read: {reason}", where=where, remedy="Export it again."
+        ) from error
+    if not found and geometries:
+        raise AssetError(f"its scene shows no triangle of {counted(geometries, 'geometry', 'geometries')}", where=where)
     return checked(found, where)
 
 
@@ -47,14 +59,27 @@ def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
         if isinstance(child, Node | NodeNode):
             yield from _walk(child, inside, unit)
         elif isinstance(child, GeometryNode):
+            _refuse_numbers(child.geometry)
             for bound in child.objects("geometry", inside):
                 yield from _surface(bound, node.name or node.id, unit)
+
+
+def _refuse_numbers(geometry: Any) -> None:
+    """Raise ValueError where a coordinate is not finite; pycollada would take it for zero."""
+    for inputs in geometry.xmlnode.iterfind(".//{*}vertices/{*}input[@semantic='POSITION']"):
+        identifier = inputs.get("source", "").lstrip("#")
+        for source in geometry.xmlnode.iterfind(f".//{{*}}source[@id='{identifier}']/{{*}}float_array"):
+            if _NOT_FINITE.search(source.text or ""):
+                raise ValueError(f"a coordinate of geometry {geometry.id!r} is not a finite number")
 
 
 def _surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
     vertices, faces, start = [], [], 0
     for part in bound.primitives():
+        counts = getattr(part.original, "vcounts", None)
+        if counts is not None and int(np.sum(counts)) != len(part.index):
+            raise ValueError(f"its polygons have {int(np.sum(counts))} corners, listed are {len(part.index)}")
         triangles = part.triangleset() if hasattr(part, "triangleset") else part
         if not hasattr(triangles, "vertex_index") or np.ndim(triangles.vertex_index) != 2 or not len(triangles):
             continue

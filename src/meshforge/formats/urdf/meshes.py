@@ -12,6 +12,8 @@ from meshforge.formats.urdf.document import digest_of
 from meshforge.formats.xml import Element
 from meshforge.geometry import Piece
 
+_SHOWN = 120  # characters of a reference in a message
+
 
 class Meshes:
     """The meshes of one file; where: its name in errors."""
@@ -33,7 +35,7 @@ class Meshes:
             label, mesh, reference = lost[0]
             others = f" (and {len(lost) - 1} more like it)" if len(lost) > 1 else ""
             raise AssetError(
-                f"the mesh {reference!r} of collision {label!r} is not there{others}",
+                f"the mesh {_short(reference)!r} of collision {label!r} is not there{others}",
                 where=f"{self.where}:{mesh.line}",
                 remedy=self.resolver.advice(reference),
             )
@@ -56,3 +58,7 @@ class Meshes:
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""
         return tuple((path, digest_of(path)) for path, pieces in self._pieces.items() if len(pieces) > 1)
+
+
+def _short(reference: str) -> str:
+    return reference if len(reference) <= _SHOWN else f"{reference[:_SHOWN]}..."

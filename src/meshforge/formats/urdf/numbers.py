@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from meshforge.errors import AssetError
+from meshforge.formats.meshfile import FARTHEST
 from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose
 
@@ -31,11 +32,15 @@ def floats(
     if values is None or len(values) != count:
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
         raise AssetError(f"{given} does not hold {wanted}", where=place)
+    if any(abs(value) > FARTHEST for value in values):
+        raise AssetError(f"{given} is larger than anything", where=place)
     return np.array(values)
 
 
 def _numbers(text: str) -> list[float] | None:
     """The numbers, apart by blanks or (as PyBullet reads) commas, None where one is none or not finite."""
+    if "_" in text or not text.isascii():  # Python's own ways to write numbers, which no engine reads
+        return None
     try:
         values = [float(word) for word in text.replace(",", " ").split()]
     except ValueError:

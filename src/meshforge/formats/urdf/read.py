@@ -16,8 +16,9 @@ from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.mechanism import read_mechanism
 from meshforge.formats.urdf.meshes import Meshes
+from meshforge.formats.urdf.notes import notes
 from meshforge.formats.urdf.numbers import origin
-from meshforge.formats.urdf.robot import collisions, references, robot_of, xacro_lines
+from meshforge.formats.urdf.robot import collisions, references, robot_of
 from meshforge.formats.urdf.shapes import geometry_of, mesh_scale, primitive
 from meshforge.formats.urdf.visuals import read_visuals
 from meshforge.formats.xml import Element, Text
@@ -49,7 +50,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
-        notes=(*_notes(robot, links), *_empty(authored, found)),
+        notes=notes(robot, links, found),
         mechanism=read_mechanism(robot, links),
     )
 
@@ -107,26 +108,3 @@ def _files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[
         else:
             files |= dict.fromkeys([path, *companions(path).values()])
     return tuple(files), tuple(missing)
-
-
-def _notes(robot: Element, links: Links) -> list[str]:
-    notes = []
-    if len(links.roots) > 1:
-        named = ", ".join(links.roots[:5]) + (", ..." if len(links.roots) > 5 else "")
-        notes.append(
-            f"{len(links.roots)} links have no parent joint ({named}): each is taken at the origin, as MuJoCo does; "
-            "PyBullet cannot load such a file"
-        )
-    if lines := xacro_lines(robot):
-        notes.append(
-            f"{len(lines)} xacro elements are not expanded, the first on line {lines[0]}: they are passed over"
-        )
-    return notes
-
-
-def _empty(authored: Sequence[Authored], found: Sequence[tuple[str, Element]]) -> list[str]:
-    return [
-        f"a collision of link {element.link!r} on line {collision.line} has no geometry and is left as it is"
-        for element, (_, collision) in zip(authored, found, strict=True)
-        if not element.names
-    ]

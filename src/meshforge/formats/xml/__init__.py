@@ -11,7 +11,7 @@ from meshforge.formats.xml.splice import (
     spliced,
     without_comments,
 )
-from meshforge.formats.xml.text import Text
+from meshforge.formats.xml.text import Text, blanked
 from meshforge.formats.xml.tree import Element, parsed
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "Splice",
     "Text",
     "attribute",
+    "blanked",
     "escaped",
     "indent",
     "newline",
