@@ -7,6 +7,7 @@ from pathlib import Path
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.base import Format
 from meshforge.formats.folder import Folder
+from meshforge.formats.gltf import GltfFormat
 from meshforge.formats.mjcf import MjcfFormat
 from meshforge.formats.obj import Obj
 from meshforge.formats.ply import Ply
@@ -18,7 +19,7 @@ _HEAD = 4096  # bytes shown to a format that shares its suffix with another
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
 FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
-FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), *FOLDER.members, FOLDER)
+FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), GltfFormat(), *FOLDER.members, FOLDER)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)

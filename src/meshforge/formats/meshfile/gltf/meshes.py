@@ -63,11 +63,13 @@ def _patch(index: int, part: Json, buffers: Buffers) -> Patch | None:
 
 
 def _checked(patch: Patch) -> Patch:
-    """The patch. Raises ValueError: its positions are no points, or a face names one that is not there."""
+    """The patch. Raises ValueError: its positions are no points, or a face names none, or one that is not finite."""
     if patch.points.shape[1:] != (3,):
         raise ValueError("the positions of a mesh are no points")
     if len(patch.faces) and (patch.faces.min() < 0 or patch.faces.max() >= len(patch.points)):
         raise ValueError("a face names a vertex that is not there")
+    if not np.isfinite(patch.points[patch.faces]).all():
+        raise ValueError("a coordinate is not a finite number")
     return patch
 
 

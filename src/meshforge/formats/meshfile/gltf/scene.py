@@ -47,11 +47,16 @@ class Scene:
     Its methods raise ValueError and the like for damage; `damage_at` makes one message of them.
     """
 
-    def __init__(self, container: Container, path: Path) -> None:
-        self.container, self.path = container, path
-        self.tree = _parsed(container.text)
-        self.buffers = Buffers(self.tree, container.binary, path)
+    def __init__(self, tree: Json, binary: bytes | None, path: Path) -> None:
+        self.tree, self.path = tree, path
+        self.buffers = Buffers(tree, binary, path)
         self._meshes: dict[int, Triangles] = {}
+
+    @staticmethod
+    def of(data: bytes, path: Path) -> Scene:
+        """The scene in the bytes of the file at a path."""
+        container = Container.of(data)
+        return Scene(_parsed(container.text), container.binary, path)
 
     @cached_property
     def roots(self) -> list[int]:
@@ -120,12 +125,13 @@ def matrix_of(node: Json) -> Floats:
         raise ValueError("a rotation of all zeros")
     if abs(length - 1.0) > _ALIKE:
         quaternion = quaternion / np.sqrt(length)
-    matrix[:3, :3] = _turn(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
+    matrix[:3, :3] = turn_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
     matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
     return matrix
 
 
-def _turn(quaternion: Floats) -> Floats:
+def turn_of(quaternion: Floats) -> Floats:
+    """The rotation (3, 3) of a unit quaternion (4,), x y z w."""
     x, y, z, w = quaternion
     return np.array(
         [
@@ -146,7 +152,7 @@ def _ancestors(found: dict[int, Placement], index: int | None) -> set[int]:
 
 def _parsed(text: bytes) -> Json:
     """The JSON of a file. Raises ValueError: it is none, or that of another version."""
-    tree = json.loads(text.decode("utf-8-sig"), parse_constant=_refused)
+    tree = json.loads(text.decode("utf-8-sig").rstrip("\0"), parse_constant=_refused)
     if not isinstance(tree, dict):
         raise ValueError("its JSON is no object")
     asset = tree.get("asset", {})

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from meshforge.formats.meshfile.gltf.container import Container
 from meshforge.formats.meshfile.gltf.items import entry
 from meshforge.formats.meshfile.gltf.scene import Placement, Scene, damage_at
 from meshforge.formats.meshfile.surface import RawSurface, checked
@@ -18,7 +17,7 @@ def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
     """
     where = str(path)
     with damage_at(where):
-        scene = Scene(Container.of(data), path)
+        scene = Scene.of(data, path)
         found = [surface for placement in scene.placements.values() for surface in _surface(scene, placement)]
     return checked(found, where)
 

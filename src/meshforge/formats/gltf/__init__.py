@@ -1,0 +1,5 @@
+"""glTF 2.0 and GLB: scenes with collision nodes, read, and written back with all else as it was."""
+
+from meshforge.formats.gltf.gltf import GltfFormat
+
+__all__ = ["GltfFormat"]

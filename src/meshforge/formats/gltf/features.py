@@ -1,0 +1,44 @@
+"""What a glTF file holds besides hulls, bodies and visuals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from meshforge.asset import Feature, What
+from meshforge.formats.gltf.document import GltfDocument
+from meshforge.formats.meshfile.gltf import Json, Scene
+from meshforge.formats.meshfile.gltf.items import entries, extension
+
+_LISTS = {
+    "materials": What.MATERIALS,
+    "textures": What.TEXTURES,
+    "animations": What.ANIMATIONS,
+    "skins": What.SKINS,
+    "cameras": What.CAMERAS,
+}
+_LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
+
+
+def features_of(document: GltfDocument, path: Path) -> Iterator[Feature]:
+    """The features of a glTF file that its asset does not tell."""
+    tree = Scene.of(document.source, path).tree
+    for key, what in _LISTS.items():
+        yield _feature(what, entries(tree, key))
+    yield _feature(What.LIGHTS, entries(extension(tree, _LIGHTS) or {}, "lights"))
+    parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
+    shown = sum("TEXCOORD_0" in part.get("attributes", {}) for part in parts)
+    yield Feature(What.TEXTURE_COORDINATES, unnamed=shown)
+    physics = extension(tree, _PHYSICS) or {}
+    yield Feature(What.CONTACT, unnamed=sum(len(entries(physics, k)) for k in ("physicsMaterials", "collisionFilters")))
+    yield Feature(What.JOINTS, unnamed=sum(_is_joined(node) for node in entries(tree, "nodes")))
+
+
+def _is_joined(node: Json) -> bool:
+    return "joint" in (extension(node, _PHYSICS) or {}) or extension(node, "OMI_physics_joint") is not None
+
+
+def _feature(what: What, things: list[Any]) -> Feature:
+    names = tuple(str(thing["name"]) for thing in things if thing.get("name"))
+    return Feature(what, names, len(things) - len(names))
