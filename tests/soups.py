@@ -43,3 +43,12 @@ def welded(soup: Soup) -> Soup:
 def turned(soup: Soup) -> Soup:
     """The same triangles wound the other way."""
     return soup[0], soup[1][:, ::-1].copy()
+
+
+def angle() -> Soup:
+    """A closed prism over an L, wound outwards: connected, not convex."""
+    outline = [(1, 1), (1, 3), (0, 3), (0, 0), (3, 0), (3, 1)]
+    vertices = np.array([(x, y, z) for z in (0, 1) for x, y in outline], dtype=float)
+    caps = [(0, k + 1, k) for k in range(1, 5)] + [(6, k + 6, k + 7) for k in range(1, 5)]
+    sides = [side for k in range(6) for n in [(k + 1) % 6] for side in ((k, n, n + 6), (k, n + 6, k + 6))]
+    return vertices, np.array(caps + sides, dtype=np.int64)

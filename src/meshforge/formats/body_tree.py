@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from meshforge.asset import Asset, Joint
+from meshforge.asset import Asset, Joint, unique_names
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,13 +21,14 @@ class BodyTree:
 
     @staticmethod
     def of(asset: Asset) -> BodyTree:
-        """The tree of an asset's joints; each body that no joint leads to is a root."""
+        """The tree of an asset's joints, their names made unique; each body that no joint leads to is a root."""
         joints: dict[str, list[Joint]] = {body.name: [] for body in asset.bodies}
         below: dict[str, list[str]] = {body.name: [] for body in asset.bodies}
+        names = iter(unique_names(joint.name for joint in asset.mechanism.joints if joint.name))
         for joint in asset.mechanism.joints:
             if not joints[joint.child]:
                 below[joint.parent].append(joint.child)
-            joints[joint.child].append(joint)
+            joints[joint.child].append(replace(joint, name=next(names)) if joint.name else joint)
         waiting = [name for name in reversed(joints) if not joints[name]]
         order: list[str] = []
         while waiting:
@@ -48,6 +49,10 @@ class BodyTree:
                 return False
             at = self.parent(at)
         return True
+
+    @property
+    def joint_names(self) -> set[str]:
+        return {joint.name for joints in self.joints.values() for joint in joints if joint.name}
 
     @property
     def roots(self) -> list[str]:

@@ -46,9 +46,9 @@ class _Creator:
         self.visuals = VisualFiles(self.meshes.files, (".obj", ".stl"))
         self.visuals.gather(self.shown)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-        self.joint_names = {joint.name for joint in asset.mechanism.joints}
+        self.joint_names = self.tree.joint_names
         self.bodies = self._body_names()
-        self.geoms = self._geom_names()
+        self.named = self._geom_names()
         self.lost: list[Loss] = []
         self.notes: dict[str, list[str]] = {}
 
@@ -57,7 +57,8 @@ class _Creator:
         head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
         defaults = _DEFAULTS if self.shown or self.asset.opaque else []
         main = b"\n".join([*head, *defaults, *self.meshes.lines(), *body, b"</mujoco>", b""])
-        names = {geom.name: read for geom, (_, read) in self.geoms.items() if read != geom.name}
+        reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
+        names = {name: read for name, read in reads.items() if read != name}
         return Output(
             main, dict(self.meshes.files.made), self.visuals.copies, self._told(), names, tuple(self._losses())
         )
@@ -70,20 +71,23 @@ class _Creator:
             b.name: free_name(b.name, taken) if b.name == WORLD and not roots else b.name for b in self.asset.bodies
         }
 
-    def _geom_names(self) -> dict[Geom, tuple[str, str]]:
-        """The name attribute of each geom, empty where it needs none, and the name that it reads back as."""
-        ordered = [geom for body in self.tree.order for geom in self.asset.geoms if geom.body == body]
-        plain = [geom.name.removeprefix(f"{geom.body}/") for geom in ordered]
+    def _geom_names(self) -> dict[str, tuple[str, str]]:
+        """For each hull and plane the name attribute, empty where it needs none, and the name that it reads back as."""
+        pieces = [(geom.name, geom.body) for geom in self.asset.geoms]
+        pieces += [(piece.name, piece.body) for piece in self.asset.opaque if piece.plane]
+        ordered = [(name, own) for body in self.tree.order for name, own in pieces if own == body]
+        plain = [name.removeprefix(f"{body}/") for name, body in ordered]
         seen = Counter(plain)
-        bodies = [self.bodies[geom.body] for geom in ordered]
+        bodies = [self.bodies[body] for _, body in ordered]
         wanted = [f"{body}/{name}" if seen[name] > 1 else name for body, name in zip(bodies, plain, strict=True)]
         unnamed = geom_names([(body, "") for body in bodies])
+        taken: set[str] = set()
         attributes = [
-            "" if read == f"{body}/{name}" else attribute
+            "" if read == f"{body}/{name}" else free_name(attribute, taken)
             for read, body, name, attribute in zip(unnamed, bodies, plain, wanted, strict=True)
         ]
         back = geom_names(list(zip(bodies, attributes, strict=True)))
-        return {geom: (name, read) for geom, name, read in zip(ordered, attributes, back, strict=True)}
+        return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}
 
     def _lines(self) -> Iterator[bytes]:
         """The `<worldbody>`, bodies nested in it."""
@@ -130,8 +134,10 @@ class _Creator:
         if self.bodies[body] != WORLD:
             yield from (lead + text for text in self._mass(body, moves=bool(joints), hulls=bool(own)))
         yield from (lead + self._geom(geom) for geom in own)
+        pieces = [piece for piece in self.asset.opaque if piece.body == body]
+        yield from (lead + text for piece in pieces if piece.plane for text in self._plane(piece, piece.plane))
         yield from (lead + text for text in self._visuals(body))
-        yield from (lead + text for piece in self.asset.opaque if piece.body == body for text in self._opaque(piece))
+        yield from (lead + text for piece in pieces if piece.surface for text in self._surface(piece, piece.surface))
 
     def _parts(self, joint: Joint, top: bool) -> Sequence[Joint]:
         parts = parts_of(joint, top, self.joint_names)
@@ -154,7 +160,7 @@ class _Creator:
             yield light_tag()
 
     def _geom(self, geom: Geom) -> bytes:
-        named = {"name": name} if (name := self.geoms[geom][0]) else {}
+        named = self._name(geom.name)
         class_ = {"class": "collision"} if self.shown else {}
         body_t_root = self.poses[geom.body].inverse()
         shape = geom.shape.moved(body_t_root)
@@ -162,6 +168,10 @@ class _Creator:
             return tag("geom", {**named, **class_, **geom_attributes(shape)})
         mesh = self.meshes.hull(geom.name, shape.tessellated())
         return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, Pose.identity())})
+
+    def _name(self, piece: str) -> dict[str, str]:
+        name = self.named[piece][0]
+        return {"name": name} if name else {}
 
     def _visuals(self, body: str) -> Iterator[bytes]:
         for own, visual in self.shown:
@@ -176,24 +186,21 @@ class _Creator:
                 file = self.meshes.files.add(f"{body}-visual", "", seen.what.vertices, seen.what.faces)
                 yield _visual(mesh_geom_attributes(self.meshes.shown(file, np.ones(3)), Pose.identity()), seen.rgba)
 
-    def _opaque(self, piece: Opaque) -> Iterator[bytes]:
-        """An endless plane; a surface to look at, where its body shows nothing else."""
-        body_t_root = self.poses[piece.body].inverse()
-        if piece.plane is not None:
-            if self.tree.is_static(piece.body):
-                yield tag("geom", {"type": "plane", "size": "0 0 1", **pose_attributes(body_t_root @ piece.plane)})
-            else:
-                self.lost.append(Loss(What.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only"))
+    def _plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
+        """An endless plane."""
+        if not self.tree.is_static(piece.body):
+            self.lost.append(Loss(What.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only"))
             return
+        said = pose_attributes(self.poses[piece.body].inverse() @ plane)
+        yield tag("geom", {**self._name(piece.name), "type": "plane", "size": "0 0 1", **said})
+
+    def _surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
+        """An opaque surface to look at, where its body shows nothing else."""
         why = "MuJoCo would collide with the convex hull"
-        if piece.surface is None:
-            return
         if any(body == piece.body for body, _ in self.shown):
             self.lost.append(Loss(What.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
             return
-        seen = self.visuals.shown(
-            piece.name, Surface(piece.surface.vertices, piece.surface.faces), body_t_root.inverse()
-        )
+        seen = self.visuals.shown(piece.name, surface, self.poses[piece.body])
         assert seen is not None  # only files may be unreadable
         assert isinstance(seen.what, str)
         self.lost.append(Loss(What.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))

@@ -57,7 +57,7 @@ class _Builder:
         self.tree = BodyTree.of(asset)
         self.chain = Chain()
         self.links = set(self.poses)
-        self.joint_names = {joint.name for joint in asset.mechanism.joints}
+        self.joint_names = self.tree.joint_names
         self.dropped = self._idle_root(bare)
         self.root = self._root()
         for body in self.tree.order:

@@ -1,0 +1,81 @@
+"""Every pair of formats: what is written in one and converted to another has the same hulls there."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset
+from meshforge.formats import read, save
+from meshforge.geometry import Floats
+from tests.conversion_samples import SAMPLES
+
+PLAIN = (".obj", ".stl", ".ply", "")
+SUFFIXES = (*PLAIN, ".urdf", ".xml")
+PAIRS = [pair for pair in itertools.product(SUFFIXES, SUFFIXES) if pair[0] != pair[1]]
+UP = {".urdf": "z", ".xml": "z", ".glb": "y"}
+TURNS = {("y", "z"): [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ("z", "y"): [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}
+SINGLE = 3e-6  # share of the diagonal: STL, glTF and MuJoCo's meshes are in single precision
+
+
+def turn(source: str, target: str) -> Floats:
+    """What takes coordinates of a format to those of another, where one of them has Y for up."""
+    return np.array(TURNS.get((UP.get(source, ""), UP.get(target, "")), np.eye(3)), dtype=float)
+
+
+def assert_same_hulls(before: Asset, after: Asset, names: dict[str, str], linear: Floats) -> None:
+    """The hulls of two assets have the same places and sizes."""
+    by_name = {geom.name: geom.shape for geom in after.geoms}
+    assert len(by_name) == len(before.geoms)
+    assert before.aabb is not None
+    slack = SINGLE * before.aabb.diagonal
+    for geom in before.geoms:
+        now = by_name[names.get(geom.name, geom.name)]
+        was = (geom.shape if now.kind == geom.shape.kind else geom.shape.tessellated()).mapped(linear, np.zeros(3))
+        np.testing.assert_allclose(now.aabb.min, was.aabb.min, atol=slack, err_msg=geom.name)
+        np.testing.assert_allclose(now.aabb.max, was.aabb.max, atol=slack, err_msg=geom.name)
+        assert now.volume == pytest.approx(was.volume, rel=1e-3)
+
+
+def written(sample: str, suffix: str, folder: Path) -> Path:
+    """A sample as a file of a format."""
+    return save(SAMPLES[sample](), folder / "first" / f"thing{suffix}").path
+
+
+@pytest.mark.parametrize("sample", SAMPLES)
+@pytest.mark.parametrize(("source", "target"), PAIRS)
+def test_every_pair_of_formats_keeps_the_hulls(source: str, target: str, sample: str, tmp_path: Path) -> None:
+    before = read(written(sample, source, tmp_path))
+    saved = save(before, tmp_path / "second" / f"thing{target}")
+    after = read(saved.path)
+    assert_same_hulls(before, after, dict(saved.names), turn(source, target))
+    if target not in PLAIN:
+        bodies = {geom.name: geom.body for geom in after.geoms}
+        assert {bodies[saved.names.get(g.name, g.name)] for g in before.geoms} == {g.body for g in before.geoms}
+
+
+@pytest.mark.parametrize("target", [".urdf", ".xml"])
+def test_native_shapes_stay_native_where_the_format_has_them(target: str, tmp_path: Path) -> None:
+    asset = SAMPLES["primitives"]()
+    after = read(save(asset, tmp_path / f"thing{target}").path)
+    kinds = {geom.name: geom.shape.kind for geom in after.geoms}
+    kept = {"box", "sphere", "cylinder"} | ({"capsule", "ellipsoid"} if target == ".xml" else set())
+    assert kinds == {g.name: g.shape.kind if g.shape.kind in kept else "polytope" for g in asset.geoms}
+
+
+@pytest.mark.parametrize("target", [suffix for suffix in SUFFIXES if suffix != ".xml"])
+def test_opaque_pieces_with_a_surface_come_back_as_such(target: str, tmp_path: Path) -> None:
+    asset = SAMPLES["opaque"]()
+    after = read(save(asset, tmp_path / f"thing{target}").path)
+    assert [piece.reason for piece in after.opaque if piece.surface] == ["not convex: fills 71% of its convex hull"]
+    assert len(after.geoms) == 1
+
+
+def test_mujoco_does_not_get_the_convex_hull_of_an_opaque_piece_to_collide_with(tmp_path: Path) -> None:
+    after = read(save(SAMPLES["opaque"](), tmp_path / "thing.xml").path)
+    assert [geom.name for geom in after.geoms] == ["room/stool"]
+    assert [(piece.name, piece.plane is not None) for piece in after.opaque] == [("room/floor", True)]
+    assert [surface.body for surface in after.visuals] == ["room"]
