@@ -10,6 +10,7 @@ import numpy as np
 from meshforge.asset import Asset, Geom, Opaque
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.mjcf import MjcfFormat
+from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
 
 KINDS = {
@@ -58,9 +59,8 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
     data = mujoco.MjData(compiled)
     mujoco.mj_kinematics(compiled, data)
     colliding = np.flatnonzero((compiled.geom_contype != 0) | (compiled.geom_conaffinity != 0)).tolist()
-    named = {piece.name: piece for piece in (*asset.geoms, *asset.opaque)}
-    read = [named[name] for entry in _in_order(asset) for name in entry]
-    assert len(read) == len(colliding) == len(named)
+    read = _in_mujocos_order(asset)
+    assert len(read) == len(colliding)
     for piece, k in zip(read, colliding, strict=True):
         place = Pose(data.geom_xmat[k].reshape(3, 3), data.geom_xpos[k])
         kind = KINDS.get(mujoco.mjtGeom(int(compiled.geom_type[k])))
@@ -74,12 +74,13 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
         _assert_same(piece, compiled, k, place)
 
 
-def _in_order(asset: Asset) -> list[list[str]]:
-    """Names of colliding pieces in MuJoCo's order, which is by body, then as authored."""
+def _in_mujocos_order(asset: Asset) -> list[Geom | Opaque]:
+    """The colliding pieces by body, then as authored."""
+    assert isinstance(asset.document, MjcfDocument)
     order = {body.name: k for k, body in enumerate(asset.bodies)}
+    rank = {name: k for k, name in enumerate(n for entry in asset.document.authored for n in entry.names)}
     pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
-    rank = {name: k for k, name in enumerate(name for entry in asset.document.authored for name in entry.names)}  # type: ignore[attr-defined]
-    return [[p.name] for p in sorted(pieces, key=lambda p: (order[p.body], rank[p.name]))]
+    return sorted(pieces, key=lambda piece: (order[piece.body], rank[piece.name]))
 
 
 def _assert_same(piece: Geom, compiled: mujoco.MjModel, k: int, place: Pose) -> None:

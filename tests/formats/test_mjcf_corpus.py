@@ -48,7 +48,7 @@ def test_models_that_mujoco_compiles_have_its_collision_geoms(files: dict[str, P
 @pytest.mark.parametrize("key", REFUSED)
 def test_models_that_mujoco_refuses_are_read_for_their_collision_geometry(key: str, files: dict[str, Path]) -> None:
     count, reason = REFUSED[key]
-    with pytest.raises(ValueError, match="(?i)error"):
+    with pytest.raises(ValueError, match=r"(?i)error"):
         mujoco.MjModel.from_xml_path(str(files[key]))
     asset = read(files[key])
     assert len(asset.geoms) == count
@@ -73,7 +73,7 @@ def test_fragments_are_refused_with_the_file_to_open(files: dict[str, Path]) -> 
 def test_kettles_lie_in_several_files(files: dict[str, Path]) -> None:
     asset = read(files["kettles_teapots/furniture_sim/kettle.xml"])
     names = [path.name for path in asset.files]
-    assert [name for name in names if name.endswith(".xml")][0] == "kettle_asset.xml"
+    assert next(name for name in names if name.endswith(".xml")) == "kettle_asset.xml"
     assert {"kettle.stl", "kettlehandle.stl", "metal0.png"} <= set(names)
     assert all(path.is_file() for path in asset.files)
     assert len(asset.geoms) == 41

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import posixpath
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from meshforge.files import relative_name
 from meshforge.formats.mjcf.sources import Node, Tree
 
 _OF_TEXTURE = tuple(f"file{side}" for side in ("", "right", "left", "up", "down", "front", "back"))
@@ -41,6 +43,18 @@ class Folders:
         if self.strip:
             reference = Path(reference).name
         return self._joined(self._folder(node), reference)
+
+    def place(self, tree: Tree, node: Node, attribute: str = "file") -> str | None:
+        """Where the file of an attribute goes beside a main file in another folder, None for an absolute place.
+
+        As references say, not as the disk is: `../cup/a.stl` stays so, whatever the main file's folder is called.
+        """
+        if beside := self.beside(tree, node, attribute):
+            return relative_name(beside, self.main)
+        folder, reference = (text.replace("\\", "/") for text in (self._folder(node), node.attributes[attribute]))
+        if Path(folder).is_absolute() or (Path(reference).is_absolute() and not self.strip):
+            return None
+        return posixpath.normpath(posixpath.join(folder, posixpath.basename(reference) if self.strip else reference))
 
     def beside(self, tree: Tree, node: Node, attribute: str) -> Path | None:
         """The path of a file beside the included file that refers to it, None where the usual place counts."""

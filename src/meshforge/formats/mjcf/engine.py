@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import threading
 import warnings as python_warnings
@@ -48,29 +49,50 @@ def compiled(main: Path, files: Mapping[Path, bytes] | None = None) -> mujoco.Mj
 
 def compile_flat(tree: Tree, flat: Flat) -> Compiled:
     """The model of a tree's text. Raises AssetError with MuJoCo's message."""
-    return compile_spec(tree, flat, parse_flat(tree, flat))
+    warnings: list[str] = []
+    spec = _parsed(tree, flat, warnings)
+    return _compiled(tree, flat, spec, warnings)
 
 
 def parse_flat(tree: Tree, flat: Flat) -> mujoco.MjSpec:
     """The spec of a tree's text, assets not yet read. Raises AssetError with MuJoCo's message."""
+    return _parsed(tree, flat, [])
+
+
+def compile_spec(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> Compiled:
+    """The model of a spec. Raises AssetError with MuJoCo's message."""
+    return _compiled(tree, flat, spec, [])
+
+
+def _parsed(tree: Tree, flat: Flat, warnings: list[str]) -> mujoco.MjSpec:
     import mujoco
 
-    with _heard([]), _files(tree, flat) as vfs:
+    with _heard(warnings), _files(tree, flat) as vfs:
         try:
             return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
         except _failures() as error:
             raise _told(str(error), tree, flat) from None
 
 
-def compile_spec(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> Compiled:
-    """The model of a spec. Raises AssetError with MuJoCo's message."""
-    warnings: list[str] = []
+def _compiled(tree: Tree, flat: Flat, spec: mujoco.MjSpec, warnings: list[str]) -> Compiled:
+    _refuse_unplaced(tree, flat, spec)
     with _heard(warnings), _files(tree, flat) as vfs:
         try:
             model = spec.compile(vfs=vfs)
         except _failures() as error:
             raise _told(str(error), tree, flat) from None
     return Compiled(spec, model, tuple(dict.fromkeys(_plain(warning) for warning in warnings)))
+
+
+def _refuse_unplaced(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns."""
+    for kind, things in (("body", spec.bodies), ("geom", spec.geoms)):
+        for thing in things:
+            if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
+                node = flat.node(thing.info)
+                where = tree.where(node) if node else str(tree.main.path)
+                told = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
+                raise AssetError(f"the pose of {told} is not of finite numbers", where=where)
 
 
 def _failures() -> tuple[type[Exception], ...]:

@@ -5,20 +5,33 @@ from __future__ import annotations
 from pathlib import Path
 
 from meshforge.errors import AssetError, MeshForgeError
+from meshforge.files import plain_path
 from meshforge.formats.mjcf.sources import Tree, gather
+from meshforge.formats.triangles import contents
+from meshforge.formats.xml import Element, Text, parsed
 from meshforge.words import listed
 
 _LEVELS = 3  # folders above a fragment in which a file that includes it may lie
 _MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
 
 
-def refuse_fragment(tree: Tree) -> None:
-    """Raise AssetError where the root of the main file is not `<mujoco>`, naming what to open instead."""
-    tag = tree.root.tag
+def gather_model(path: Path) -> Tree:
+    """The tree of a file that is a model. Raises AssetError; for a fragment, one that names what to open instead."""
+    try:
+        tree = gather(path)
+    except AssetError:  # an include of a fragment is found from the folder of the model
+        _refuse_fragment(plain_path(path), parsed(Text.of(contents(path)).data, str(path)))
+        raise
+    _refuse_fragment(tree.main.path, tree.root.element)
+    return tree
+
+
+def _refuse_fragment(path: Path, root: Element) -> None:
+    """Raise AssetError where the root of a file is not `<mujoco>`."""
+    tag, where = root.tag, f"{path}:{root.line}"
     if tag.lower() == "mujoco":
         return
-    where = f"{tree.main.path}:{tree.root.element.line}"
-    homes = _homes(tree.main.path)
+    homes = _homes(path)
     if homes or tag == "mujocoinclude":
         remedy = (
             f"Open {listed([str(home) for home in homes], 3)}, which {'includes' if len(homes) == 1 else 'include'} it."

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 
-import numpy as np
-
 from meshforge.asset import Geom, Opaque
-from meshforge.errors import AssetError
 from meshforge.formats.mjcf.document import Authored, MjcfBody, body_names, geom_names
 from meshforge.formats.mjcf.engine import Compiled
 from meshforge.formats.mjcf.flat import Flat
 from meshforge.formats.mjcf.kinematics import body_poses, geom_poses, rotation_of
 from meshforge.formats.mjcf.shapes import Shapes
-from meshforge.formats.mjcf.sources import Node, Tree
+from meshforge.formats.mjcf.sources import Tree
 from meshforge.geometry import Pose
 
 _INSIDE = {
@@ -28,7 +25,6 @@ class Reading:
 
     elements: of each geom, None for one out of another model. collides: whether each geom takes part in collisions, by
     its contact bits or by a `<pair>`.
-    Raises AssetError where a position is not finite.
     """
 
     def __init__(self, tree: Tree, flat: Flat, made: Compiled) -> None:
@@ -42,7 +38,6 @@ class Reading:
         self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, self.spec_geoms, strict=True)])
         self.elements = [flat.node(geom.info) for geom in self.spec_geoms]
         self.collides = self._collides()
-        self._refuse_unplaced()
         self.body_poses = body_poses(self.model)
         self.geom_poses = geom_poses(self.model, self.body_poses)
 
@@ -117,16 +112,3 @@ class Reading:
         touching[self.model.pair_geom1] = True
         touching[self.model.pair_geom2] = True
         return [bool(t) for t in touching]
-
-    def _refuse_unplaced(self) -> None:
-        """Raise AssetError for a position that is not finite, of which MuJoCo only warns."""
-        for what, infos, positions, quaternions in (
-            ("body", self.spec_bodies, self.model.body_pos, self.model.body_quat),
-            ("geom", self.spec_geoms, self.model.geom_pos, self.model.geom_quat),
-        ):
-            bad = ~(np.isfinite(positions).all(axis=1) & np.isfinite(quaternions).all(axis=1))
-            for k in np.flatnonzero(bad):
-                node: Node | None = self.flat.node(infos[k].info)
-                name = self.body_names[k] if what == "body" else self.names[k]
-                where = self.tree.where(node) if node else str(self.tree.main.path)
-                raise AssetError(f"the pose of {what} {name!r} is not of finite numbers", where=where)

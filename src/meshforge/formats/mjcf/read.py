@@ -9,12 +9,12 @@ from meshforge.errors import AssetError
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.formats.mjcf.engine import Compiled, compile_flat
 from meshforge.formats.mjcf.flat import Flat, flatten
-from meshforge.formats.mjcf.fragments import refuse_fragment
+from meshforge.formats.mjcf.fragments import gather_model
 from meshforge.formats.mjcf.mechanism import read_mechanism
 from meshforge.formats.mjcf.model import Reading
 from meshforge.formats.mjcf.reduce import reduced
 from meshforge.formats.mjcf.references import referenced
-from meshforge.formats.mjcf.sources import Tree, gather
+from meshforge.formats.mjcf.sources import Tree
 from meshforge.formats.mjcf.visuals import read_visuals
 from meshforge.words import counted
 
@@ -25,8 +25,7 @@ def read_mjcf(path: Path) -> Asset:
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
     there, a model whose collision geometry MuJoCo refuses too.
     """
-    tree = gather(path)
-    refuse_fragment(tree)
+    tree = gather_model(path)
     flat, made, stand_ins, refusal = _compiled(tree)
     reading = Reading(tree, flat, made)
     geoms, opaque = reading.pieces()

@@ -50,6 +50,10 @@ class Node:
     def attributes(self) -> dict[str, str]:
         return self.element.attributes
 
+    def each(self, tag: str) -> Iterator[Node]:
+        """The direct children of that tag."""
+        return (child for child in self.children if child.tag == tag)
+
     def walk(self) -> Iterator[Node]:
         """This node and all below it, in document order."""
         waiting = [self]

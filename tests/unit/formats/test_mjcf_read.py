@@ -1,0 +1,337 @@
+"""Geoms of an MJCF as hulls and opaque pieces: shapes, places, names, bodies; held against MuJoCo where it tells."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from meshforge.asset import Surface
+from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
+
+MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+
+
+def test_primitives_are_native_and_sizes_are_half_sizes(tmp_path: Path) -> None:
+    kinds = {"box": "1 2 3", "sphere": "1", "capsule": "1 2", "cylinder": "1 2", "ellipsoid": "1 2 3"}
+    inside = "".join(f'<geom name="{kind}" type="{kind}" size="{size}"/>' for kind, size in kinds.items())
+    found = asset(tmp_path, inside)
+    box, sphere, capsule, cylinder, ellipsoid = (geom.shape for geom in found.geoms)
+    assert isinstance(box, Box) and box.half.tolist() == [1, 2, 3]
+    assert isinstance(sphere, Sphere) and sphere.radius == 1
+    assert isinstance(capsule, Capsule) and (capsule.radius, capsule.half_length) == (1, 2)
+    assert isinstance(cylinder, Cylinder) and (cylinder.radius, cylinder.half_length) == (1, 2)
+    assert isinstance(ellipsoid, Ellipsoid) and ellipsoid.radii.tolist() == [1, 2, 3]
+    assert [geom.name for geom in found.geoms] == [f"world/{kind}" for kind in kinds]
+
+
+PLACED = {
+    "fromto": (
+        '<geom type="capsule" fromto="0 0 0 1 1 1" size=".1"/><geom type="box" fromto="1 0 0 1 0 2" size=".3"/>',
+        "",
+    ),
+    "degrees": ('<geom type="box" size="1 2 3" pos="1 2 3" euler="10 20 30"/>', ""),
+    "radians in another sequence": (
+        '<geom type="box" size="1 2 3" euler=".1 .2 .3"/>',
+        '<compiler angle="radian" eulerseq="zyx"/>',
+    ),
+    "axes": (
+        '<geom type="box" size="1 2 3" xyaxes="1 1 0 0 0 1"/><geom type="box" size="1 2 3" axisangle="0 1 1 40"/>'
+        '<geom type="cylinder" size="1 2" zaxis="1 2 3"/><geom type="box" size="1 2 3" quat="1 2 3 4"/>',
+        "",
+    ),
+    "bodies in bodies": (
+        '<body pos="1 0 0" euler="0 0 90"><body pos="0 1 0" quat="1 1 0 0"><geom type="box" size="1 2 3"/></body>'
+        '<geom size="1"/></body><geom size="2"/>',
+        "",
+    ),
+    "joints at their reference": (
+        '<body pos="1 0 0"><joint axis="0 1 0" pos="0 0 1" ref="30"/><joint type="slide" ref="2"/>'
+        '<geom type="box" size="1 2 3"/></body><body pos="3 0 0" euler="0 50 0"><freejoint/><geom size="1"/></body>',
+        "",
+    ),
+    "frames": (
+        '<frame pos="1 0 0" euler="0 0 90"><frame pos="1 0 0"><geom size="1"/><body name="b"><geom size="2"/></body>'
+        '</frame></frame><geom size="3"/>',
+        "",
+    ),
+    "a frame that scales": ('<frame scale="2"><geom size="1"/><geom type="mesh" mesh="m"/></frame>', MESH),
+    "replicated": (
+        '<replicate count="3" offset="1 0 0" euler="0 0 10"><geom size="1"/><body name="b" pos="1 0 0">'
+        '<geom name="g" size="2"/></body></replicate><geom size="3"/>',
+        "",
+    ),
+    "default classes": (
+        '<body childclass="c"><geom/><geom class="main" size="4" name="x"/></body><geom class="d"/>',
+        '<default><geom type="sphere" size="1"/><default class="c"><geom type="box" size="1 2 3" pos="1 0 0"/>'
+        '<default class="d"><geom pos="2 0 0"/></default></default></default>',
+    ),
+    "mesh": ('<geom type="mesh" mesh="m" pos="1 2 3" euler="10 20 30"/><geom type="mesh" mesh="m"/>', MESH),
+    "fitted primitives": (
+        '<geom type="box" mesh="m" pos="1 0 0"/><geom type="capsule" mesh="m" fitscale=".5"/>',
+        MESH,
+    ),
+    "fitted to boxes": ('<geom type="box" mesh="m" euler="0 0 20"/>', '<compiler fitaabb="true"/>' + MESH),
+    "scaled by the default": (
+        '<geom type="mesh" mesh="m"/>',
+        '<default><mesh scale="2 2 .5"/></default>' + MESH,
+    ),
+    "built in": (
+        '<geom type="mesh" mesh="w"/><geom type="mesh" mesh="t" pos="3 0 0"/>',
+        '<asset><mesh name="w" builtin="wedge" params="10 10 90 45 0.5"/>'
+        '<mesh name="t" builtin="supertorus" params="12 .3 1 1"/></asset>',
+    ),
+}
+
+
+@pytest.mark.parametrize("what", PLACED)
+def test_geoms_are_where_mujoco_has_them(what: str, tmp_path: Path) -> None:
+    inside, before = PLACED[what]
+    path = put(tmp_path, {"main.xml": model(inside, before)})
+    found = read(path)
+    assert found.geoms and not found.notes
+    assert_as_in_mujoco(found, path)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    ['scale="1 -2 1"', 'scale="-1 -1 -1"', 'refpos="1 2 3"', 'refquat="1 1 0 0.5"',
+     'refpos="1 2 3" refquat="0.5 0.5 0.1 0.3" scale="2 1 -1"'],
+)  # fmt: skip
+@pytest.mark.parametrize("kind", ["inline", "file"])
+def test_a_changed_mesh_is_where_mujoco_has_it_and_shows_there(kind: str, changes: str, tmp_path: Path) -> None:
+    content = f'vertex="{TETRAHEDRON}"' if kind == "inline" else 'file="m.obj"'
+    before = f'<asset><mesh name="m" {content} {changes}/></asset>'
+    inside = '<geom type="mesh" mesh="m" pos="1 2 3" euler="10 20 30"/>'
+    path = put(tmp_path, {"main.xml": model(inside, before), "m.obj": OBJ})
+    found = read(path)
+    assert_as_in_mujoco(found, path)
+    (shown,) = found.visuals
+    (hull,) = found.geoms
+    assert hull.shape.volume == pytest.approx(
+        1.0 if "scale" not in changes else 2.0 if "2" in changes else 1.0, rel=1e-6
+    )
+    np.testing.assert_allclose(_sorted(shown.vertices), _sorted(hull.shape.vertices), atol=1e-6)
+    assert _volume(shown) > 0
+
+
+def _sorted(points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> list[list[float]]:
+    return sorted(np.round(points, 5).tolist())
+
+
+def _volume(surface: Surface) -> float:
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def test_one_mesh_geom_is_one_hull_whatever_its_pieces(tmp_path: Path) -> None:
+    two = OBJ + OBJ.replace("v 0", "v 9").replace("v 1", "v 10").replace(
+        "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4", "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8"
+    )
+    files: dict[str, str | bytes] = {
+        "main.xml": model('<geom type="mesh" mesh="m"/>', '<asset><mesh file="m.obj"/></asset>'),
+        "m.obj": two,
+    }
+    (hull,) = read(put(tmp_path, files)).geoms
+    assert np.ptp(hull.shape.vertices[:, 0]) == pytest.approx(10)
+
+
+def test_a_hull_keeps_to_the_number_of_vertices_that_the_model_allows(tmp_path: Path) -> None:
+    ball = '<asset><mesh name="b" builtin="sphere" params="3" maxhullvert="20"/></asset>'
+    (hull,) = asset(tmp_path, '<geom type="mesh" mesh="b"/>', ball).geoms
+    assert len(hull.shape.vertices) == 20
+
+
+def test_legacy_msh_files_are_read_by_mujoco(tmp_path: Path) -> None:
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], np.float32)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
+    msh = np.array([4, 0, 0, 4], np.int32).tobytes() + points.tobytes() + faces.tobytes()
+    files: dict[str, str | bytes] = {
+        "main.xml": model('<geom type="mesh" mesh="m"/>', '<asset><mesh file="m.msh"/></asset>'),
+        "m.msh": msh,
+    }
+    path = put(tmp_path, files)
+    found = read(path)
+    assert_as_in_mujoco(found, path)
+    assert found.geoms[0].shape.volume == pytest.approx(1)
+    assert found.files == (tmp_path / "m.msh",)
+    np.testing.assert_allclose(found.visuals[0].vertices, points, atol=1e-6)
+
+
+def test_geoms_without_contact_bits_are_visuals_and_those_of_a_pair_collide(tmp_path: Path) -> None:
+    off = 'contype="0" conaffinity="0"'
+    body = f'<body name="b"><freejoint/><geom name="p" size="1" {off}/><geom size="2" {off}/></body>'
+    inside = f'<geom name="a" size="1" {off}/>{body}'
+    text = model(inside).replace("</mujoco>", '<contact><pair geom1="a" geom2="p"/></contact></mujoco>')
+    found = read(put(tmp_path, {"main.xml": text}))
+    assert [geom.name for geom in found.geoms] == ["world/a", "b/p"]
+    assert [surface.body for surface in found.visuals] == ["b"]
+
+
+@pytest.mark.parametrize("bits", ['contype="0"', 'conaffinity="0"', 'contype="0" conaffinity="4"'])
+def test_one_contact_bit_is_enough(bits: str, tmp_path: Path) -> None:
+    assert len(asset(tmp_path, f'<geom size="1" {bits}/>').geoms) == 1
+
+
+def test_what_is_invisible_is_no_visual(tmp_path: Path) -> None:
+    off = 'contype="0" conaffinity="0"'
+    assert not asset(tmp_path, f'<geom size="1" {off} rgba="1 1 1 0"/>').visuals
+    assert not asset(tmp_path, '<geom type="mesh" mesh="m" group="3"/>', MESH).visuals
+
+
+def test_planes_and_height_fields_are_opaque(tmp_path: Path) -> None:
+    field = '<asset><hfield name="h" nrow="3" ncol="2" size="1 2 3 4" elevation="0 1 2 3 4 5"/></asset>'
+    inside = '<geom name="floor" type="plane" size="0 0 1" zaxis="1 0 0"/><geom type="hfield" hfield="h" pos="0 0 1"/>'
+    plane, hills = asset(tmp_path, inside, field).opaque
+    assert (plane.name, plane.reason, plane.surface) == ("world/floor", "a plane has no end", None)
+    assert plane.plane is not None
+    np.testing.assert_allclose(plane.plane.rotation[:, 2], [1, 0, 0], atol=1e-12)
+    assert (hills.name, hills.reason) == ("world/geom1", "a height field is no convex hull")
+    assert hills.surface is not None
+    np.testing.assert_allclose(hills.surface.vertices.min(axis=0), [-1, -2, 1])
+    np.testing.assert_allclose(hills.surface.vertices.max(axis=0), [1, 2, 4])
+    a, b, c = (hills.surface.vertices[hills.surface.faces[:, k]] for k in range(3))
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+
+
+def test_a_height_field_rises_where_mujoco_has_it_rise(tmp_path: Path) -> None:
+    field = '<asset><hfield name="h" nrow="3" ncol="4" size="1 2 3 4" elevation="0 0 0 1 0 0 0 0 0 0 0 0"/></asset>'
+    path = put(tmp_path, {"main.xml": model('<geom type="hfield" hfield="h"/>', field)})
+    surface = read(path).opaque[0].surface
+    assert surface is not None
+    compiled = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(compiled)
+    mujoco.mj_forward(compiled, data)
+    top = surface.vertices[np.argmax(surface.vertices[:, 2])]
+    hit = np.zeros(1, np.int32)
+    below = np.array([top[0] * 0.99, top[1] * 0.99, 9.0])
+    distance = mujoco.mj_ray(compiled, data, below, np.array([0.0, 0.0, -1.0]), None, 1, -1, hit, None)
+    assert 9 - distance > 2.5
+
+
+def test_an_unnamed_geom_is_counted_in_its_body_visuals_too(tmp_path: Path) -> None:
+    visual = '<geom size="1" contype="0" conaffinity="0"/>'
+    inside = f'<body name="b"><geom size="1"/>{visual}<geom size="1"/></body><geom size="1"/>'
+    assert [geom.name for geom in asset(tmp_path, inside).geoms] == ["world/geom0", "b/geom0", "b/geom2"]
+
+
+def test_an_unnamed_body_is_counted_in_the_model(tmp_path: Path) -> None:
+    found = asset(tmp_path, '<body><body name="x"><geom size="1"/></body></body><body><geom size="1"/></body>')
+    assert [body.name for body in found.bodies] == ["world", "body1", "x", "body3"]
+    assert [geom.name for geom in found.geoms] == ["x/geom0", "body3/geom0"]
+
+
+def test_names_are_unique_whatever_authors_call_things() -> None:
+    assert geom_names([("b", "a/b"), ("b/a", "b"), ("b", ""), ("b", "")]) == ["b/a/b", "b/a/b@2", "b/geom1", "b/geom2"]
+    assert body_names(["world", "", "body1", ""]) == ["world", "body1", "body1@2", "body3"]
+
+
+def test_bodies_stay_apart_where_the_compiler_would_fuse_them(tmp_path: Path) -> None:
+    bodies = '<body name="b"><geom size="2"/><body name="c" fuse="auto"><geom size="3"/></body></body>'
+    inside = f'<geom size="1" contype="0" conaffinity="0"/>{bodies}'
+    found = asset(tmp_path, inside, '<compiler fusestatic="true" discardvisual="true"/>')
+    assert [geom.name for geom in found.geoms] == ["b/geom0", "c/geom0"]
+    assert len(found.visuals) == 1
+
+
+def test_every_geom_knows_its_element_and_why_it_cannot_be_edited(tmp_path: Path) -> None:
+    sub = model('<body name="q"><geom size="2" name="n"/></body>')
+    replicated = '<replicate count="2"><geom name="r" size="1"/></replicate>'
+    inside = f'<include file="inc.xml"/>{replicated}<attach model="s" body="q" prefix="p_"/>'
+    text = model(inside, '<asset><model name="s" file="sub.xml"/></asset>')
+    found = read(put(tmp_path, {"main.xml": text, "inc.xml": "<x>\n<geom size='1'/></x>", "sub.xml": sub}))
+    document = found.document
+    assert isinstance(document, MjcfDocument)
+    tree = document.tree
+    inc, copied, attached = document.authored
+    node = document.node(tree, inc)
+    assert node is not None and tree.where(node) == f"{tmp_path / 'inc.xml'}:2" and not inc.fixed
+    assert copied.names == ("world/r0", "world/r1") and "<replicate>" in copied.fixed
+    assert attached.names == ("p_q/p_n",) and "another model" in attached.fixed
+    assert document.node(tree, attached) is None
+
+
+def test_a_document_tells_masses_and_whose_they_are(tmp_path: Path) -> None:
+    inertial = '<inertial pos="1 0 0" mass="2" diaginertia="3 4 5"/>'
+    other = '<body name="b" pos="1 0 0"><geom size="1" mass="7"/></body>'
+    inside = f'<body name="a">{inertial}<geom size="1"/></body>{other}'
+    document = asset(tmp_path, inside).document
+    assert isinstance(document, MjcfDocument)
+    world, a, b = document.bodies
+    assert (world.parent, world.explicit, world.source) == (None, False, -1)
+    assert (a.mass, a.explicit, a.parent, a.inertial.translation.tolist()) == (2, True, "world", [1, 0, 0])
+    assert sorted(a.inertia.tolist()) == [3, 4, 5]
+    assert (b.explicit, b.pose.translation.tolist()) == (False, [1, 0, 0])
+    assert b.mass == pytest.approx(7)
+
+
+def test_joints_and_masses_are_told_in_the_root_frame(tmp_path: Path) -> None:
+    inside = (
+        '<body name="door" pos="1 0 0" euler="0 0 90">'
+        '<joint name="hinge" axis="0 1 0" range="-10 80" ref="30" pos="0 0 1" damping="2"/>'
+        '<geom type="box" size="1 2 3" mass="6"/><body name="bolt"><geom size="1"/></body></body>'
+        '<body name="ball"><freejoint/><geom size="1"/></body>'
+    )
+    mechanism = asset(tmp_path, inside).mechanism
+    hinge, bolt, ball = mechanism.joints
+    assert (hinge.name, hinge.kind, hinge.parent, hinge.child, hinge.damping) == (
+        "hinge",
+        "revolute",
+        "world",
+        "door",
+        2,
+    )
+    np.testing.assert_allclose(hinge.anchor, [1, 0, 1])
+    np.testing.assert_allclose(hinge.axis, [-1, 0, 0], atol=1e-12)
+    assert hinge.limits == pytest.approx(tuple(np.radians([-40, 50])))
+    assert (bolt.kind, bolt.parent, ball.kind) == ("fixed", "door", "floating")
+    door = mechanism.inertials[0]
+    assert door.body == "door"
+    assert door.mass == pytest.approx(6)
+    np.testing.assert_allclose(door.centre, [1, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(np.diag(door.inertia), [2 * (1 + 9), 2 * (4 + 9), 2 * (1 + 4)])
+
+
+def test_an_asset_pickles_with_its_document_and_visuals(tmp_path: Path) -> None:
+    found = asset(tmp_path, '<geom type="mesh" mesh="m"/><geom size="1" contype="0" conaffinity="0"/>', MESH)
+    again = pickle.loads(pickle.dumps(found))
+    assert [geom.name for geom in again.geoms] == [geom.name for geom in found.geoms]
+    assert len(again.visuals) == len(found.visuals) == 2
+    assert again.document.tree.main.raw == found.path.read_bytes()
+
+
+def test_flexible_bodies_are_told_not_read(tmp_path: Path) -> None:
+    cloth = '<flexcomp name="f" type="grid" count="3 3 1" spacing=".1 .1 .1" radius=".01" dim="2" mass="1"/>'
+    found = asset(tmp_path, cloth + '<geom size="1"/>')
+    assert [geom.name for geom in found.geoms] == ["world/geom0"]
+    assert "1 flexible body: no hulls, left as authored" in found.notes
+    assert any(note.startswith("MuJoCo warns: flex 'f'") for note in found.notes)
+
+
+def test_visuals_of_a_mesh_are_the_vertices_that_mujoco_has(tmp_path: Path) -> None:
+    before = '<asset><mesh name="m" file="m.obj" scale="1 2 3" refpos="1 1 1"/></asset>'
+    inside = (
+        '<frame scale="2"><geom type="mesh" mesh="m" pos="1 2 3" contype="0" conaffinity="0" rgba="1 0 0 .5"/></frame>'
+    )
+    path = put(tmp_path, {"main.xml": model(inside, before), "m.obj": OBJ})
+    (shown,) = read(path).visuals
+    compiled = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(compiled)
+    mujoco.mj_kinematics(compiled, data)
+    points = (
+        mesh_vertices(compiled, int(compiled.geom_dataid[0])) @ data.geom_xmat[0].reshape(3, 3).T + data.geom_xpos[0]
+    )
+    assert _sorted(shown.vertices) == _sorted(points)
+
+
+def test_a_mesh_that_two_geoms_share_is_placed_for_each(tmp_path: Path) -> None:
+    inside = '<geom name="big" type="mesh" mesh="m"/><geom name="far" type="mesh" mesh="m" pos="5 0 0"/>'
+    found = asset(tmp_path, inside, MESH)
+    moved = shape_of(found, "world/far").vertices - shape_of(found, "world/big").vertices
+    np.testing.assert_allclose(moved, np.tile([5.0, 0, 0], (4, 1)), atol=1e-6)

@@ -1,0 +1,178 @@
+"""MJCF that MuJoCo refuses: read for their collision geometry, or one message about the authored line."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from meshforge.asset import Asset
+from meshforge.errors import AssetError
+from meshforge.formats.mjcf.document import MjcfDocument
+from tests.mjcf_engines import TETRAHEDRON, model, put, read
+
+SOUND = '<geom name="a" size="1"/><body name="b" pos="1 0 0"><geom type="mesh" mesh="m"/></body>'
+MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'
+NAMES = ["world/a", "b/geom0"]
+FLAT = '<asset><mesh name="flat" vertex="0 0 0 1 0 0 0 1 0 1 1 0" face="0 1 2 1 3 2"/></asset>'
+
+REFUSED = {
+    "an element of another dialect": (SOUND + '<region name="x"/>', MESH, "unrecognized element"),
+    "an attribute of another dialect": (SOUND.replace('"a"', '"a" solid="1"'), MESH, "unrecognized attribute: 'solid'"),
+    "a colour that is none": (SOUND + '<site rgba="red"/>', MESH, "bad format in attribute 'rgba'"),
+    "a massless body that moves": (SOUND + "<body><freejoint/></body>", MESH, "moving bodies must be larger"),
+    "inertia of no body": (
+        SOUND + '<body name="i"><inertial mass="1" pos="0 0 0" diaginertia="1 1 9"/><joint/></body>',
+        MESH,
+        "inertia must satisfy A + B >= C",
+    ),
+    "inertia below zero": (
+        SOUND + '<body><inertial mass="1" pos="0 0 0" fullinertia="0 0 0 0 0 0"/><joint/></body>',
+        MESH,
+        "inertia must have positive eigenvalues",
+    ),
+    "a material without its texture": (SOUND, MESH + '<asset><material name="k" texture="t"/></asset>', "not found in"),
+    "a section of an older version": (SOUND, MESH + "<collision/>", "unrecognized element"),
+    "an option of an older version": (SOUND, MESH + '<option collision="all"/>', "unrecognized attribute"),
+    "a flat visual mesh": (
+        '<geom name="f" type="mesh" mesh="flat" contype="0" conaffinity="0"/>' + SOUND,
+        MESH + FLAT,
+        "mesh volume is too small",
+    ),
+    "a flat mesh that nothing uses": (SOUND, MESH + FLAT, "mesh volume is too small"),
+    "more memory than there is": (SOUND, MESH + '<size memory="900T"/>', "allocate"),
+    "a motor for a joint that is not there": (
+        SOUND,
+        MESH + '<actuator><motor joint="x"/></actuator>',
+        "unknown transmission target 'x'",
+    ),
+}
+
+
+@pytest.mark.parametrize("why", REFUSED)
+def test_what_collisions_do_not_need_is_left_out(why: str, tmp_path: Path) -> None:
+    inside, before, message = REFUSED[why]
+    asset = read(put(tmp_path, {"main.xml": model(inside, before)}))
+    assert [geom.name for geom in asset.geoms] == NAMES
+    assert asset.geoms[1].shape.volume == pytest.approx(1)
+    (note,) = asset.notes
+    assert note.startswith("MuJoCo refuses this file: ") and note.endswith("; read for its collision geometry only")
+    assert message in note
+    assert isinstance(asset.document, MjcfDocument) and message in asset.document.refusal
+
+
+def test_the_place_of_the_fault_is_told(tmp_path: Path) -> None:
+    text = '<mujoco>\n<worldbody>\n<include file="a.xml"/></worldbody></mujoco>'
+    asset = read(put(tmp_path, {"main.xml": text, "a.xml": "<x>\n<geom size='1'/>\n\n<region/></x>"}))
+    assert "unrecognized element (element 'region') (a.xml:4); read" in asset.notes[0]
+
+
+def test_geoms_keep_their_numbers_when_visual_ones_before_them_are_left_out(tmp_path: Path) -> None:
+    lost = '<geom type="mesh" mesh="v" contype="0" conaffinity="0"/>'
+    before = MESH + '<asset><mesh name="v" file="v.obj"/></asset>'
+    inside = f'{lost}<geom size="1"/>{lost}<body name="b">{lost}<geom size="2" mass="3"/></body>'
+    asset = read(put(tmp_path, {"main.xml": model(inside, before)}))
+    assert [geom.name for geom in asset.geoms] == ["world/geom1", "b/geom1"]
+    assert not asset.visuals
+    assert isinstance(asset.document, MjcfDocument)
+    assert asset.document.bodies[1].mass == pytest.approx(3)
+
+
+def test_the_masses_and_joints_of_a_refused_file_are_kept_where_they_can_be(tmp_path: Path) -> None:
+    inertial = '<inertial pos="1 0 0" mass="2" diaginertia="3 4 5"/>'
+    inside = f'<region/><body name="b"><joint name="j" range="0 90"/>{inertial}</body>'
+    asset = read(put(tmp_path, {"main.xml": model(inside)}))
+    (told,) = asset.mechanism.inertials
+    assert (told.mass, told.centre.tolist()) == (2, [1, 0, 0])
+    assert asset.mechanism.joints[0].limits == pytest.approx((0, 1.5707963))
+
+
+OURS = "MuJoCo refuses this file: "
+ERRORS = {
+    "no size": ("<geom/>", OURS + "size 0 must be positive in geom"),
+    "a negative size": ('<geom size="-1"/>', OURS + "size 0 must be positive in geom"),
+    "a size that is no number": ('<geom size="nan"/>', OURS + "nan size in geom"),
+    "letters for numbers": ('<geom size="1 b"/>', OURS + "bad format in attribute 'size'"),
+    "a place that is no number": ('<geom name="g" size="1" pos="nan 0 0"/>', "the pose of geom 'g' is not of finite"),
+    "a turn that is no number": ('<geom size="1" quat="1 0 inf 0"/>', "the pose of a geom without a name is not of"),
+    "a body nowhere": ('<body name="n" pos="0 inf 0"/>', "the pose of body 'n' is not of finite numbers"),
+    "a name twice": ('<geom name="a" size="1"/>', OURS + "repeated name 'a' in geom"),
+    "a mesh that is not there": ('<geom type="mesh" mesh="x"/>', OURS + "mesh 'x' not found in geom"),
+    "a class that is not there": ('<geom class="x" size="1"/>', OURS + "unknown default class name 'x'"),
+    "a kind that is not there": ('<geom type="cone" size="1"/>', OURS + "invalid keyword: 'cone'"),
+}
+
+
+@pytest.mark.parametrize("what", ERRORS)
+def test_faults_of_collision_geometry_are_errors_about_their_line(what: str, tmp_path: Path) -> None:
+    inside, message = ERRORS[what]
+    path = put(tmp_path, {"main.xml": model(f"{SOUND}\n{inside}", MESH)})
+    with pytest.raises(AssetError) as error:
+        read(path)
+    assert error.value.message.startswith(f"{path}:2: {message}")
+    assert "\n\n" not in error.value.message and "line" not in error.value.problem
+
+
+def test_a_second_fault_behind_the_first_is_told_too(tmp_path: Path) -> None:
+    path = put(tmp_path, {"main.xml": model('<region/>\n<geom name="g"/>')})
+    with pytest.raises(AssetError) as error:
+        read(path)
+    assert "unrecognized element" in error.value.problem
+    assert error.value.remedy is not None
+    assert error.value.remedy.startswith(f"Mended, it would meet: {path}:2: MuJoCo refuses this file: size 0 must")
+
+
+def test_a_flat_collision_mesh_is_an_error_about_the_mesh(tmp_path: Path) -> None:
+    path = put(tmp_path, {"main.xml": model('<geom type="mesh" mesh="flat"/>', "\n" + FLAT)})
+    with pytest.raises(AssetError, match=r"main\.xml:2: MuJoCo refuses this file: mesh 'flat' has coplanar vertices"):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "message"),
+    [
+        ("m.obj", b"v 0 0 0\nf 1 2 3\n", "MuJoCo refuses this file"),
+        ("m.stl", b"solid ascii", "MuJoCo refuses this file"),
+        ("m.dae", b"<COLLADA/>", "MuJoCo refuses this file"),
+        ("m.msh", b"\0" * 7, "MuJoCo refuses this file"),
+    ],
+)
+def test_a_broken_mesh_file_is_one_message(name: str, data: bytes, message: str, tmp_path: Path) -> None:
+    text = model('<geom type="mesh" mesh="m"/>', f'<asset><mesh name="m" file="{name}"/></asset>')
+    with pytest.raises(AssetError, match=message):
+        read(put(tmp_path, {"main.xml": text, name: data}))
+
+
+def test_bodies_too_deep_for_mujoco_are_one_message(tmp_path: Path) -> None:
+    path = put(tmp_path, {"main.xml": model("<body>" * 3000 + "</body>" * 3000)})
+    with pytest.raises(AssetError, match="MuJoCo refuses this file: Element nesting is too deep"):
+        read(path)
+
+
+def test_nothing_is_printed_or_written_where_one_works(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = put(tmp_path / "assets", {"main.xml": model('<body name="b" pos="nan 0 0"/><geom size="1"/>')})
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    with pytest.raises(AssetError, match="not of finite numbers"):
+        read(path)
+    assert not os.listdir(tmp_path / "here") and os.listdir(tmp_path / "assets") == ["main.xml"]  # noqa: PTH208
+    assert capfd.readouterr() == ("", "")
+
+
+def test_settings_of_mujoco_are_as_before_after_a_reading(tmp_path: Path) -> None:
+    import mujoco
+
+    heard: list[str] = []
+    mujoco.set_mju_user_warning(heard.append)
+    before = mujoco.MjLogConfig.get().logto_file
+    try:
+        asset: Asset = read(put(tmp_path, {"main.xml": model('<geom size="1" friction="nan"/>')}))
+        assert asset.notes == ("MuJoCo warns: XML contains a 'NaN'. Please check it carefully.",)
+        assert not heard and mujoco.MjLogConfig.get().logto_file == before
+        mujoco.MjSpec.from_string(model('<geom size="1" friction="nan"/>'))
+        assert heard
+    finally:
+        mujoco.set_mju_user_warning(None)
