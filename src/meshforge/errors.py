@@ -52,6 +52,8 @@ def told(error: Exception, where: str | None = None, fault: str = "please report
     match error:
         case MeshForgeError():
             return (error.at(where) if where else error).message
+        case MemoryError():
+            return f"{where}: there is not enough memory for it" if where else "there is not enough memory for this"
         case OSError(filename=str() as name, strerror=str() as why):
             return f"{name}: {why}"
         case _:

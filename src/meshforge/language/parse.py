@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 def parse(text: str, name: str = "program") -> Program:
     """The program in a text. Raises ProgramError at `name:line:column`."""
     source = Source(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
-    return build_program(source, _tree(source, "program"))
+    try:
+        return build_program(source, _tree(source, "program"))
+    except RecursionError:
+        raise ProgramError("its extractors are nested too deep", where=name) from None
 
 
 def read(path: Path) -> Program:

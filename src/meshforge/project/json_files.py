@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 from pathlib import Path
 from typing import TypeVar
 
@@ -23,7 +24,7 @@ Model = TypeVar("Model", bound=BaseModel)
 def read_json(path: Path, model: type[Model]) -> Model | None:
     """What a JSON file holds, None where there is no such file. Raises ProjectError naming the file and the field."""
     try:
-        return model.model_validate_json(path.read_bytes())
+        return model.model_validate_json(path.read_bytes().removeprefix(codecs.BOM_UTF8))
     except FileNotFoundError:
         return None
     except OSError as error:
@@ -43,4 +44,5 @@ def invalid(path: Path, error: ValidationError) -> ProjectError:
     field = ".".join(str(step) for step in first["loc"])
     given = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
     at = f"the field {field}: " if field else ""
-    return ProjectError(f"{at}{first['msg']}{given}", where=str(path), remedy="Mend the file by hand, or remove it.")
+    problem = first["msg"].replace("valid tuple", "list").replace("valid array", "list")
+    return ProjectError(f"{at}{problem}{given}", where=str(path), remedy="Mend the file by hand, or remove it.")

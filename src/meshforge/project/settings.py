@@ -110,10 +110,12 @@ def orientation_text(orient: Orient | None) -> str:
 
 def _text(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as error:
         raise ProjectError(
             "this is no project", where=str(path.parent), remedy="Make one: meshforge new PROJECT ASSETS..."
         ) from error
-    except (OSError, UnicodeDecodeError) as error:
-        raise ProjectError(f"cannot be read: {error}", where=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path)) from error
+    except OSError as error:
+        raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error

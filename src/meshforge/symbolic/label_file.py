@@ -60,8 +60,11 @@ def read_labels(path: Path) -> LabelFile:
     """
     data = _json(path)
     known = {"vocabulary", "hulls"}
-    if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict) or not data.keys() <= known:
+    if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict):
         raise AssetError("this is no labels file", where=str(path), remedy=_REMEDY)
+    if not data.keys() <= known:
+        odd = next(key for key in data if key not in known)
+        raise AssetError(f"the field {odd!r} is not one of a labels file", where=str(path), remedy=_REMEDY)
     vocabulary = data.get("vocabulary", [])
     if not isinstance(vocabulary, list) or not all(isinstance(word, str) and word for word in vocabulary):
         raise AssetError("its vocabulary is not a list of labels", where=str(path), remedy=_REMEDY)
@@ -85,6 +88,8 @@ def _json(path: Path) -> Any:
     except json.JSONDecodeError as error:
         place = f"{path}:{error.lineno}:{error.colno}"
         raise AssetError(f"the labels are no JSON ({error.msg})", where=place, remedy=_REMEDY) from error
+    except (RecursionError, ValueError) as error:
+        raise AssetError("the labels are no JSON that can be read", where=str(path), remedy=_REMEDY) from error
     except _TwiceError as error:
         raise AssetError(f"{error.args[0]!r} is given twice", where=str(path), remedy="Keep one of them.") from error
 
@@ -139,6 +144,8 @@ def _digest(rest: Mapping[Any, Any]) -> str | None:
 
 
 def _check_word(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:
+    if not label.isprintable():
+        raise AssetError(f"the label {label!r} of hull {name!r} is no plain text", where=str(path))
     if vocabulary and label not in vocabulary:
         like = nearest(label, vocabulary)
         hint = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary)}."
