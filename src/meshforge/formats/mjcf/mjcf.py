@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.asset import Asset, Feature, What
+from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.mjcf.create import create_mjcf
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.formats.mjcf.features import COULD, HOLDS, features_of
 from meshforge.formats.mjcf.read import read_mjcf
+from meshforge.formats.mjcf.write import write_mjcf
 
 
 class MjcfFormat(Format):
@@ -28,7 +30,9 @@ class MjcfFormat(Format):
         return read_mjcf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
-        raise self._cannot_create(asset)
+        if not isinstance(asset.document, MjcfDocument):
+            raise AssetError("this asset was not read from an MJCF", where=str(asset.path))
+        return write_mjcf(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
         return create_mjcf(asset, name)
