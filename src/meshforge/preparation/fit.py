@@ -13,17 +13,23 @@ from meshforge.words import counted
 
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
+_LEAST = 0.005  # shares below are told as none
 
 
-def told_fit(surface: Surface, hulls: Sequence[Polytope]) -> str:
-    """`12 hulls, +3% of its volume, 2% of its surface outside`; without volume where the surface is open."""
+def told_fit(surface: Surface, hulls: Sequence[Polytope], hollow: bool) -> str:
+    """`12 hulls, 3% more volume, 2% of the surface outside`; without volume where the surface is open."""
     parts = [counted(len(hulls), "hull")]
-    volume = enclosed_volume(surface.vertices, surface.faces)
+    volume = None if hollow else enclosed_volume(surface.vertices, surface.faces)
     if volume:
-        parts.append(f"{volume_of_union(hulls) / volume - 1:+.0%} of its volume")
+        excess = volume_of_union(hulls) / volume - 1
+        parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {_word(excess)} volume")
     bare = uncovered(surface, hulls)
-    parts += [f"{bare:.0%} of its surface outside"] if bare >= 0.005 else []
+    parts += [f"{bare:.0%} of the surface outside"] if bare >= _LEAST else []
     return ", ".join(parts)
+
+
+def _word(excess: float) -> str:
+    return "more" if excess > 0 else "less"
 
 
 def uncovered(surface: Surface, hulls: Sequence[Polytope]) -> float:

@@ -2,10 +2,10 @@
 
 from meshforge.geometry.decompose.cache import cache_folder
 from meshforge.geometry.decompose.child import DecompositionCancelledError, Progress
+from meshforge.geometry.decompose.holes import enclosed_volume
 from meshforge.geometry.decompose.run import decompose
 from meshforge.geometry.decompose.settings import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decompose.sheet import is_sheet, sheet_hulls
-from meshforge.geometry.decompose.surface import enclosed_volume
 
 __all__ = [
     "CoacdSettings",

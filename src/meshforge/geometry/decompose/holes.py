@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import manifold3d
 import numpy as np
 
+from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.decompose.surface import Triangles
+from meshforge.geometry.decompose.surface import Triangles, sound_triangles
+from meshforge.geometry.shapes.polytope import volume_and_centroid
 from meshforge.geometry.surface import is_closed
 
 _LEVEL = 1e-3  # a hole is planar when it is level within this share of the mesh's diagonal
@@ -23,6 +27,16 @@ def capped(mesh: Triangles) -> tuple[Triangles, int]:
         if is_closed(faces):
             return Triangles(mesh.vertices, faces, 0), len(loops)
     return mesh, 0
+
+
+def enclosed_volume(vertices: Any, faces: Any) -> float | None:
+    """The volume [m^3] inside of triangles with their planar holes closed, None where they are open all the same."""
+    try:
+        mesh, _ = capped(sound_triangles(vertices, faces))
+    except GeometryError:
+        return None
+    volume = abs(volume_and_centroid(mesh.vertices, mesh.faces)[0])
+    return volume if volume > 0 and not mesh.open_edges else None
 
 
 def _loops(faces: Ints) -> list[Ints]:

@@ -1,4 +1,4 @@
-"""Flat surfaces: engines refuse them, so they are decomposed as thick sheets and pressed flat again."""
+"""Flat surfaces: engines refuse them, so they are decomposed as thick sheets, of which a slice is taken."""
 
 from __future__ import annotations
 
@@ -7,11 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.errors import GeometryError
+from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
+from meshforge.geometry.common import common
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
-from meshforge.geometry.shapes import Polytope
+from meshforge.geometry.shapes import Box, Polytope
 
-_THICK = 0.02  # of the diagonal: thick enough for voxels and cuts, thin enough to count as a sheet
+_THICK = 0.1  # of the length: thick enough for voxels and cuts, thin enough to count as a sheet
+_SLICE = 0.1, 0.2  # of the thickness, out of the middle, where engines like to cut
 _WHOLE = 0.95  # a sheet that fills this share of its outline is one hull, as a piece is that fills it of its volume
 
 Decompose = Callable[[Floats, Ints], list[Polytope]]
@@ -23,21 +27,33 @@ def is_sheet(vertices: Any) -> bool:
 
 
 def sheet_hulls(vertices: Any, faces: Any, decompose: Decompose, name: str) -> list[Polytope]:
-    """The thin hulls of a flat surface of vertices (n, 3) [m] and faces (m, 3), 1e-4 of its diagonal thick.
+    """The thin hulls of a flat surface of vertices (n, 3) [m] and faces (m, 3), 1e-4 of its length thick.
 
     decompose: what makes hulls of a solid one. Raises GeometryError naming `name` where the surface has no area.
     """
     points, triangles = frozen_floats(vertices, (-1, 3)), frozen_ints(faces, (-1, 3))
     used, local = np.unique(triangles, return_inverse=True)
     points, triangles = points[used], local.reshape(-1, 3)
-    thin = FLATNESS * float(np.linalg.norm(np.ptp(points, axis=0)))
+    center, axes, extents = principal_extents(points)
+    thin = FLATNESS * float(extents[0])
+    if extents[1] <= thin:
+        raise GeometryError("it is a line: it has no area", where=name, remedy="Delete it.")
     whole = convex_hull(points, name=name, thicken=thin)
     if _area(points, triangles) >= _WHOLE * whole.volume / thin:
         return [whole]
-    center, axes, _ = principal_extents(points)
-    thick = decompose(*_thickened(points, triangles, axes[2] * (_THICK / FLATNESS * thin)))
-    pressed = (h.vertices - np.outer((h.vertices - center) @ axes[2], axes[2]) for h in thick)
-    return [convex_hull(flat, name=name, thicken=thin) for flat in pressed]
+    flat = (points - center) @ axes.T * [1, 1, 0]  # in its own frame, since engines cut along the coordinate axes
+    rise = _THICK * float(extents[0])
+    slices = (_sliced(hull, rise) for hull in decompose(*_thickened(flat, triangles, rise)))
+    hulls = [convex_hull(s @ axes + center, name=name, thicken=thin) for s in slices if s is not None]
+    return hulls or [whole]
+
+
+def _sliced(hull: Polytope, rise: float) -> Floats | None:
+    """The outline (n, 3) of a hull between two levels, pressed flat; None where it does not reach there."""
+    low, high = hull.aabb.min.copy(), hull.aabb.max.copy()
+    low[2], high[2] = np.multiply(_SLICE, rise)
+    part = common(hull, Box.filling(Aabb(low, high)))
+    return part.vertices * [1, 1, 0] if part else None
 
 
 def _area(points: Floats, triangles: Ints) -> float:
@@ -46,15 +62,16 @@ def _area(points: Floats, triangles: Ints) -> float:
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
 
 
-def _thickened(points: Floats, triangles: Ints, rise: Floats) -> tuple[Floats, Ints]:
-    """The closed surface of a sheet of triangles (m, 3) that reaches half of `rise` (3,) to both sides."""
-    corners = points[triangles]
-    down = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ rise < 0
+def _thickened(flat: Floats, triangles: Ints, rise: float) -> tuple[Floats, Ints]:
+    """The closed surface of triangles (m, 3) in the plane z = 0 that reach half of `rise` up and down."""
+    corners = flat[triangles]
+    down = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] < 0
     up = np.where(down[:, None], triangles[:, ::-1], triangles)
     up = up[np.unique(np.sort(up, axis=1), axis=0, return_index=True)[1]]
     start, end = up.ravel(), up[:, [1, 2, 0]].ravel()
-    n = len(points)
+    n = len(flat)
     rim = ~np.isin(start * n + end, end * n + start)
     a, b = start[rim], end[rim]
     walls = np.concatenate([np.column_stack([b, a, a + n]), np.column_stack([b, a + n, b + n])])
-    return np.concatenate([points + rise / 2, points - rise / 2]), np.concatenate([up, up[:, ::-1] + n, walls])
+    half = np.array([0, 0, rise / 2])
+    return np.concatenate([flat + half, flat - half]), np.concatenate([up, up[:, ::-1] + n, walls])

@@ -9,7 +9,6 @@ import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
-from meshforge.geometry.shapes.polytope import volume_and_centroid
 
 _FLAT = 1e-7  # an extent below this share of the largest spans no volume
 
@@ -59,13 +58,3 @@ def _open_edges(faces: Ints) -> int:
     edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     _, uses = np.unique(edges, axis=0, return_counts=True)
     return int((uses == 1).sum())
-
-
-def enclosed_volume(vertices: Any, faces: Any) -> float | None:
-    """The volume [m^3] inside of triangles, None where they are open or enclose nothing."""
-    try:
-        mesh = sound_triangles(vertices, faces)
-    except GeometryError:
-        return None
-    volume = abs(volume_and_centroid(mesh.vertices, mesh.faces)[0])
-    return volume if volume > 0 and not mesh.open_edges else None

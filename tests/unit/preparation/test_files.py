@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import AssetError
+from meshforge.formats import read
+from meshforge.preparation import (
+    Preparation,
+    cut_hull,
+    decompose_asset,
+    prepared,
+    read_preparation,
+    read_prepared,
+    record_digest,
+    remove_preparation,
+    write_preparation,
+)
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.preparation.samples import VOXELS, stand, write_boxes
+
+
+def hulls(preparation: Preparation | None) -> dict[str, bytes]:
+    """Every hull to the last bit."""
+    found = preparation or Preparation()
+    return {name: found.hulls[known].vertices.tobytes() for name, known in found.made.items()}
+
+
+def test_a_preparation_comes_back_to_the_last_bit(tmp_path: Path) -> None:
+    asset, preparation = stand(tmp_path)
+    cut = cut_hull(asset, preparation, "frame/body#1", (0.1, 0.2, 0.3), (1, 2, 3))
+    write_preparation(tmp_path / "p", cut)
+    back = read_preparation(tmp_path / "p")
+    assert back is not None and back.steps == cut.steps and hulls(back) == hulls(cut)
+    again = tmp_path / "again"
+    write_preparation(again, back)
+    for name in ("preparation.json", "hulls.obj"):
+        assert (again / name).read_bytes() == (tmp_path / "p" / name).read_bytes()
+
+
+def test_the_record_tells_what_was_done_and_the_hulls_can_be_opened(tmp_path: Path) -> None:
+    _, preparation = stand(tmp_path)
+    write_preparation(tmp_path / "p", preparation)
+    (step,) = json.loads((tmp_path / "p/preparation.json").read_text())["steps"]
+    assert step["do"] == "decompose" and step["settings"]["method"] == "coacd" and step["settings"]["seed"] == 0
+    assert set(step["software"]) == {"meshforge", "coacd"}
+    assert [entry["what"] for entry in step["replaced"]] == ["frame/body", "cover"]
+    opened = read(tmp_path / "p/hulls.obj")
+    assert [geom.name for geom in opened.geoms] == list(preparation.made)
+
+
+def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) -> None:
+    asset, preparation = stand(tmp_path)
+    assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 1
+    write_preparation(tmp_path / "p", preparation)
+    assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 5
+    assert len(read_prepared(asset.path, None).geoms) == 1
+    remove_preparation(tmp_path / "p")
+    assert not (tmp_path / "p").exists() and record_digest(tmp_path / "p") is None
+    assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 1
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"steps": [{"do": "guess"}]}', '{"steps": 3}', '{"hulls": []}'])
+def test_a_damaged_record_is_named(tmp_path: Path, text: str) -> None:
+    (tmp_path / "preparation.json").write_text(text)
+    with pytest.raises(AssetError, match="damaged") as caught:
+        read_preparation(tmp_path)
+    assert "preparation.json" in caught.value.message and "--remove" in caught.value.message
+
+
+def test_hulls_that_were_changed_or_are_gone_are_noticed(tmp_path: Path) -> None:
+    _, preparation = stand(tmp_path)
+    write_preparation(tmp_path / "p", preparation)
+    file = tmp_path / "p/hulls.obj"
+    file.write_text(file.read_text().replace("v 3.0", "v 3.1", 1))
+    with pytest.raises(AssetError, match="is not in it as it was made"):
+        read_preparation(tmp_path / "p")
+    file.unlink()
+    with pytest.raises(AssetError, match=r"hulls\.obj"):
+        read_preparation(tmp_path / "p")
+
+
+@needs_fork
+def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
+    asset, first = stand(tmp_path)
+    second = decompose_asset(asset, first, VOXELS, again=True).preparation
+    assert hulls(first).keys() & hulls(second).keys() and hulls(first) != hulls(second)
+    folder = tmp_path / "p"
+    for before, after in ((Preparation(), first), (first, second), (second, first.of(()))):
+        died = 0
+        for _ in deaths(lambda: write_preparation(folder, after)):  # noqa: B023  called at once
+            died += 1
+            assert hulls(read_preparation(folder)) in (hulls(before), hulls(after))
+        assert died and hulls(read_preparation(folder)) == hulls(after)
+        text = (folder / "hulls.obj").read_text() if after.steps else ""
+        assert "@before" not in text
+
+
+def test_nothing_prepared_is_nothing_done(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    assert prepared(asset, Preparation()).geoms == asset.geoms
+    remove_preparation(tmp_path / "nowhere")
