@@ -55,6 +55,7 @@ class Format(ABC):
     title: its name for people; up: the axis that points up in its files, None where the format does not say.
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
     leaves out all the same; instead: how it writes what the format does not hold (`written as hulls`).
+    shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
     """
 
     name: ClassVar[str]
@@ -65,6 +66,7 @@ class Format(ABC):
     holds: ClassVar[frozenset[What]] = frozenset()
     could: ClassVar[frozenset[What]] = frozenset()
     instead: ClassVar[Mapping[What, str]] = {}
+    shown_files: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -92,6 +94,10 @@ class Format(ABC):
     def features(self, asset: Asset) -> Iterable[Feature]:
         """What the document of an asset of this format holds that the asset itself does not tell."""
         return ()
+
+    def top(self, asset: Asset) -> Path:
+        """The highest folder that the references of an asset name on their way, from that of its file upwards."""
+        return asset.path.parent
 
     def sniffs(self, path: Path, head: bytes) -> bool:
         """Whether a file of one of the suffixes is of this format; head: its first kilobytes."""

@@ -60,8 +60,9 @@ def copied(asset: Asset, tree: Tree) -> tuple[dict[str, Path], list[str]]:
 def top(document: MjcfDocument) -> Path:
     """The highest folder that references pass through, from the main file's folder."""
     tree = document.tree
-    found = [place for place in places(tree) if place] + [place for place, _, _ in _references(tree) if place]
-    ups = max(_climb(place) for place in found)
+    meshes = posixpath.normpath(posixpath.join(Folders.of(tree).mesh.replace("\\", "/"), "hull.obj"))
+    named = [meshes, *places(tree), *(place for place, _, _ in _references(tree))]
+    ups = max(_climb(place) for place in named if place)
     return [tree.main.path.parent, *tree.main.path.parent.parents][ups]
 
 

@@ -17,7 +17,7 @@ from meshforge.formats.mjcf.kept_masses import (
 from meshforge.formats.mjcf.model import Reading
 from meshforge.formats.mjcf.plan import Kept, Plan
 from meshforge.formats.mjcf.sources import Tree, gather
-from meshforge.formats.slots import Slot, at_end
+from meshforge.formats.slots import Slot, at_end, lead_inside
 from meshforge.formats.xml import Splice, newline, spliced
 
 _ROUNDS = 4  # what one body or geom says may change what another has to say
@@ -125,7 +125,8 @@ class Edit:
         if own:
             yield 0, at_end(data, own[-1], made)
         else:
-            lines = [b"<asset>", *(b"    " + slot.text for slot in made), b"  </asset>"]
+            lead = lead_inside(data, root)
+            lines = [b"<asset>", *(2 * lead + slot.text for slot in made), lead + b"</asset>"]
             yield 0, at_end(data, root, [Slot("", (), text=newline(data).join(lines))])
 
     def _misread(self, after: Reading) -> Iterator[tuple[Slot | None, str, str]]:

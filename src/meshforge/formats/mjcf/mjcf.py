@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 from meshforge.asset import Asset, Feature, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.mjcf.copies import top
 from meshforge.formats.mjcf.create import create_mjcf
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.formats.mjcf.features import COULD, HOLDS, features_of
@@ -36,6 +37,9 @@ class MjcfFormat(Format):
 
     def create(self, asset: Asset, name: str) -> Output:
         return create_mjcf(asset, name)
+
+    def top(self, asset: Asset) -> Path:
+        return top(asset.document) if isinstance(asset.document, MjcfDocument) else super().top(asset)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()
