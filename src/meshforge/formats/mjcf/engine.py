@@ -6,7 +6,7 @@ import math
 import re
 import threading
 import warnings as python_warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,10 +30,12 @@ _NAMED = re.compile(r"Element (?:name )?'([^']*)'(?:, id \d+)?(?:, line \d+)?\s*
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compiled:
-    """A model, the spec it was compiled from, and what MuJoCo warned of."""
+    """A model, the spec it was compiled from, its bodies and geoms in the model's order, and what MuJoCo warned of."""
 
     spec: mujoco.MjSpec
     model: mujoco.MjModel
+    bodies: tuple[mujoco.MjsBody, ...]
+    geoms: tuple[mujoco.MjsGeom, ...]
     warnings: tuple[str, ...]
 
 
@@ -75,19 +77,30 @@ def _parsed(tree: Tree, flat: Flat, warnings: list[str]) -> mujoco.MjSpec:
 
 
 def _compiled(tree: Tree, flat: Flat, spec: mujoco.MjSpec, warnings: list[str]) -> Compiled:
-    _refuse_unplaced(tree, flat, spec)
+    bodies = tuple(spec.bodies)
+    geoms = geoms_of(bodies)
+    _refuse_unplaced(tree, flat, bodies, geoms)
     with _heard(warnings), _files(tree, flat) as vfs:
         try:
             model = spec.compile(vfs=vfs)
         except _failures() as error:
             raise _told(str(error), tree, flat) from None
-    return Compiled(spec, model, tuple(dict.fromkeys(_plain(warning) for warning in warnings)))
+    told = tuple(dict.fromkeys(_plain(warning) for warning in warnings))
+    in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
+    return Compiled(spec, model, *in_order, told)
 
 
-def _refuse_unplaced(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
+    """The geoms of a spec's bodies; asked for all at once, MuJoCo takes the square of their number in time."""
+    return tuple(geom for body in bodies for geom in body.geoms)
+
+
+def _refuse_unplaced(
+    tree: Tree, flat: Flat, bodies: tuple[mujoco.MjsBody, ...], geoms: tuple[mujoco.MjsGeom, ...]
+) -> None:
     """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns."""
-    for kind, things in (("body", spec.bodies), ("geom", spec.geoms)):
-        for thing in things:
+    for kind, of_kind in (("body", bodies), ("geom", geoms)):
+        for thing in of_kind:
             if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
                 node = flat.node(thing.info)
                 where = tree.where(node) if node else str(tree.main.path)

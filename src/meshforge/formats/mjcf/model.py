@@ -29,14 +29,11 @@ class Reading:
 
     def __init__(self, tree: Tree, flat: Flat, made: Compiled) -> None:
         self.tree, self.flat, self.model = tree, flat, made.model
-        bodies = {body.id: body for body in made.spec.bodies}
-        geoms = {geom.id: geom for geom in made.spec.geoms}
-        self.spec_bodies = [bodies[k] for k in range(self.model.nbody)]
-        self.spec_geoms = [geoms[k] for k in range(self.model.ngeom)]
-        self.body_names = body_names([body.name for body in self.spec_bodies])
+        self.spec_bodies, self.spec_geoms = made.bodies, made.geoms
+        self.body_names = body_names([body.name for body in made.bodies])
         self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]
-        self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, self.spec_geoms, strict=True)])
-        self.elements = [flat.node(geom.info) for geom in self.spec_geoms]
+        self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, made.geoms, strict=True)])
+        self.elements = [flat.node(geom.info) for geom in made.geoms]
         self.collides = self._collides()
         self.body_poses = body_poses(self.model)
         self.geom_poses = geom_poses(self.model, self.body_poses)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.assets import Folders
-from meshforge.formats.mjcf.engine import Compiled, compile_spec, parse_flat
+from meshforge.formats.mjcf.engine import Compiled, compile_spec, geoms_of, parse_flat
 from meshforge.formats.mjcf.flat import Flat, flatten
 from meshforge.formats.mjcf.sources import Node, Tree
 from meshforge.formats.references import Resolver
@@ -97,7 +97,7 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
         except AssetError as error:
             last = error
             continue
-        return Reduced(flat, made, frozenset(geom.id for geom in spec.geoms if geom.info in infos))
+        return Reduced(flat, made, frozenset(geom.id for geom in made.geoms if geom.info in infos))
     if last.message != refusal.message:
         refusal = AssetError(refusal.problem, where=refusal.where, remedy=f"Mended, it would meet: {last.message}")
     raise refusal
@@ -106,7 +106,11 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
 def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom is not there."""
     lost = _lost(tree, flat, spec)
-    geoms = [geom for geom in spec.geoms if geom.meshname in lost and flat.node(geom.info) and _collides(geom, spec)]
+    geoms = [
+        geom
+        for geom in geoms_of(spec.bodies)
+        if geom.meshname in lost and flat.node(geom.info) and _collides(geom, spec)
+    ]
     if geoms:
         first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
         mesh = lost[first.meshname]
@@ -139,11 +143,12 @@ def _stood_in(tree: Tree, flat: Flat, spec: mujoco.MjSpec, all_visuals: bool) ->
 
     lost = _lost(tree, flat, spec)
     infos = set()
-    for geom in spec.geoms:
+    geoms = geoms_of(spec.bodies)
+    for geom in geoms:
         if geom.meshname and not _collides(geom, spec) and (all_visuals or geom.meshname in lost):
             infos.add(geom.info)
             geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
-    used = {geom.meshname for geom in spec.geoms}
+    used = {geom.meshname for geom in geoms}
     for mesh in list(spec.meshes):
         if mesh.name not in used:
             spec.delete(mesh)
