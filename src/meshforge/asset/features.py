@@ -34,6 +34,8 @@ class What(Enum):
     VISUALS = "visual", "visuals"
     COLORS = "colour", "colours"
     MATERIALS = "material", "materials"
+    MESH_MATERIALS = "mesh file with materials", "mesh files with materials"
+    VERTEX_COLORS = "set of vertex colours", "sets of vertex colours"
     TEXTURES = "texture", "textures"
     TEXTURE_COORDINATES = "texture coordinate", "texture coordinates"
     CONTACT = "contact setting", "contact settings"

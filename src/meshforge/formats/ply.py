@@ -38,7 +38,7 @@ class Ply(PlainFormat):
 
     name = "ply"
     title = "PLY"
-    could = frozenset({What.COLORS, What.TEXTURE_COORDINATES, What.COMMENTS})
+    could = frozenset({What.VERTEX_COLORS, What.TEXTURE_COORDINATES, What.COMMENTS})
     suffixes = (".ply",)
 
     def soup(self, data: bytes, path: Path) -> Soup:
@@ -50,7 +50,7 @@ class Ply(PlainFormat):
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             colors = len(_COLOR.findall(asset.document.data[:_HEAD].partition(b"end_header")[0]))
-            yield Feature(What.COLORS, unnamed=colors)
+            yield Feature(What.VERTEX_COLORS, unnamed=colors)
 
     def made(self, parts: Sequence[Part]) -> bytes:
         vertices, faces = _stacked(parts, 0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +13,6 @@ from meshforge.formats.losses import Loss
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.words import listed
 
-_PICTURES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".webp", ".dds")
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
 _WORDING = {
     What.OTHERS: "{title} has no place for them",
@@ -38,14 +37,15 @@ class Report:
 
 def report(asset: Asset, source: Format | None, target: Format, output: Output, remarks: Iterable[str] = ()) -> Report:
     """The report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
-    found = [*features(asset), *_of_visuals(asset), *(source.features(asset) if source else ())]
-    renamed = _renamed(output, target) if What.NAMES in target.holds else []
-    own = [*output.lost, *renamed]
+    own = [*output.lost, *_renamed(output, target), *_faded(asset, target)]
     gone = {what: {name for loss in own if loss.what is what for name in loss.names} for what in What}
-    rest = [left for f in found if f.count and (left := _without(f, gone[f.what])).count]
+    told = [_without(feature, gone[feature.what]) for feature in (*features(asset), *_of_visuals(asset))]
+    # a creator sees the asset, not the document: what only that tells is never carried over
+    beyond = [f for f in (source.features(asset) if source else ()) if f.count]
+    lost = [f for f in told if f.count and f.what not in target.holds]
     return Report(
-        held=tuple(f for f in rest if f.what in target.holds),
-        lost=(*(_lost(f, target) for f in rest if f.what not in target.holds), *own),
+        held=tuple(f for f in told if f.count and f.what in target.holds),
+        lost=(*(_lost(f, target) for f in (*lost, *beyond)), *_together(own)),
         remarks=(*remarks, *output.notes),
     )
 
@@ -61,35 +61,52 @@ def _lost(feature: Feature, target: Format) -> Loss:
 
 
 def _why(what: What, target: Format) -> str:
-    if what in target.could:
+    if what in target.could | target.holds:
         return f"MeshForge does not carry {what.many} over to {target.title}"
     return _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
 
 
 def _renamed(output: Output, target: Format) -> list[Loss]:
     """Hulls that the file holds under other names."""
-    if not output.names:
+    if not output.names or What.NAMES not in target.holds:
         return []
     now = listed(list(output.names.values()), 3)
     return [Loss(What.NAMES, tuple(output.names), f"{target.title} files read back as {now}", "written otherwise")]
 
 
 def _of_visuals(asset: Asset) -> Iterator[Feature]:
-    """Visuals, their colours, and the materials and pictures in the files they come from."""
+    """Visuals and their colours."""
     if not isinstance(asset.visuals, LazySurfaces):
-        bodies = [surface.body for surface in asset.visuals]
-        yield _counted(What.VISUALS, bodies)
+        yield _counted(What.VISUALS, [surface.body for surface in asset.visuals])
         return
     visuals = asset.visuals.visuals
     yield _counted(What.VISUALS, [visual.body for visual in visuals])
     yield _counted(What.COLORS, [visual.body for visual in visuals if visual.rgba is not None])
-    files = list(dict.fromkeys(v.what for v in visuals if isinstance(v.what, Path)))
-    yield Feature(What.MATERIALS, tuple(f.name for f in files if _has(f, _WITH_MATERIALS)))
-    yield Feature(What.TEXTURES, tuple(f.name for f in files if _has(f, _PICTURES)))
 
 
-def _has(file: Path, suffixes: tuple[str, ...]) -> bool:
-    return any(path.suffix.lower() in suffixes for path in (file, *companions(file).values()))
+def _faded(asset: Asset, target: Format) -> list[Loss]:
+    """Mesh files of visuals whose own materials the target does not show, though it has the shapes."""
+    if What.VISUALS not in target.holds or not isinstance(asset.visuals, LazySurfaces):
+        return []
+    files = dict.fromkeys(visual.what for visual in asset.visuals.visuals if isinstance(visual.what, Path))
+    faded = tuple(f.name for f in files if f.suffix.lower() not in target.shown_files and _has_materials(f))
+    why = f"{target.title} gets the shapes alone"
+    return [Loss(What.MESH_MATERIALS, faded, why, "shown without these")] if faded else []
+
+
+def _has_materials(file: Path) -> bool:
+    return any(path.suffix.lower() in _WITH_MATERIALS for path in (file, *companions(file).values()))
+
+
+def _together(losses: Sequence[Loss]) -> list[Loss]:
+    """Losses of like things for a like reason as one."""
+    alike: dict[tuple[What, str, str | None], list[Loss]] = {}
+    for loss in losses:
+        alike.setdefault((loss.what, loss.why, loss.instead), []).append(loss)
+    return [
+        Loss(what, tuple(n for one in each for n in one.names), why, instead, sum(one.unnamed for one in each))
+        for (what, why, instead), each in alike.items()
+    ]
 
 
 def _counted(what: What, bodies: list[str | None]) -> Feature:

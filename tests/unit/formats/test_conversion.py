@@ -14,7 +14,7 @@ from meshforge.geometry import Floats
 from tests.conversion_samples import SAMPLES
 
 PLAIN = (".obj", ".stl", ".ply", "")
-SUFFIXES = (*PLAIN, ".urdf", ".xml")
+SUFFIXES = (*PLAIN, ".urdf", ".xml", ".glb")
 PAIRS = [pair for pair in itertools.product(SUFFIXES, SUFFIXES) if pair[0] != pair[1]]
 UP = {".urdf": "z", ".xml": "z", ".glb": "y"}
 TURNS = {("y", "z"): [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ("z", "y"): [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}

@@ -207,12 +207,10 @@ class _Creator:
         yield _visual(mesh_geom_attributes(self.meshes.shown(seen.what, seen.scale), seen.pose), None)
 
     def _losses(self) -> Iterator[Loss]:
-        """What is lost, like things together."""
+        """What is lost."""
         if self.visuals.refused:
             yield Loss(What.VISUALS, tuple(dict.fromkeys(self.visuals.refused)), "their files cannot be read")
-        for key in dict.fromkeys((loss.what, loss.why, loss.instead) for loss in self.lost):
-            names = [n for loss in self.lost if (loss.what, loss.why, loss.instead) == key for n in loss.names]
-            yield Loss(key[0], tuple(names), key[1], key[2])
+        yield from self.lost
 
     def _told(self) -> tuple[str, ...]:
         notes = [f"{text} ({listed(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]

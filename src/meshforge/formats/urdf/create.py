@@ -14,6 +14,7 @@ from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
 from meshforge.formats.urdf.chain import Chain, chain_of
 from meshforge.formats.urdf.elements import fresh, mesh_tag
+from meshforge.formats.urdf.features import MESHES
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
 from meshforge.formats.urdf.slots import settle
@@ -23,7 +24,6 @@ from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 from meshforge.words import counted, listed
 
 _LEAD = b"    "
-_MESHES = (".obj", ".stl", ".dae")  # what ROS, PyBullet and others read
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
@@ -39,7 +39,7 @@ class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
         self.maker = Maker(b"", b"\n", HullFiles(stem))
-        self.visuals = VisualFiles(self.maker.files, _MESHES)
+        self.visuals = VisualFiles(self.maker.files, MESHES)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
         shown = visuals_of(asset)

@@ -24,11 +24,11 @@ HOLDS = frozenset(
         What.MASSES,
         What.VISUALS,
         What.COLORS,
-        What.MATERIALS,
-        What.TEXTURES,
     }
 )
-COULD = frozenset({What.MIMICS, What.CONTACT, What.COMMENTS})
+COULD = frozenset({What.MIMICS, What.CONTACT, What.COMMENTS, What.MATERIALS, What.TEXTURES})
+MESHES = (".obj", ".stl", ".dae")
+"""The mesh files that ROS, PyBullet and others read."""
 _KNOWN = ("link", "joint", "material")
 _COMMENT = re.compile(rb"<!--")
 
