@@ -33,7 +33,7 @@ def read_template(path: Path, name: str) -> Template:
     asset = read(path)
     if asset.opaque:
         raise ProgramError(
-            f'the template "{name}" is not convex: {asset.opaque[0].reason}',
+            f'the template "{name}" is no convex hull: {asset.opaque[0].reason}',
             where=str(path),
             remedy=f"Split it into convex hulls first: meshforge decompose {path} -o {_split(path)}",
         )

@@ -31,5 +31,5 @@ def test_a_template_that_is_not_there_is_named_with_where_it_was_looked_for(tmp_
 
 def test_a_template_that_is_not_convex_is_refused_by_its_name(tmp_path: Path) -> None:
     (tmp_path / "bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
-    with pytest.raises(ProgramError, match=r'the template "bar\.obj" is not convex'):
+    with pytest.raises(ProgramError, match=r'the template "bar\.obj" is no convex hull'):
         load_templates(PROGRAM, [tmp_path])
