@@ -17,7 +17,7 @@ from meshforge.formats.gltf.shapes import Z_TO_Y, Described
 from meshforge.formats.gltf.unreal import unreal_shape
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts, placed
 from meshforge.formats.meshfile.gltf import Placement, Scene, Triangles
-from meshforge.geometry import Floats, Ints, Piece, Pose, convex_hull, pieces
+from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Pose, Sphere, convex_hull, pieces
 
 INSTANCING = "EXT_mesh_gpu_instancing"
 _SHAPES = {"UBX": "box", "USP": "sphere", "UCP": "capsule"}
@@ -84,7 +84,11 @@ class Reader:
             self.notes.append(f"the collider of {name or f'node {placement.index}'!r} is tapered: it is read as a hull")
         if _flattens(placement.linear):
             return Source(placement.index, name, [MeshPart(None, "it is scaled to nothing")])
-        return Source(placement.index, name, [MeshPart(found.shape.mapped(placement.linear, placement.offset))])
+        shape = found.shape.mapped(placement.linear, placement.offset)
+        if isinstance(found.shape, Sphere) and not isinstance(shape, Sphere):
+            egg = Ellipsoid(Pose.identity(), np.full(3, found.shape.radius))
+            shape = egg.mapped(placement.linear, placement.offset)
+        return Source(placement.index, name, [MeshPart(shape)])
 
     def _unreal(self, placement: Placement) -> Source | None:
         name = source_name(self.scene, placement, "unreal")

@@ -1,0 +1,316 @@
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset
+from meshforge.formats import load, read
+from meshforge.geometry import Capsule, Pose, Shape, Sphere
+from tests.gltf_files import SceneFile
+from tests.soups import Soup, angle, box, together, turned
+
+HALF = float(np.sqrt(0.5))
+
+
+def asset_of(scene: SceneFile, folder: Path, suffix: str = ".glb") -> Asset:
+    return read(scene.write(folder / f"a{suffix}"))
+
+
+def names(asset: Asset) -> list[str]:
+    return [geom.name for geom in asset.geoms]
+
+
+def bounds(shape: Shape | None) -> list[list[float]]:
+    assert shape is not None
+    return [np.round(side, 6).tolist() for side in (shape.aabb.min, shape.aabb.max)]
+
+
+def shape_of(asset: Asset, name: str) -> Shape:
+    return next(geom.shape for geom in asset.geoms if geom.name == name)
+
+
+def two_boxes() -> Soup:
+    return together(box(), box((2, 0, 0)))
+
+
+# all meshes as collision
+
+
+def test_without_any_mark_each_convex_piece_of_each_node_is_a_hull(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("legs", two_boxes())
+    scene.node("top", box((0, 0, 5)))
+    scene.node("corner", angle())
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == ["legs#0", "legs#1", "top"]
+    assert [(o.name, o.reason[:10]) for o in asset.opaque] == [("corner", "not convex")]
+    assert [body.name for body in asset.bodies] == ["body"]
+    assert not len(asset.visuals)
+    assert "all meshes are taken for it" in asset.notes[0]
+    assert load(tmp_path / "a.glb").hulls[0].name == "legs#0"
+    assert names(pickle.loads(pickle.dumps(asset))) == names(asset)
+
+
+def test_nodes_are_named_after_themselves_then_their_mesh_then_their_number(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node(None, box())
+    scene.node(None, mesh=scene.mesh(box((2, 0, 0)), name="leg"))
+    scene.node("leg", box((4, 0, 0)))
+    scene.node(None, box((6, 0, 0)))
+    assert names(asset_of(scene, tmp_path)) == ["geom0", "leg", "leg@2", "geom3"]
+
+
+def test_transforms_are_those_of_all_nodes_above(tmp_path: Path) -> None:
+    scene = SceneFile()
+    inner = scene.node("inner", box(), scale=[1, 2, -3])
+    turned_node = scene.node("turn", rotation=[0, 0, HALF, HALF], children=[inner])
+    scene.node("outer", matrix=[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 0, 0, 1], children=[turned_node])
+    shape = asset_of(scene, tmp_path).geoms[0].shape
+    assert bounds(shape) == [[6, 0, -3], [10, 1, 0]]
+    assert shape.volume == pytest.approx(12)
+
+
+def test_one_mesh_in_several_nodes_is_a_hull_in_each(tmp_path: Path) -> None:
+    scene = SceneFile()
+    mesh = scene.mesh(box(), name="leg")
+    for x in (0, 2, 4):
+        scene.node(f"leg{x}", mesh=mesh, translation=[x, 0, 0])
+    asset = asset_of(scene, tmp_path)
+    assert [bounds(geom.shape)[0][0] for geom in asset.geoms] == [0, 2, 4]
+
+
+def test_a_node_scaled_to_nothing_is_opaque(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("there", box())
+    scene.node("gone", box(), scale=[1, 0, 1])
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == ["there"]
+    assert [(o.name, o.reason) for o in asset.opaque] == [("gone", "it is scaled to nothing")]
+
+
+def test_only_the_default_scene_is_read_and_the_rest_is_told(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("first", box())
+    scene.node("second", box((2, 0, 0)))
+    scene.node("nowhere", box((4, 0, 0)))
+    scene.tree |= {"scenes": [{"nodes": [0]}, {"nodes": [1]}], "scene": 1}
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == ["second"]
+    assert any(note.startswith("2 nodes with a mesh outside of the scene") for note in asset.notes)
+    assert any("of 2 scenes it is the default one" in note for note in asset.notes)
+
+
+def test_without_a_default_scene_it_is_the_first_and_without_scenes_all_that_are_no_children(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("first", box())
+    child = scene.node("child", box((2, 0, 0)))
+    scene.node("parent", children=[child])
+    whole = scene.whole()
+    scene.tree = {**whole, "scenes": [{"nodes": [0]}, {"nodes": [2]}]}
+    del scene.tree["scene"]
+    scene.whole = lambda: scene.tree  # type: ignore[method-assign]
+    assert names(asset_of(scene, tmp_path)) == ["first"]
+    del scene.tree["scenes"]
+    assert names(asset_of(scene, tmp_path)) == ["first", "child"]
+
+
+def test_points_and_lines_are_passed_over(tmp_path: Path) -> None:
+    scene = SceneFile()
+    line = scene.primitive(box(), mode=1)
+    del line["indices"]
+    scene.node("mixed", mesh=scene.mesh(line, box()))
+    scene.node("lines", mesh=scene.mesh(line))
+    assert names(asset_of(scene, tmp_path)) == ["mixed"]
+
+
+def test_primitives_of_a_mesh_are_one_surface(tmp_path: Path) -> None:
+    scene = SceneFile()
+    points, faces = box()
+    scene.node("box", mesh=scene.mesh((points, faces[:6]), (points, faces[6:])))
+    assert names(asset_of(scene, tmp_path)) == ["box"]
+
+
+def test_quantized_and_normalized_positions_are_read_with_their_node(tmp_path: Path) -> None:
+    scene = SceneFile()
+    points, faces = box()
+    part = {"attributes": {}, "indices": scene.accessor(faces.astype("<u2").reshape(-1, 1))}
+    padded = np.zeros((8, 4), "<i2")
+    padded[:, :3] = np.round(points * 32767)
+    view = scene.view(padded.tobytes(), byteStride=8)
+    accessor = {"bufferView": view, "componentType": 5122, "count": 8, "type": "VEC3", "normalized": True}
+    scene.tree["accessors"].append(accessor)
+    part["attributes"] = {"POSITION": len(scene.tree["accessors"]) - 1}
+    scene.node("box", mesh=scene.mesh(part), scale=[4, 4, 4])
+    scene.tree["extensionsRequired"] = ["KHR_mesh_quantization"]
+    asset = asset_of(scene, tmp_path)
+    assert bounds(asset.geoms[0].shape) == [[0, 0, 0], [4, 4, 4]]
+    assert len(asset.notes) == 1
+
+
+def test_sparse_accessors_are_filled_in(tmp_path: Path) -> None:
+    scene = SceneFile()
+    part = scene.primitive(box())
+    moved = np.array([[2.0, 1, 0], [2.0, 1, 1]], "<f4")
+    scene.tree["accessors"][part["attributes"]["POSITION"]]["sparse"] = {
+        "count": 2,
+        "indices": {"bufferView": scene.view(np.array([6, 7], "<u1").tobytes()), "componentType": 5121},
+        "values": {"bufferView": scene.view(moved.tobytes())},
+    }
+    scene.node("wedge", mesh=scene.mesh(part))
+    assert bounds(asset_of(scene, tmp_path).geoms[0].shape) == [[0, 0, 0], [2, 1, 1]]
+
+
+def test_a_skinned_mesh_is_taken_in_the_pose_of_its_joints(tmp_path: Path) -> None:
+    scene = SceneFile()
+    joint = scene.node("bone", translation=[10, 0, 0])
+    part = scene.primitive(box())
+    part["attributes"] |= {
+        "JOINTS_0": scene.accessor(np.zeros((8, 4), "<u1")),
+        "WEIGHTS_0": scene.accessor(np.tile(np.array([1, 0, 0, 0], "<f4"), (8, 1))),
+    }
+    bind = np.eye(4, dtype="<f4")
+    bind[3, :3] = [0, 0, 5]  # column by column
+    scene.tree["skins"] = [{"joints": [joint], "inverseBindMatrices": scene.accessor(bind.reshape(1, 16))}]
+    scene.node("body", mesh=scene.mesh(part), skin=0, translation=[99, 0, 0])
+    asset = asset_of(scene, tmp_path)
+    assert bounds(asset.geoms[0].shape) == [[10, 0, 5], [11, 1, 6]]
+    assert any("1 skinned mesh" in note for note in asset.notes)
+
+
+def test_morph_targets_are_told_and_not_applied(tmp_path: Path) -> None:
+    scene = SceneFile()
+    part = scene.primitive(box())
+    part["targets"] = [{"POSITION": scene.accessor(np.ones((8, 3), "<f4"))}]
+    scene.node("face", mesh=scene.mesh(part, weights=[1.0]))
+    asset = asset_of(scene, tmp_path)
+    assert bounds(asset.geoms[0].shape) == [[0, 0, 0], [1, 1, 1]]
+    assert any("1 mesh with morph targets" in note for note in asset.notes)
+
+
+def test_instanced_nodes_are_opaque(tmp_path: Path) -> None:
+    scene = SceneFile()
+    offsets = scene.accessor(np.zeros((2, 3), "<f4"))
+    scene.node("many", box(), extensions={"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": offsets}}})
+    scene.node("one", box())
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == ["one"]
+    assert [o.reason for o in asset.opaque] == ["many at once by EXT_mesh_gpu_instancing, which is not edited"]
+
+
+def test_what_the_file_asks_for_and_is_not_known_is_told(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("box", box())
+    scene.tree["extensionsRequired"] = ["KHR_texture_transform", "ACME_bend"]
+    assert [note for note in asset_of(scene, tmp_path).notes if "asks for" in note] == [
+        "the file asks for ACME_bend, which is not known: its geometry may be meant otherwise"
+    ]
+
+
+def test_files_beside_it_are_found_and_missing_pictures_told(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("box", box())
+    scene.tree["images"] = [{"uri": "a%20b.png"}, {"uri": "gone.png"}]
+    (tmp_path / "a b.png").write_bytes(b"")
+    asset = asset_of(scene, tmp_path, ".gltf")
+    assert [path.name for path in asset.files] == ["a.bin", "a b.png"]
+    assert asset.missing == ("gone.png",)
+
+
+# Unreal's names
+
+
+def soup_of(shape: Shape) -> Soup:
+    return np.asarray(shape.vertices), np.asarray(shape.faces)
+
+
+def test_unreal_names_are_hulls_boxes_spheres_and_capsules(tmp_path: Path) -> None:
+    capsule, ball = Capsule(Pose.identity(), 0.5, 1.0), Sphere(Pose.identity(), 1.0)
+    scene = SceneFile()
+    scene.node("table", angle())
+    scene.node("UCX_table_01", two_boxes())
+    scene.node("ubx_table_02", box((0, 0, 3)), rotation=[0.2, 0.1, 0, float(np.sqrt(0.95))])
+    scene.node("USP_table", soup_of(ball), translation=[5, 0, 0], scale=[2, 2, 2])
+    scene.node("UCP_table", soup_of(capsule))
+    scene.node(None, mesh=scene.mesh(box((9, 0, 0)), name="UCX_table_03"))
+    asset = asset_of(scene, tmp_path)
+    assert [(g.name, g.shape.kind) for g in asset.geoms] == [
+        ("UCX_table_01", "polytope"),
+        ("ubx_table_02", "box"),
+        ("USP_table", "sphere"),
+        ("UCP_table", "capsule"),
+        ("UCX_table_03", "polytope"),
+    ]
+    assert not asset.opaque
+    assert shape_of(asset, "UCX_table_01").volume == pytest.approx(3)  # one hull around both boxes
+    sphere = shape_of(asset, "USP_table")
+    assert isinstance(sphere, Sphere) and sphere.radius == pytest.approx(2, abs=1e-6)
+    found = shape_of(asset, "UCP_table")
+    assert isinstance(found, Capsule)
+    assert (found.radius, found.half_length) == pytest.approx((0.5, 1.0), abs=1e-3)
+    assert [len(surface.faces) for surface in asset.visuals] == [20]  # the table alone is seen
+
+
+@pytest.mark.parametrize("prefix", ["UBX", "USP", "UCP"])
+def test_a_mesh_that_is_not_what_its_unreal_name_says_is_a_hull_and_told(tmp_path: Path, prefix: str) -> None:
+    scene = SceneFile()
+    points, faces = box()
+    points = points * np.where(points[:, 2:] > 0, [0.5, 0.5, 1], 1)
+    scene.node(f"{prefix}_a", (points, faces))
+    asset = asset_of(scene, tmp_path)
+    assert asset.geoms[0].shape.kind == "polytope"
+    assert any("is read as a hull" in note for note in asset.notes)
+
+
+def test_a_cube_is_no_sphere_though_its_corners_are_all_as_far_from_the_middle(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("USP_a", box())
+    assert asset_of(scene, tmp_path).geoms[0].shape.kind == "polytope"
+
+
+def test_a_flat_ucx_is_opaque(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("UCX_a", box())
+    points, faces = box()
+    scene.node("UCX_b", (points * [1, 1, 0], faces))
+    assert [o.name for o in asset_of(scene, tmp_path).opaque] == ["UCX_b"]
+
+
+# Godot's names
+
+
+def test_godot_names_are_hulls_and_pieces(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("a-col", two_boxes())
+    scene.node("b-convcol", two_boxes())
+    scene.node("c-colonly", together(box(), turned(box((2, 0, 0)))))
+    scene.node("d-convcolonly.001", angle())
+    scene.node("e_COL 2", angle())
+    scene.node("f$colonly_x", box())
+    scene.node("seen", box())
+    scene.node("collar", box())
+    scene.node(None, mesh=scene.mesh(box(), name="g-col"))
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == [
+        "a-col#0",
+        "a-col#1",
+        "b-convcol",
+        "c-colonly#0",
+        "c-colonly#1",
+        "d-convcolonly.001",
+        "f$colonly_x",
+        "g-col",
+    ]
+    assert [o.name for o in asset.opaque] == ["e_COL 2"]
+    assert len(asset.visuals) == 6  # a, b, e, seen, collar and g
+
+
+def test_unreal_goes_before_godot_and_physics_before_both(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("a-col", box())
+    scene.node("UCX_a", box())
+    assert names(asset_of(scene, tmp_path)) == ["UCX_a"]
+    scene.collider("ball", {"type": "sphere", "sphere": {"radius": 2}})
+    assert names(asset_of(scene, tmp_path)) == ["ball"]
