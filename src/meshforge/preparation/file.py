@@ -100,8 +100,12 @@ def _steps() -> TypeAdapter[tuple[Step, ...]]:
 
 
 def _read_hulls(path: Path) -> dict[str, Polytope]:
+    try:
+        surfaces = read_triangles(path)
+    except AssetError as error:
+        raise _damaged(path, error.problem) from error
     found = {}
-    for surface in read_triangles(path):
+    for surface in surfaces:
         used, local = np.unique(surface.faces, return_inverse=True)
         hull = Polytope(surface.vertices[used], local.reshape(-1, 3))
         found[hull_digest(hull)] = hull

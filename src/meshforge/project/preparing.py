@@ -45,9 +45,9 @@ class Prepared:
 
     asset: str
     made: tuple[Replaced, ...] = ()
-    undone: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     problems: tuple[str, ...] = ()
+    undone: tuple[str, ...] = ()
 
     @property
     def hulls(self) -> tuple[str, ...]:

@@ -1,0 +1,310 @@
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import Edited, Failed
+from meshforge.batch import status as word
+from meshforge.errors import AssetError, GeometryError, ProjectError
+from meshforge.formats import load
+from meshforge.language import Delete, Merge
+from meshforge.project import Prepared, Project
+from meshforge.synthesis import Found, Step
+from tests.unit.batch.families import tree
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
+from tests.unit.project.tables import FIRST, SECOND, applied, labelled
+
+HIGH, LOW = "high/stand.urdf", "low/stand.urdf"
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(autouse=True)
+def _cached(monkeypatch: pytest.MonkeyPatch, cache: Path) -> None:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(cache))
+
+
+def fresh(folder: Path) -> Project:
+    """A project of two stands, the second lower."""
+    write_stand(folder / "assets/high")
+    path = write_stand(folder / "assets/low")
+    path.write_text(path.read_text().replace("0 0 2", "0 0 1.5"))
+    return Project.create(folder / "stands", [folder / "assets"], vocabulary=["body", "foot", "cover"])
+
+
+def decomposed(folder: Path) -> Project:
+    """The same with hulls for all."""
+    project = fresh(folder)
+    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [2, 2]
+    return project
+
+
+def names(project: Project, asset: str) -> list[str]:
+    return [hull.name for hull in project.mesh(asset).hulls]
+
+
+def label_all(project: Project, asset: str) -> None:
+    kind = {"frame/body": "body", "frame/foot": "foot", "cover/geom0": "cover"}
+    project.set_labels(asset, {name: kind[name.partition("#")[0]] for name in names(project, asset)})
+
+
+def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    before = tree(tmp_path / "assets")
+    assert names(project, HIGH) == ["frame/foot"]
+    done = list(project.decompose(settings=QUICK, workers=0))
+    assert [(d.asset, d.problems, d.notes) for d in done] == [(HIGH, (), ()), (LOW, (), ())]
+    assert names(project, HIGH) == ["frame/foot", *done[0].hulls]
+    assert project.mesh(HIGH).hulls[1].parent == "frame/body"
+    assert tree(tmp_path / "assets") == before
+
+
+def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    before = tree(project.folder / "prepared")
+    again = list(Project.open(project.folder).decompose(settings=VOXELS, workers=0))
+    assert again == [Prepared(HIGH), Prepared(LOW)]
+    assert tree(project.folder / "prepared") == before
+
+
+def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = []
+    for workers in (0, 2):
+        monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / f"cache{workers}"))
+        project = fresh(tmp_path / str(workers))
+        list(project.decompose(settings=QUICK, workers=workers))
+        found.append(tree(project.folder / "prepared"))
+    assert len(found[0]) == 4 and found[0] == found[1]
+
+
+def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    (tmp_path / "assets" / HIGH).write_text("<robot")
+    high, low = project.decompose(settings=QUICK, workers=1)
+    assert len(high.problems) == 1 and HIGH in high.problems[0]
+    assert len(low.made) == 2
+
+
+def test_an_asset_that_takes_too_long_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
+    (done,) = fresh(tmp_path).decompose([HIGH], workers=1, timeout=0.05)
+    assert "longer than 0.05 seconds" in done.problems[0]
+
+
+def test_stopping_in_the_midst_keeps_what_is_done(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    work = project.decompose(settings=QUICK, workers=0)
+    next(work)
+    work.close()  # type: ignore[attr-defined]  # a generator
+    assert [len(project.preparation(asset).steps) for asset in (HIGH, LOW)] == [1, 0]
+    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [0, 2]
+
+
+def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    path = tmp_path / "assets" / HIGH
+    path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
+    with pytest.raises(AssetError, match="out of date"):
+        project.mesh(HIGH)
+    error = project.status(workers=0).assets[0].error
+    assert error and "cover has another geometry now" in error
+    (done,) = project.decompose([HIGH], QUICK, workers=0)
+    assert done.notes == ("given up, since cover has another geometry now",)
+    assert [entry.what for entry in done.made] == ["cover"]
+    assert len(names(project, HIGH)) == 5
+
+
+def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    for asset in (HIGH, LOW):
+        label_all(project, asset)
+    project.demonstrate(HIGH, [Step(1, {n for n in names(project, HIGH) if "cover" in n}, Merge())])
+    assert isinstance(project.synthesize(), Found)
+    outcomes = list(project.apply(workers=0))
+    assert [(word(o), getattr(o, "before", 0), getattr(o, "after", 0)) for o in outcomes] == [("edited", 5, 4)] * 2
+    edited = load(project.folder / "edited" / LOW)
+    assert {hull.name.replace("#1~", "#0~"): hull.label for hull in edited.hulls} == {
+        "frame/body#0": "body",
+        "frame/body#1": "body",
+        "frame/foot": "foot",
+        "cover/geom0#0~1": "cover",
+    }
+    assert edited.asset and edited.asset.opaque == ()
+    assert all(asset.is_done for asset in project.status(workers=0).assets)
+    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 2
+
+
+def test_an_asset_that_only_its_preparation_changes_is_edited(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    (project.folder / "program.mf").write_text("labels gone\nGeo(All, +Z) => Each(Merge)\n")
+    assert all(isinstance(outcome, Edited) for outcome in project.apply(workers=0))
+
+
+def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    for asset in (HIGH, LOW):
+        label_all(project, asset)
+    project.demonstrate(HIGH, [Step(1, {"frame/foot"}, Delete())])
+    project.synthesize()
+    list(project.apply(workers=0))
+    project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
+    found = project.status(workers=0)
+    assert found.outdated
+    assert [asset.stale for asset in found.assets] == [("preparation", "labels"), ()]
+    assert found.assets[0].prepared == (
+        "2 pieces decomposed into 4 hulls by coacd",
+        "frame/foot cut into 2 hulls",
+    )
+
+
+def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_again(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    (project.folder / "program.mf").write_text("All => Merge\n")
+    list(project.apply(workers=0))
+    path = tmp_path / "assets" / HIGH
+    path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
+    first, second = project.apply(workers=0)
+    assert isinstance(first, Failed) and "out of date" in first.error and word(second) == "skipped"
+    list(project.decompose(settings=QUICK, workers=0))
+    assert [word(o) for o in project.apply(workers=0)] == ["edited", "skipped"]
+
+
+def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    before = json.loads((project.folder / "labels" / f"{FIRST}.json").read_text())
+    done = project.cut(FIRST, "top", (1, 0, 0), (1, 0, 0))
+    assert done.hulls == ("top#0", "top#1")
+    assert done.notes == ("labels of top went to top#0, top#1",)
+    mesh = project.mesh(FIRST)
+    assert [(mesh.named(n).label, mesh.named(n).source) for n in done.hulls] == [("top", "file")] * 2
+    found = project.status(workers=0).assets[0]
+    assert (found.hulls, found.labelled, found.doubtful) == (7, 7, ())
+    project.unprepare(FIRST)
+    assert json.loads((project.folder / "labels" / f"{FIRST}.json").read_text()) == before
+    assert not (project.folder / "prepared" / FIRST).exists()
+
+
+def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    label_all(project, HIGH)
+    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, workers=0)
+    mesh = project.mesh(HIGH)
+    made = [mesh.named(name) for name in done.hulls]
+    assert {hull.label for hull in made} == {"body"}
+    assert mesh.named("frame/foot").label == "foot"
+    assert project.status(workers=0).assets[0].doubtful == ()
+
+
+def test_a_hull_between_two_labels_takes_that_of_its_greater_part_with_less_confidence(tmp_path: Path) -> None:
+    write_boxes(tmp_path / "assets/row.obj")
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["a", "b"])
+    project.cut("row.obj", "geom0#1", (2.5, 0, 0), (1, 0, 0))
+    project.set_labels("row.obj", {"geom0#1#0": "a", "geom0#1#1": "b"})
+    done = project.unprepare("row.obj")
+    whole = project.mesh("row.obj").named("geom0#1")
+    assert (whole.label, whole.source) == ("a", "propagated")
+    assert whole.confidence == pytest.approx(0.75)
+    assert done.undone == ("geom0#1 cut into 2 hulls",)
+    assert "no hull takes over the label b" in done.notes
+
+
+def test_a_demonstration_that_names_a_split_hull_is_flagged_and_kept(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    done = project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
+    assert any("the demonstration on it names crumb" in note for note in done.notes)
+    assert project.steps(FIRST)[0].select == frozenset({"crumb"})
+    found = project.status(workers=0).assets
+    assert found[0].flags == (
+        "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: demonstrate it anew",
+    )
+    assert found[1].flags == ()
+    project.demonstrate(FIRST, [Step(1, {"crumb#0", "crumb#1"}, Delete()), *project.steps(FIRST)[1:]])
+    assert project.status(workers=0).assets[0].flags == ()
+    assert isinstance(project.synthesize(), Found)
+
+
+def test_a_hull_that_is_not_there_cannot_be_split(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    with pytest.raises(GeometryError, match="Did you mean 'top'"):
+        project.cut(FIRST, "topp", (1, 0, 0), (1, 0, 0))
+    with pytest.raises(ProjectError, match="no asset"):
+        project.cut("nothing.obj", "top", (1, 0, 0), (1, 0, 0))
+    assert not (project.folder / "prepared").exists()
+
+
+def test_all_that_was_done_can_be_taken_back_also_where_it_is_damaged(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
+    assert len(project.unprepare(HIGH, everything=True).undone) == 2
+    assert names(project, HIGH) == ["frame/foot"]
+    with pytest.raises(ProjectError, match="nothing was done"):
+        project.unprepare(HIGH)
+    (project.folder / "prepared" / LOW / "hulls.obj").write_text("o nothing\n")
+    with pytest.raises(AssetError, match="damaged"):
+        project.mesh(LOW)
+    project.unprepare(LOW, everything=True)
+    assert names(project, LOW) == ["frame/foot"]
+
+
+def test_a_preparation_whose_folder_was_deleted_is_no_more(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    shutil.rmtree(project.folder / "prepared")
+    assert names(project, HIGH) == ["frame/foot"]
+    assert project.status(workers=0).assets[0].sources == 2
+
+
+def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    assert [(a.hulls, a.sources, a.prepared) for a in project.status(workers=0).assets] == [(1, 2, ())] * 2
+    path = tmp_path / "assets" / HIGH
+    foot = '<collision name="foot"><origin xyz="0 0 -1"/><geometry><box size="4 1 1"/></geometry></collision>'
+    path.write_text(path.read_text().replace(foot, ""))
+    found = project.status(workers=0)
+    assert found.assets[0].hulls == 0
+    assert found.next.command == f"meshforge prepare {project.folder} --decompose coacd"
+    list(project.decompose(settings=QUICK, workers=0))
+    assert "prepare" not in (project.status(workers=0).next.command or "")
+
+
+def test_preparations_of_assets_that_are_gone_are_named(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    shutil.rmtree(tmp_path / "assets/low")
+    assert Project.open(project.folder).status(workers=0).lost == (LOW,)
+
+
+CHANGES: dict[str, Callable[[Project], object]] = {
+    "cut": lambda p: p.cut(SECOND, "top", (1, 0, 0), (1, 0, 0)),
+    "cut again": lambda p: p.cut(FIRST, "top#0", (0.5, 0, 0), (1, 0, 0)),
+    "undo": lambda p: p.unprepare(FIRST),
+}
+
+
+@needs_fork
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_killed_change_leaves_hulls_and_labels_whole(tmp_path: Path, name: str) -> None:
+    project = labelled(tmp_path)
+    project.cut(FIRST, "top", (1, 0, 0), (1, 0, 0))
+    shutil.copytree(project.folder, tmp_path / "before")
+    states = [state(project)]
+
+    def afresh() -> None:
+        shutil.rmtree(project.folder)
+        shutil.copytree(tmp_path / "before", project.folder)
+        CHANGES[name](project)
+
+    died = [state(project) for _ in deaths(afresh)]
+    states.append(state(project))
+    assert len(died) > 1 and all(found in states for found in died)
+    assert states[0] != states[1] and {found == states[1] for found in died} == {True, False}
+
+
+def state(project: Project) -> list[tuple[str, str | None]]:
+    return [(hull.name, hull.label) for asset in project.assets() for hull in project.mesh(asset).hulls]
