@@ -65,7 +65,7 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
         place = Pose(data.geom_xmat[k].reshape(3, 3), data.geom_xpos[k])
         kind = KINDS.get(mujoco.mjtGeom(int(compiled.geom_type[k])))
         own = compiled.geom(k).name
-        assert piece.name.endswith(f"/{own}") if own else piece.name.split("/")[-1].startswith("geom")
+        assert f"/{piece.name}".endswith(f"/{own}") if own else piece.name.split("/")[-1].startswith("geom")
         assert piece.body == (compiled.body(int(compiled.geom_bodyid[k])).name or piece.body)
         if isinstance(piece, Opaque):
             assert kind is None

@@ -19,6 +19,8 @@ from meshforge.formats.triangles import read_triangles
 from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
 from meshforge.geometry import Floats, Pose, Shape
 
+_ROUNDING = 1e-14  # share of a scale that is lost when a rotation is taken off it
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Shown:
@@ -118,6 +120,8 @@ def _split(linear: Floats) -> tuple[Floats, Floats] | None:
     scale = np.linalg.norm(linear, axis=0)
     if not scale.all():
         return None
+    plain = np.round(scale, 12)
+    scale = np.where(np.abs(plain - scale) < _ROUNDING * scale, plain, scale)
     if np.linalg.det(linear) < 0:
         scale[2] = -scale[2]
     rotation = linear / scale

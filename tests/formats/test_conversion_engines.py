@@ -1,0 +1,315 @@
+"""Converted files as engines and other libraries read them: counts, places, sizes, joints, masses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Joint
+from meshforge.formats import read, save
+from meshforge.formats.visuals import LazySurfaces
+from tests.conversion_samples import SAMPLES, block, crowd, doors, foreign, inertial
+from tests.corpus_path import corpus
+from tests.mjcf_engines import assert_as_in_mujoco
+from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
+
+HINGE, SLIDE, BALL, FREE = (int(k) for k in (3, 2, 1, 0))  # mjtJoint
+
+
+def at_rest(path: Path) -> tuple[Any, Any]:
+    """The model of a file, and its state with all joints at zero."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def joints_of(model: Any, data: Any) -> dict[str, tuple[int, list[float], list[float], list[float]]]:
+    """Kind, axis and anchor in the world, and range of each joint, by its name."""
+    return {
+        model.joint(k).name: (
+            int(model.jnt_type[k]),
+            np.round(data.xaxis[k], 9).tolist(),
+            np.round(data.xanchor[k], 9).tolist(),
+            np.round(model.jnt_range[k], 12).tolist() if model.jnt_limited[k] else [],
+        )
+        for k in range(model.njnt)
+    }
+
+
+def masses_of(model: Any, data: Any) -> dict[str, tuple[float, np.ndarray, np.ndarray]]:
+    """Mass, centre and inertia in the world, by body."""
+    found = {}
+    for k in range(1, model.nbody):
+        turn = data.ximat[k].reshape(3, 3)
+        found[model.body(k).name] = (
+            float(model.body_mass[k]),
+            data.xipos[k].copy(),
+            turn @ np.diag(model.body_inertia[k]) @ turn.T,
+        )
+    return found
+
+
+def assert_same_masses(one: dict[str, Any], other: dict[str, Any]) -> None:
+    assert one.keys() == other.keys()
+    for name, (mass, centre, inertia) in one.items():
+        assert other[name][0] == pytest.approx(mass, rel=1e-9)
+        np.testing.assert_allclose(other[name][1], centre, atol=1e-9, err_msg=name)
+        np.testing.assert_allclose(other[name][2], inertia, atol=1e-9 * float(np.abs(inertia).max() + 1), err_msg=name)
+
+
+def unfused(path: Path) -> Path:
+    """A copy of a URDF beside it that MuJoCo loads without joining links that are fixed to each other."""
+    head = b'<mujoco><compiler fusestatic="false" discardvisual="false" strippath="false"/></mujoco>\n</robot>'
+    copy = path.with_name(f"unfused-{path.name}")
+    copy.write_bytes(path.read_bytes().replace(b"</robot>", head))
+    return copy
+
+
+@pytest.mark.parametrize("sample", SAMPLES)
+def test_mujoco_has_the_geoms_of_a_made_mjcf_where_the_hulls_are(sample: str, tmp_path: Path) -> None:
+    path = save(SAMPLES[sample](), tmp_path / "m.xml").path
+    after = read(path)
+    assert_as_in_mujoco(after, path)
+    model, _ = at_rest(path)
+    colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    planes = sum(piece.plane is not None for piece in after.opaque)
+    assert int(colliding.sum()) == len(SAMPLES[sample]().geoms) + planes
+
+
+def test_a_made_mjcf_has_the_joints_and_masses_of_the_urdf_as_mujoco_reads_it(tmp_path: Path) -> None:
+    urdf = save(doors(), tmp_path / "u" / "m.urdf").path
+    mjcf = save(read(urdf), tmp_path / "x" / "m.xml").path
+    own, made = at_rest(unfused(urdf)), at_rest(mjcf)
+    assert joints_of(*made) == joints_of(*own)
+    assert joints_of(*made)["hinge"][3] == [-0.5, 1.25]
+    assert len(joints_of(*made)) == 3
+    assert_same_masses(masses_of(*own), masses_of(*made))
+    for field in ("dof_damping", "dof_frictionloss", "jnt_actfrcrange"):
+        np.testing.assert_array_equal(getattr(made[0], field), getattr(own[0], field), err_msg=field)
+
+
+def test_a_made_mjcf_moves_as_the_urdf_does_when_its_joints_are_opened(tmp_path: Path) -> None:
+    urdf = save(doors(), tmp_path / "u" / "m.urdf").path
+    mjcf = save(read(urdf), tmp_path / "x" / "m.xml").path
+    places = []
+    for path in (unfused(urdf), mjcf):
+        model, data = at_rest(path)
+        for name, value in {"hinge": 0.7, "rail": 0.3, "axle": 2.0}.items():
+            data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+        mujoco.mj_forward(model, data)
+        places.append({model.body(k).name: (data.xpos[k].copy(), data.xmat[k].copy()) for k in range(model.nbody)})
+    assert places[0].keys() == places[1].keys()
+    for name, (where, turn) in places[0].items():
+        np.testing.assert_allclose(places[1][name][0], where, atol=1e-9, err_msg=name)
+        np.testing.assert_allclose(places[1][name][1], turn, atol=1e-9, err_msg=name)
+
+
+def test_bullet_and_yourdfpy_have_the_joints_and_masses_of_a_urdf_made_of_an_mjcf(tmp_path: Path) -> None:
+    before = read(save(doors(), tmp_path / "x" / "m.xml").path)
+    path = save(before, tmp_path / "u" / "m.urdf").path
+    seen = bullet(path)
+    joints = {joint[1].decode(): joint for joint in seen["joints"]}
+    assert {name: joint[2] for name, joint in joints.items()} == {"hinge": 0, "rail": 1, "axle": 0, "handle_fixed": 4}
+    assert joints["hinge"][8:10] == pytest.approx((-0.5, 1.25))
+    assert joints["rail"][8:10] == pytest.approx((0.0, 0.4))
+    assert joints["axle"][8] > joints["axle"][9]  # without limits
+    assert [dynamics[0] for dynamics in seen["dynamics"]] == pytest.approx([1.5, 2.5, 3.5, 4.5, 5.5])
+    assert [len(own) for own in seen["shapes"]] == [2, 1, 1, 1, 1]
+    robot = yourdf(path).robot
+    assert {link.name: len(link.visuals) for link in robot.links if link.visuals} == {"frame": 1, "door": 1}
+    assert [link.name for link in robot.links] == ["frame", "door", "handle", "drawer", "wheel"]
+    rail = next(joint for joint in robot.joints if joint.name == "rail")
+    assert rail.axis.tolist() == pytest.approx([0.6, 0.8, 0])
+    assert {joint.name: joint.type for joint in robot.joints} == {
+        "hinge": "revolute",
+        "handle_fixed": "fixed",
+        "rail": "prismatic",
+        "axle": "continuous",
+    }
+    assert assert_mujoco_agrees(path, read(path)) == 1  # MuJoCo drops the names that links share
+
+
+def test_bullet_has_the_inertia_of_a_made_urdf(tmp_path: Path) -> None:
+    path = save(doors(), tmp_path / "m.urdf").path
+    for dynamics in bullet(path)["dynamics"]:
+        assert sorted(dynamics[2]) == pytest.approx([0.1, 0.2, 0.25], rel=1e-5)
+
+
+def test_mass_and_inertia_of_every_link_survive_from_mjcf_to_urdf(tmp_path: Path) -> None:
+    mjcf = save(doors(), tmp_path / "x" / "m.xml").path
+    urdf = save(read(mjcf), tmp_path / "u" / "m.urdf").path
+    assert_same_masses(masses_of(*at_rest(mjcf)), masses_of(*at_rest(unfused(urdf))))
+
+
+def several() -> Asset:
+    """A body on three joints with anchors of their own, one of them away from its frame; and a ball."""
+    asset = foreign(
+        {"world": doors().bodies[0].pose, "arm": doors().bodies[1].pose, "hand": doors().bodies[2].pose},
+        [("arm/bone", "arm", block(0.5, 0.5, 0)), ("hand/palm", "hand", block(1, 1, 1))],
+    )
+    x, z = np.array([1.0, 0, 0]), np.array([0.0, 0.6, 0.8])
+    joints = (
+        Joint("slide", "prismatic", "world", "arm", np.zeros(3), x, (-1.0, 1.0)),
+        Joint("swing", "revolute", "world", "arm", np.array([0.3, 0.1, 0.2]), z, (-2.0, 2.0)),
+        Joint("twist", "revolute", "world", "arm", np.array([0.9, 0.4, 0.1]), x, (-1.0, 3.0)),
+        Joint("wrist", "ball", "arm", "hand", np.array([0.8, 0.9, 0.5]), x),
+    )
+    masses = (inertial("arm", 2.0, (0.5, 0.5, 0)), inertial("hand", 1.0, (1, 1, 1)))
+    return replace(asset, mechanism=replace(asset.mechanism, joints=joints, inertials=masses))
+
+
+def test_several_joints_of_one_body_and_a_ball_move_alike_in_urdf(tmp_path: Path) -> None:
+    mjcf = save(several(), tmp_path / "x" / "m.xml").path
+    urdf = save(read(mjcf), tmp_path / "u" / "m.urdf").path
+    turns = {"slide": 0.4, "swing": 0.9, "twist": -0.6}
+    seen = []
+    for path in (mjcf, unfused(urdf)):
+        model, data = at_rest(path)
+        for name, value in turns.items():
+            data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+        if path != mjcf:
+            for name, value in {"wrist_x": 0.3, "wrist_y": -0.2, "wrist_z": 0.5}.items():
+                data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+        else:
+            start, quaternion = model.jnt_qposadr[model.joint("wrist").id], np.array([1.0, 0, 0, 0])
+            for axis, value in zip(np.eye(3), (0.3, -0.2, 0.5), strict=True):
+                step = np.array([np.cos(value / 2), *np.sin(value / 2) * axis])
+                mujoco.mju_mulQuat(quaternion, quaternion.copy(), step)
+            data.qpos[start : start + 4] = quaternion
+        mujoco.mj_forward(model, data)
+        seen.append({model.geom(k).name: data.geom_xpos[k].copy() for k in range(model.ngeom)})
+    for name, where in seen[0].items():
+        np.testing.assert_allclose(seen[1][name], where, atol=1e-9, err_msg=name)
+
+
+@pytest.mark.parametrize("kind", ["floating", "planar"])
+def test_a_free_or_planar_joint_below_another_body_is_made_of_simpler_ones(kind: Any, tmp_path: Path) -> None:
+    base = doors()
+    rail = next(joint for joint in base.mechanism.joints if joint.name == "rail")
+    loose = Joint("loose", kind, "drawer", "wheel", rail.anchor, rail.axis)
+    kept = tuple(joint for joint in base.mechanism.joints if joint.child != "wheel")
+    asset = replace(base, mechanism=replace(base.mechanism, joints=(*kept, loose)))
+    model, data = at_rest(save(asset, tmp_path / "m.xml").path)
+    own = joints_of(model, data)
+    parts = {name.removeprefix("loose_"): joint[0] for name, joint in own.items() if name.startswith("loose")}
+    assert parts == ({"x": 2, "y": 2, "z": 2, "turn": 1} if kind == "floating" else {"x": 2, "y": 2, "turn": 3})
+    assert own.keys() - {f"loose_{part}" for part in parts} == {"hinge", "rail"}
+    if kind == "planar":
+        np.testing.assert_allclose(own["loose_turn"][1], rail.axis, atol=1e-9)
+        assert abs(np.dot(own["loose_x"][1], rail.axis)) < 1e-9
+        assert abs(np.dot(own["loose_y"][1], rail.axis)) < 1e-9
+
+
+def test_a_free_body_becomes_the_root_link_and_a_free_body_again(tmp_path: Path) -> None:
+    cup = '<body name="cup" pos="1 2 3"><freejoint name="f"/><geom size=".1"/></body>'
+    text = f"<mujoco><worldbody>{cup}</worldbody></mujoco>"
+    (tmp_path / "cup.xml").write_text(text)
+    saved = save(read(tmp_path / "cup.xml"), tmp_path / "u" / "cup.urdf")
+    assert [body.name for body in read(saved.path).bodies] == ["cup"]
+    assert any("1 joint (f) is left out" in note for note in saved.notes)
+    assert bullet(saved.path)["dynamics"][0][0] > 1  # not fixed
+    two = text.replace("</worldbody>", '<body name="lid"><freejoint/><geom size=".2"/></body></worldbody>')
+    (tmp_path / "two.xml").write_text(two)
+    again = save(read(save(read(tmp_path / "two.xml"), tmp_path / "u" / "two.urdf").path), tmp_path / "x" / "two.xml")
+    assert at_rest(again.path)[0].jnt_type.tolist() == [FREE, FREE]
+
+
+def test_a_colour_is_the_same_in_every_description_format(tmp_path: Path) -> None:
+    urdf = save(doors(), tmp_path / "u" / "m.urdf").path
+    assert list(_bullet_colors(urdf)[0]) == pytest.approx([1, 0.25, 0, 1])
+    mjcf = save(read(urdf), tmp_path / "x" / "m.xml").path
+    model, _ = at_rest(mjcf)
+    shown = [model.geom_rgba[k].tolist() for k in range(model.ngeom) if model.geom_group[k] == 2]
+    assert pytest.approx([1, 0.25, 0, 1]) in shown
+    import trimesh
+
+    scene = trimesh.load_scene(save(read(mjcf), tmp_path / "g" / "m.glb").path)
+    coloured = [mesh.visual for mesh in scene.geometry.values() if mesh.visual.kind == "texture"]
+    colors = [visual.material.main_color.tolist() for visual in coloured]
+    assert any(color[0] == 255 and color[2] == 0 and 0 < color[1] < 64 for color in colors)
+
+
+def _bullet_colors(path: Path) -> list[Any]:
+    import pybullet
+
+    client = pybullet.connect(pybullet.DIRECT)
+    try:
+        body = pybullet.loadURDF(str(path), physicsClientId=client)
+        shown = pybullet.getVisualShapeData(body, physicsClientId=client)
+        return sorted((v[7] for v in shown), key=lambda color: color[2])  # the least blue first
+    finally:
+        pybullet.disconnect(client)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb"])
+def test_trimesh_finds_the_volume_of_all_hulls_in_a_plain_mesh(suffix: str, tmp_path: Path) -> None:
+    import trimesh
+
+    asset = crowd()
+    mesh = trimesh.load_mesh(save(asset, tmp_path / f"m{suffix}").path)
+    wanted = sum(geom.shape.tessellated().volume for geom in asset.geoms)
+    assert float(mesh.volume) == pytest.approx(wanted, rel=1e-5)
+    low, high = mesh.bounds
+    bounds = asset.aabb
+    assert bounds is not None
+    if suffix != ".glb":
+        np.testing.assert_allclose(low, bounds.min, atol=0.01)
+        np.testing.assert_allclose(high, bounds.max, atol=0.01)
+
+
+def test_the_sektion_cabinet_opens_in_mujoco_as_its_urdf_does(tmp_path: Path) -> None:
+    folder = corpus("doors_cabinets", "IsaacGymEnvs", "sektion_cabinet_model", "urdf")
+    before = read(folder / "sektion_cabinet.urdf")
+    path = save(before, tmp_path / "m.xml").path
+    model, data = at_rest(path)
+    own = joints_of(model, data)
+    for joint in before.mechanism.joints:
+        if joint.kind != "fixed":
+            kind, axis, anchor, limits = own[joint.name]
+            assert kind == (HINGE if joint.kind == "revolute" else SLIDE)
+            np.testing.assert_allclose(axis, joint.axis, atol=1e-9)
+            np.testing.assert_allclose(anchor, joint.anchor, atol=1e-9)
+            assert limits == pytest.approx(joint.limits)
+    data.qpos[model.jnt_qposadr[model.joint("drawer_top_joint").id]] = 0.4
+    shut = data.body("drawer_top").xpos.copy()
+    mujoco.mj_forward(model, data)
+    np.testing.assert_allclose(data.body("drawer_top").xpos - shut, [0.4, 0, 0], atol=1e-9)
+    hulls = [geom for geom in before.geoms if not geom.shape.is_primitive]
+    assert isinstance(before.visuals, LazySurfaces)
+    assert model.nmesh == len(hulls) + len({visual.what for visual in before.visuals.visuals})
+
+
+def test_a_real_table_in_mjcf_loads_in_bullet_with_its_masses(tmp_path: Path) -> None:
+    source = corpus("tables_desks", "clvrai-furniture", "objects", "table_klubbo_0740.xml")
+    before = read(source)
+    saved = save(before, tmp_path / "m.urdf")
+    seen = bullet(saved.path)
+    model, data = at_rest(source)
+    masses = sorted(mass for mass, _, _ in masses_of(model, data).values())
+    assert sorted(d[0] for d in seen["dynamics"] if d[0] > 0) == pytest.approx(masses, rel=1e-6)
+    assert sum(len(own) for own in seen["shapes"]) == len(before.geoms)
+    assert_mujoco_agrees(saved.path, read(saved.path))
+
+
+def test_a_real_cup_goes_through_glb_to_mjcf_and_stands_upright(tmp_path: Path) -> None:
+    source = sorted(corpus("cups_mugs", "pybullet-URDF-models").rglob("*.urdf"))[0]
+    before = read(source)
+    glb = save(before, tmp_path / "g" / "cup.glb")
+    mjcf = save(read(glb.path), tmp_path / "x" / "cup.xml")
+    after = read(mjcf.path)
+    assert len(after.geoms) == len(before.geoms)
+    assert before.aabb is not None
+    assert after.aabb is not None
+    np.testing.assert_allclose(after.aabb.min, before.aabb.min, atol=1e-5)
+    np.testing.assert_allclose(after.aabb.max, before.aabb.max, atol=1e-5)
+    middle = read(glb.path).aabb
+    assert middle is not None
+    np.testing.assert_allclose(middle.size, before.aabb.size[[0, 2, 1]], atol=1e-5)
+    assert at_rest(mjcf.path)[0].ngeom >= len(before.geoms)
+    assert mujoco_model(mjcf.path).nbody == len(before.bodies) + 1
