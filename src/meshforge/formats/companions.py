@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-_LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.M)
+_LIBRARY = re.compile(rb"mtllib[ \t]+([^\r\n]+)")  # at the start of a line; asking for that here takes 50 times as long
 _MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.M | re.I)
 _IMAGE = re.compile(rb"<init_from[^>]*>\s*(?:<ref>)?\s*([^<]+?)\s*<")
 _GLB_HEADER = 20  # bytes: magic, version, length; length and type of the chunk of JSON
@@ -35,11 +35,17 @@ def companions(mesh: Path) -> dict[str, Path]:
 def _references(mesh: Path) -> Iterator[str]:
     match mesh.suffix.lower():
         case ".obj":
-            yield from _matches(_LIBRARY, _bytes(mesh))
+            yield from _libraries(_bytes(mesh))
         case ".dae":
             yield from (unquote(text.removeprefix("file://")) for text in _matches(_IMAGE, _bytes(mesh)))
         case ".gltf" | ".glb":
             yield from map(unquote, _uris(mesh))
+
+
+def _libraries(data: bytes) -> Iterator[str]:
+    for found in _LIBRARY.finditer(data):
+        if not data[data.rfind(b"\n", 0, found.start()) + 1 : found.start()].strip(b" \t"):
+            yield found[1].decode("utf-8", "replace").strip()
 
 
 def _matches(pattern: re.Pattern[bytes], data: bytes) -> Iterator[str]:

@@ -7,8 +7,9 @@ import numpy as np
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.corners import by_manifold, by_qhull, pruned
+from meshforge.geometry.heights import rises_above
 from meshforge.geometry.shapes.polytope import Polytope
-from meshforge.geometry.surface import height_above, is_closed, is_convex, outward
+from meshforge.geometry.surface import is_closed, is_convex, outward
 
 FLATNESS = 1e-4
 """Degenerate input is thickened to this share of the reference diagonal."""
@@ -98,5 +99,5 @@ def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
         is_closed(faces)
         and outward(vertices, faces)
         and is_convex(vertices, faces, _CONVEXITY)
-        and (len(kept) == len(unit) or height_above(unit, vertices, faces) <= reach)
+        and (len(kept) == len(unit) or not rises_above(np.delete(unit, kept, axis=0), vertices, faces, reach))
     )

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import manifold3d
 import numpy as np
 
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.surface import lowest_altitudes
 
 Corners = tuple[Ints, Ints]
@@ -33,7 +33,7 @@ def pruned(unit: Floats, attempt: Callable[[Floats], Corners | None], altitude: 
 def _flat(vertices: Floats, faces: Ints, angle: float) -> list[int]:
     """Vertices whose faces lie in one plane or two, to `angle` [rad]: no corners, they can all go at once."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
+    normals = cross(b - a, c - a)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     spread = np.zeros((len(vertices), 3, 3))
     np.add.at(spread, faces.ravel(), np.repeat(normals[:, :, None] * normals[:, None, :], 3, axis=0))
@@ -61,9 +61,15 @@ def by_manifold(points: Floats) -> Corners | None:
     faces = np.asarray(mesh.tri_verts, dtype=np.int64)
     if len(faces) < 4:
         return None
-    index = {row.tobytes(): k for k, row in reversed(list(enumerate(points)))}
-    vertices = np.ascontiguousarray(np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] + 0.0)
-    return np.array([index[row.tobytes()] for row in vertices]), faces
+    index = dict(zip(_rows(points)[::-1], range(len(points) - 1, -1, -1), strict=True))
+    vertices = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] + 0.0
+    return np.array([index[row] for row in _rows(vertices)]), faces
+
+
+def _rows(points: Floats) -> list[bytes]:
+    """The bytes of each of points (n, 3)."""
+    rows: list[bytes] = np.ascontiguousarray(points).view("V24").ravel().tolist()
+    return rows
 
 
 def by_qhull(points: Floats) -> Corners | None:

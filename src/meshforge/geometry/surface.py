@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.heights import planes_of, rises_above
 
-_ALL_PAIRS = 50_000_000  # vertices times faces: about half a second
-_BLOCK = 4_000_000  # heights of vertices above planes that are held in memory at once
+_ALL_PAIRS = 50_000_000  # vertices times faces
 
 
 def is_closed(faces: Ints) -> bool:
@@ -28,7 +28,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     edge is convex (Tietze, Nakajima), and all pairs would take minutes.
     """
     if len(vertices) * len(faces) <= _ALL_PAIRS or not is_closed(faces):
-        return height_above(vertices, vertices, faces) <= tolerance * _size(vertices)
+        return not rises_above(vertices, vertices, faces, tolerance * _size(vertices))
     is_sphere = len(np.unique(faces)) - len(faces) // 2 == 2
     return is_sphere and _highest_neighbour(vertices, faces) <= tolerance * _size(vertices)
 
@@ -44,30 +44,21 @@ def neighbours(faces: Ints) -> Ints:
 
 def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
     """How far [m] any corner lies above the plane of a face that shares an edge with its own."""
-    normals, offsets, middle, kept = _planes(vertices, faces)
+    planes = planes_of(vertices, faces)
     place = np.full(len(faces), -1)
-    place[kept] = np.arange(len(normals))
+    place[planes.kept] = np.arange(len(planes.kept))
     pairs = neighbours(faces)
     pairs = np.concatenate([pairs, pairs[:, ::-1]])
     pairs = pairs[place[pairs[:, 0]] >= 0]
     plane = place[pairs[:, 0]]
-    corners = vertices[faces[pairs[:, 1]]] - middle
-    heights = np.einsum("ij,ikj->ik", normals[plane], corners) - offsets[plane, None]
+    corners = vertices[faces[pairs[:, 1]]] - planes.middle
+    heights = np.einsum("ij,ikj->ik", planes.normals[plane], corners) - planes.offsets[plane, None]
     return float(heights.max(initial=-np.inf))
-
-
-def height_above(points: Floats, vertices: Floats, faces: Ints) -> float:
-    """How far [m] the outermost of points (n, 3) lies above a face plane of a convex surface; negative inside."""
-    normals, offsets, middle, _ = _planes(vertices, faces)
-    step = max(1, _BLOCK // len(points))
-    blocks = (slice(k, k + step) for k in range(0, len(normals), step))
-    return max((float(((points - middle) @ normals[k].T - offsets[k]).max()) for k in blocks), default=-np.inf)
 
 
 def outward(vertices: Floats, faces: Ints) -> bool:
     """Whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its middle."""
-    offsets = _planes(vertices, faces)[1]
-    return bool((offsets > 0).all())
+    return bool((planes_of(vertices, faces).offsets > 0).all())
 
 
 def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
@@ -75,24 +66,10 @@ def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
     corners = vertices[faces]
     sides = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]  # the side opposite to each corner
     lengths = np.linalg.norm(sides, axis=2)
-    double_areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    double_areas = np.linalg.norm(cross(sides[:, 0], sides[:, 1]), axis=1)
     apex = np.argmax(lengths, axis=1)
     longest = np.maximum(lengths[np.arange(len(faces)), apex], np.finfo(float).tiny)
     return double_areas / longest, apex
-
-
-def _planes(vertices: Floats, faces: Ints) -> tuple[Floats, Floats, Floats, Ints]:
-    """Unit normals (k, 3) of the faces that are no needles, their offsets (k,) from the middle, the middle (3,).
-
-    Last the indices (k,) of these faces.
-    """
-    middle = vertices.mean(axis=0)
-    a, b, c = (vertices[faces[:, k]] - middle for k in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    kept = np.flatnonzero(lengths > 1e-10 * _size(vertices) ** 2)
-    normals = normals[kept] / lengths[kept, None]
-    return normals, np.einsum("ij,ij->i", normals, a[kept]), middle, kept
 
 
 def _size(vertices: Floats) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.pieces.connect import edges_of, linked, numbered, row_ids
 
 _TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each other
@@ -62,7 +62,7 @@ def _angles(points: Floats, corners: Ints, edges: Ints, reference: Ints) -> Floa
     out = points[opposite] - low
     out = out - np.einsum("ij,ij->i", out, axis)[:, None] * axis
     x = out[reference]
-    y = np.cross(axis, x)
+    y = cross(axis, x)
     turn = np.arctan2(np.einsum("ij,ij->i", out, y), np.einsum("ij,ij->i", out, x))
     turn = np.where(turn < 0, turn + 2 * np.pi, turn)
     return np.where(turn > 2 * np.pi - _TURN, 0.0, turn)

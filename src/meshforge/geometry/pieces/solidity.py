@@ -10,7 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from meshforge.errors import GeometryError
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.pieces.connect import row_ids
 from meshforge.geometry.shapes.polytope import Polytope
@@ -70,7 +70,7 @@ def _thickness(hull: Polytope) -> float:
 
 def _area(points: Floats, corners: Ints) -> float:
     a, b, c = (points[corners[:, k]] for k in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
+    return float(np.linalg.norm(cross(b - a, c - a), axis=1).sum()) / 2
 
 
 def _covers(points: Floats, corners: Ints, hull: Polytope) -> bool:
@@ -78,7 +78,7 @@ def _covers(points: Floats, corners: Ints, hull: Polytope) -> bool:
     if len(hull.faces) * len(corners) > _LARGE or _area(points, corners) < FILLED * _area(hull.vertices, hull.faces):
         return False
     a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
+    normals = cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
     normals, a = normals[lengths > 0] / lengths[lengths > 0, None], a[lengths > 0]
     middles = [points[corners[:, list(ends)]].mean(axis=1) for ends in ((0, 1, 2), (0, 1), (1, 2), (2, 0))]
@@ -91,7 +91,7 @@ def _filled(points: Floats, corners: Ints, hull: Polytope) -> Verdict:
     size = float(np.ptp(points, axis=0).max())
     origin = hull.centroid
     a, b, c = (points[corners[:, k]] - origin for k in range(3))
-    six_volumes = float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())
+    six_volumes = float(np.einsum("ij,ij->i", a, cross(b, c)).sum())
     rim, weight = _rim(corners)
     if len(rim):
         caps = _caps(points, rim, weight, origin, _LEVEL * size)

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
+from meshforge.geometry.arrays import Floats, Ints, cross, frozen_floats, frozen_ints
 from meshforge.geometry.shapes.base import Shape
 
 
@@ -70,7 +70,7 @@ def volume_and_centroid(vertices: Floats, faces: Ints) -> tuple[float, Floats]:
     """Volume [m^3] and centre (3,) of a closed surface, by signed tetrahedra about a vertex near the middle."""
     origin = vertices.mean(axis=0)
     a, b, c = (vertices[faces[:, k]] - origin for k in range(3))
-    six_volumes = np.einsum("ij,ij->i", a, np.cross(b, c))
+    six_volumes = np.einsum("ij,ij->i", a, cross(b, c))
     total = float(six_volumes.sum())
     if total == 0.0:
         return 0.0, frozen_floats(origin, (3,))
