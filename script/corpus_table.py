@@ -1,0 +1,126 @@
+"""The table of all files of the corpus and what MeshForge makes of each: `docs/corpus.md` and `docs/corpus.tsv`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import astuple, fields
+from pathlib import Path
+
+from meshforge.batch import Lost, isolated
+from meshforge.words import counted
+from script.corpus_rows import Row, entries, row
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+TABLE = DOCS / "corpus.tsv"
+PAGE = DOCS / "corpus.md"
+_SECONDS = 300.0  # for one file
+_HEAD = """\
+# What MeshForge makes of real files
+
+Every file of the corpus that MeshForge can be given, and every folder of several mesh files, was opened by
+`script/corpus`; `script/corpus --check` tells what reads otherwise now. The whole table is [corpus.tsv](corpus.tsv):
+path, format, hulls, bodies, opaque pieces with the reasons, notes, and the message where a file is refused.
+Collada files are read as parts of other assets, so they stand as `part .dae`.
+"""
+
+
+def corpus() -> Path:
+    """The folder of the corpus: MESHFORGE_CORPUS, or `../shared/corpus` beside the project."""
+    named = os.environ.get("MESHFORGE_CORPUS")
+    return Path(named).resolve() if named else DOCS.parents[1] / "shared" / "corpus"
+
+
+def rows(root: Path, names: Sequence[str], workers: int | None = None) -> list[Row]:
+    """The rows of paths below a root, each read in a worker process, so that none can take the others along."""
+    found = isolated(row, [(str(root), name) for name in names], workers=workers, timeout=_SECONDS)
+    return [Row(n, message=one.why) if isinstance(one, Lost) else one for n, one in zip(names, found, strict=True)]
+
+
+def table(found: Iterable[Row]) -> str:
+    """All rows as text, a line each, columns apart by tabs."""
+    lines = ["\t".join(field.name for field in fields(Row))]
+    lines += ["\t".join(str(value).replace("\t", " ") for value in astuple(one)) for one in found]
+    return "\n".join(lines) + "\n"
+
+
+def parsed(text: str) -> dict[str, str]:
+    """The line of each path in a table."""
+    return {line.split("\t", 1)[0]: line for line in text.splitlines()[1:]}
+
+
+def page(found: Sequence[Row]) -> str:
+    """The page: a summary by format, the files that are refused, those with notes, those that are wholly opaque."""
+    refused = [one for one in found if one.message]
+    noted = [one for one in found if one.notes]
+    closed = [one for one in found if one.opaque and not one.hulls]
+    parts = [_HEAD, f"{counted(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
+    parts += [_listed("Refused", refused, "message"), _listed("Read with notes", noted, "notes")]
+    parts += [_listed("Without a hull, all of it opaque", closed, "reasons")]
+    return "\n".join(parts)
+
+
+def _totals(found: Sequence[Row]) -> str:
+    hulls, opaque = sum(one.hulls for one in found), sum(one.opaque for one in found)
+    refused = sum(bool(one.message) for one in found)
+    return f"{counted(hulls, 'hull')}, {counted(opaque, 'opaque piece')}, {refused} refused"
+
+
+def _summary(found: Sequence[Row]) -> str:
+    kinds = Counter(_kind(one) for one in found)
+    lines = [
+        "| format | files | with hulls | hulls | bodies | opaque pieces | refused |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for kind in sorted(kinds):
+        own = [one for one in found if _kind(one) == kind]
+        counts = (len(own), sum(bool(o.hulls) for o in own), *(sum(getattr(o, f) for o in own) for f in _SUMMED))
+        lines.append(f"| {kind} | " + " | ".join(map(str, (*counts, sum(bool(o.message) for o in own)))) + " |")
+    return "\n".join(lines) + "\n"
+
+
+_SUMMED = ("hulls", "bodies", "opaque")
+
+
+def _kind(one: Row) -> str:
+    """The format of a row, of a refused file its suffix."""
+    return one.format or (Path(one.path).suffix.lower() or "folder")
+
+
+def _listed(title: str, found: Sequence[Row], field: str) -> str:
+    lines = [f"## {title} ({len(found)})\n", "| file | hulls | opaque | |", "|---|---|---|---|"]
+    for one in found:
+        text = str(getattr(one, field)).replace("|", "\\|").replace("<", "&lt;")
+        lines.append(f"| {one.path} | {one.hulls} | {one.opaque} | {text} |")
+    return "\n".join(lines) + "\n"
+
+
+def differences(before: dict[str, str], after: dict[str, str]) -> list[str]:
+    """The lines that are gone, other or new, `-` and `+` ahead of them."""
+    names = sorted(name for name in before.keys() | after.keys() if before.get(name) != after.get(name))
+    pairs = ((sign, lines.get(name)) for name in names for sign, lines in (("-", before), ("+", after)))
+    return [f"{sign} {line}" for sign, line in pairs if line is not None]
+
+
+def main(words: Sequence[str]) -> int:
+    """Write the table, or with --check tell what is otherwise in it; a folder may be named."""
+    named = [word for word in words if not word.startswith("-")]
+    root = Path(named[0]).resolve() if named else corpus()
+    if not root.is_dir():
+        print(f"{root}: no corpus is here; set MESHFORGE_CORPUS to its folder", file=sys.stderr)
+        return 2
+    found = rows(root, entries(root))
+    if "--check" in words:
+        changed = differences(parsed(TABLE.read_text(encoding="utf-8")), parsed(table(found)))
+        print("\n".join(changed) or f"{counted(len(found), 'row')} as before")
+        return int(bool(changed))
+    TABLE.write_text(table(found), encoding="utf-8")
+    PAGE.write_text(page(found), encoding="utf-8")
+    print(f"{TABLE}: {counted(len(found), 'row')}, {_totals(found)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
