@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import mujoco
@@ -10,7 +11,6 @@ import numpy as np
 from meshforge.asset import Asset, Geom, Opaque
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.mjcf import MjcfFormat
-from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
 
 KINDS = {
@@ -59,8 +59,10 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
     data = mujoco.MjData(compiled)
     mujoco.mj_kinematics(compiled, data)
     colliding = np.flatnonzero((compiled.geom_contype != 0) | (compiled.geom_conaffinity != 0)).tolist()
-    read = _in_mujocos_order(asset)
-    assert len(read) == len(colliding)
+    assert len(asset.geoms) + len(asset.opaque) == len(colliding)
+    hulls: Iterator[Geom | Opaque] = iter(asset.geoms)
+    others: Iterator[Geom | Opaque] = iter(asset.opaque)
+    read = [next(hulls if mujoco.mjtGeom(int(compiled.geom_type[k])) in KINDS else others) for k in colliding]
     for piece, k in zip(read, colliding, strict=True):
         place = Pose(data.geom_xmat[k].reshape(3, 3), data.geom_xpos[k])
         kind = KINDS.get(mujoco.mjtGeom(int(compiled.geom_type[k])))
@@ -72,15 +74,6 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
             continue
         assert piece.shape.kind == kind, piece.name
         _assert_same(piece, compiled, k, place)
-
-
-def _in_mujocos_order(asset: Asset) -> list[Geom | Opaque]:
-    """The colliding pieces by body, then as authored."""
-    assert isinstance(asset.document, MjcfDocument)
-    order = {body.name: k for k, body in enumerate(asset.bodies)}
-    rank = {name: k for k, name in enumerate(n for entry in asset.document.authored for n in entry.names)}
-    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
-    return sorted(pieces, key=lambda piece: (order[piece.body], rank[piece.name]))
 
 
 def _assert_same(piece: Geom, compiled: mujoco.MjModel, k: int, place: Pose) -> None:

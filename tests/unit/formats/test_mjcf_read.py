@@ -200,6 +200,19 @@ def test_planes_and_height_fields_are_opaque(tmp_path: Path) -> None:
     assert (np.cross(b - a, c - a)[:, 2] > 0).all()
 
 
+def test_signed_distance_fields_are_opaque_and_shown(tmp_path: Path) -> None:
+    torus = (
+        '<extension><plugin plugin="mujoco.sdf.torus"><instance name="t"><config key="radius1" value="0.35"/>'
+        '<config key="radius2" value="0.15"/></instance></plugin></extension>'
+        '<asset><mesh name="torus"><plugin instance="t"/></mesh></asset>'
+    )
+    geom = '<geom type="sdf" mesh="torus"><plugin instance="t"/></geom>'
+    (ring,) = asset(tmp_path, f'<body name="b">{geom}</body>', torus).opaque
+    assert (ring.name, ring.reason) == ("b/geom0", "a signed distance field is no convex hull")
+    assert ring.surface is not None
+    np.testing.assert_allclose(np.ptp(ring.surface.vertices, axis=0), [1, 1, 0.3], atol=0.05)
+
+
 def test_a_height_field_rises_where_mujoco_has_it_rise(tmp_path: Path) -> None:
     field = '<asset><hfield name="h" nrow="3" ncol="4" size="1 2 3 4" elevation="0 0 0 1 0 0 0 0 0 0 0 0"/></asset>'
     path = put(tmp_path, {"main.xml": model('<geom type="hfield" hfield="h"/>', field)})
