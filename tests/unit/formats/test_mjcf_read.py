@@ -263,11 +263,11 @@ def test_every_geom_knows_its_element_and_why_it_cannot_be_edited(tmp_path: Path
     assert isinstance(document, MjcfDocument)
     tree = document.tree
     inc, copied, attached = document.authored
-    node = document.node(tree, inc)
-    assert node is not None and tree.where(node) == f"{tmp_path / 'inc.xml'}:2" and not inc.fixed
+    (node,) = [n for n in tree.root.walk() if (n.source, n.element.start) == (inc.source, inc.start)]
+    assert node.tag == "geom" and tree.where(node) == f"{tmp_path / 'inc.xml'}:2" and not inc.fixed
     assert copied.names == ("world/r0", "world/r1") and "<replicate>" in copied.fixed
     assert attached.names == ("p_q/p_n",) and "another model" in attached.fixed
-    assert document.node(tree, attached) is None
+    assert attached.source == -1
 
 
 def test_a_document_tells_masses_and_whose_they_are(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from meshforge.asset import Document, unique_names
-from meshforge.formats.mjcf.sources import Node, Source, Tree, gather
+from meshforge.formats.mjcf.sources import Source, Tree, gather
 from meshforge.geometry import Floats, Pose
 
 
@@ -66,11 +66,6 @@ class MjcfDocument(Document):
     def tree(self) -> Tree:
         """The elements of all files, parsed from the kept bytes."""
         return gather(self.sources[0].path, {source.path: source.raw for source in self.sources})
-
-    def node(self, tree: Tree, of: Authored | MjcfBody) -> Node | None:
-        """The element of an entry in the tree, None where it has none."""
-        found = (n for n in tree.root.walk() if n.source == of.source and n.element.start == of.start)
-        return next(found, None) if of.source >= 0 else None
 
 
 def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
