@@ -53,7 +53,7 @@ def row(item: tuple[str, str]) -> Row:
         try:
             made = _part(path, name) if path.suffix.lower() in _PARTS else _asset(path, name, root)
         except Exception as error:  # the table shows what a user would see
-            made = Row(name, message=_short(told(error, name), root))
+            made = Row(name, message=_short(told(error, name), root).removeprefix(f"{name}: "))
     noise = [f"warning: {w.message}" for w in caught] + [f"stderr: {line}" for line in heard.getvalue().splitlines()]
     return Row(**{**vars(made), "notes": _short("; ".join([made.notes, *noise]).strip("; "), root)}) if noise else made
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -52,14 +53,29 @@ def parsed(text: str) -> dict[str, str]:
 
 
 def page(found: Sequence[Row]) -> str:
-    """The page: a summary by format, the files that are refused, those with notes, those that are wholly opaque."""
+    """The page: a summary by format, the files that are refused, what is noted, and the files that are all opaque."""
     refused = [one for one in found if one.message]
-    noted = [one for one in found if one.notes]
     closed = [one for one in found if one.opaque and not one.hulls]
     parts = [_HEAD, f"{counted(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
-    parts += [_listed("Refused", refused, "message"), _listed("Read with notes", noted, "notes")]
+    parts += [_listed("Refused", refused, "message"), _noted(found)]
     parts += [_listed("Without a hull, all of it opaque", closed, "reasons")]
     return "\n".join(parts)
+
+
+def _noted(found: Sequence[Row]) -> str:
+    """The notes, the commonest first, with the numbers and files of one of those that have it."""
+    files: dict[str, list[Row]] = {}
+    for one in found:
+        for note in one.notes.split("; ") if one.notes else ():
+            files.setdefault(re.sub(r"[\d,.]+|\([^)]*\)", "#", note), []).append(one)
+    lines = ["## Notes\n", "| files | such as | its notes |", "|---|---|---|"]
+    ordered = sorted(files.values(), key=lambda own: (-len(own), own[0].path))
+    lines += [f"| {len(own)} | {own[0].path} | {_cell(own[0].notes)} |" for own in ordered]
+    return "\n".join(lines) + "\n"
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("<", "&lt;")
 
 
 def _totals(found: Sequence[Row]) -> str:
@@ -91,9 +107,7 @@ def _kind(one: Row) -> str:
 
 def _listed(title: str, found: Sequence[Row], field: str) -> str:
     lines = [f"## {title} ({len(found)})\n", "| file | hulls | opaque | |", "|---|---|---|---|"]
-    for one in found:
-        text = str(getattr(one, field)).replace("|", "\\|").replace("<", "&lt;")
-        lines.append(f"| {one.path} | {one.hulls} | {one.opaque} | {text} |")
+    lines += [f"| {one.path} | {one.hulls} | {one.opaque} | {_cell(str(getattr(one, field)))} |" for one in found]
     return "\n".join(lines) + "\n"
 
 
