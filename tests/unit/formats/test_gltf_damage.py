@@ -125,7 +125,7 @@ def test_a_glb_of_another_version_is_said(tmp_path: Path) -> None:
 
 
 def test_what_is_no_json_is_said(tmp_path: Path) -> None:
-    for data in (b"[1]", b"{", b"\xff\xfe{}", b'{"nodes": [NaN]}', b"[" * 10**5):
+    for data in (b"[1]", b"{", b'{"nodes": [NaN]}', b"[" * 10**5):
         assert "this glTF file is damaged" in message(data, tmp_path, "a.gltf")
 
 

@@ -16,8 +16,6 @@ from meshforge.formats.meshfile.gltf import Json, Scene
 from meshforge.formats.meshfile.gltf.items import entries, entry
 from meshforge.geometry import Floats, Ints, Shape
 
-_TREE = ("children", "camera", "extensions")  # what keeps a node in the tree
-
 
 class Draft:
     """The tree of a scene, to be edited; before: the chunk that new geometry follows, None for a buffer of its own.
@@ -44,7 +42,8 @@ class Draft:
         """
         self.without_mesh(index)
         node = self.node(index)
-        if not any(node.get(key) for key in _TREE) and index not in self.referred.nodes:
+        needed = node.get("children") or node.get("extensions") or "camera" in node or index in self.referred.nodes
+        if not needed:
             self._take_out(index)
 
     def without_mesh(self, index: int) -> Json:
@@ -68,6 +67,12 @@ class Draft:
         elif entries(self.tree, "scenes"):
             self._scene().setdefault("nodes", []).append(index)
         return index
+
+    def uses(self, extension: str) -> None:
+        """Say that the file uses an extension."""
+        used: list[Any] = self.tree.setdefault("extensionsUsed", [])
+        if extension not in used:
+            used.append(extension)
 
     def add_mesh(self, mesh: Json, instead_of: int | None = None) -> int:
         """A new mesh; in the place of another one where that one stood in a single node only."""

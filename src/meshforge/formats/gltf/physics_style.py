@@ -110,6 +110,7 @@ class PhysicsStyle(Style):
     def _collide(self, index: int, like: Json, geometry: Any) -> None:
         """Give a node a collider with that geometry, and all else of the collider of another node."""
         extensions = self.draft.node(index).setdefault("extensions", {})
+        self.draft.uses({"khr": KHR, "omi": OMI}.get(self.convention, OMI_COLLIDER))
         match self.convention:
             case "khr":
                 old = (extension(like, KHR) or {}).get("collider", {})

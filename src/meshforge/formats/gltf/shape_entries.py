@@ -92,9 +92,7 @@ def _added(draft: Draft, convention: Convention, kind: str, own: Json) -> Any:
 def _appended(draft: Draft, name: str, key: str, value: Json) -> int:
     found: list[Any] = _extensions(draft).setdefault(name, {}).setdefault(key, [])
     found.append(value)
-    used: list[Any] = draft.tree.setdefault("extensionsUsed", [])
-    if name not in used:
-        used.append(name)
+    draft.uses(name)
     return len(found) - 1
 
 

@@ -1,0 +1,570 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError
+from meshforge.formats import Saved, read, save
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull, same_shape
+from tests.gltf_files import KHR, SHAPES, SceneFile, Tree, chunk, glb_of, tree_of
+from tests.gltf_validation import errors
+from tests.soups import Soup, angle, box, together
+
+HALF = float(np.sqrt(0.5))
+
+
+class Edited:
+    """A scene read, edited and read again."""
+
+    def __init__(self, scene: SceneFile, folder: Path, suffix: str = ".glb", out: str | None = None) -> None:
+        self.source = scene.write(folder / f"a{suffix}")
+        self.out = folder / "out" / (out or self.source.name)
+        self.before = read(self.source)
+        self.saved: Saved
+
+    def edit(self, gone: Iterable[str] = (), made: Iterable[Geom] = ()) -> Asset:
+        """The asset read back after some hulls are gone and others made."""
+        gone = set(gone)
+        assert gone <= {geom.name for geom in self.before.geoms}
+        kept = [geom for geom in self.before.geoms if geom.name not in gone]
+        self.saved = save(self.before.with_geoms([*kept, *made]), self.out)
+        after = read(self.out)
+        told = {self.saved.names.get(geom.name, geom.name): geom for geom in kept}
+        for geom in after.geoms:
+            if geom.name in told:
+                assert same_shape(geom.shape, told[geom.name].shape, 1e-9)
+                assert geom.body == told[geom.name].body
+        assert told.keys() <= {geom.name for geom in after.geoms}
+        assert sorted(o.reason for o in after.opaque) == sorted(o.reason for o in self.before.opaque)
+        now, then = errors([self.out, self.source])
+        assert now <= then
+        return after
+
+    @property
+    def trees(self) -> tuple[Tree, Tree]:
+        return tree_of(self.source.read_bytes()), tree_of(self.out.read_bytes())
+
+
+def names(asset: Asset) -> list[str]:
+    return [geom.name for geom in asset.geoms]
+
+
+def brick(low: tuple[float, float, float], name: str, parent: str | None, body: str = "body") -> Geom:
+    return Geom(name, body, convex_hull(box(low)[0]), parent)
+
+
+def three_legs() -> Soup:
+    return together(box(), box((2, 0, 0)), box((4, 0, 0)))
+
+
+def table() -> SceneFile:
+    """A top and legs in one mesh each, a material, and things that no edit touches."""
+    scene = SceneFile()
+    scene.tree |= {
+        "extras": {"made by": "hand", "precise": 1.50},
+        "extensionsUsed": ["ACME_unknown"],
+        "extensions": {"ACME_unknown": {"nodes": [0]}},
+        "materials": [{"name": "wood", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1]}}],
+    }
+    legs = scene.mesh(scene.primitive(three_legs(), material=0), name="legs mesh")
+    scene.node("legs", mesh=legs, translation=[0, 0, 1], extras={"height": 1.0})
+    scene.node("top", box((0, 0, 5)))
+    return scene
+
+
+@pytest.mark.parametrize("suffix", [".glb", ".gltf"])
+def test_without_an_edit_the_bytes_are_the_same(tmp_path: Path, suffix: str) -> None:
+    case = Edited(table(), tmp_path, suffix)
+    save(case.before, case.out)
+    assert case.out.read_bytes() == case.source.read_bytes()
+    if suffix == ".gltf":
+        assert (tmp_path / "out" / "a.bin").read_bytes() == (tmp_path / "a.bin").read_bytes()
+
+
+def test_a_removed_hull_takes_its_node_out_of_the_scene_and_no_number_changes(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path)
+    assert names(case.edit(gone=["top"])) == ["legs#0", "legs#1", "legs#2"]
+    before, after = case.trees
+    before["scenes"][0]["nodes"].remove(1)
+    del before["nodes"][1]["mesh"]
+    assert after == before
+    assert [node["name"] for node in after["nodes"]] == ["legs", "top"]
+
+
+def test_a_removed_node_with_children_keeps_its_place_and_they_theirs(tmp_path: Path) -> None:
+    scene = SceneFile()
+    lamp = scene.node("lamp", box(), translation=[0, 3, 0])
+    scene.node("post", box(), translation=[1, 0, 0], rotation=[0, 0, HALF, HALF], children=[lamp])
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["post"])) == ["lamp"]
+    assert "mesh" not in case.trees[1]["nodes"][1]
+    assert case.trees[1]["nodes"][1]["children"] == [lamp]
+
+
+def test_a_parent_that_loses_its_only_child_has_no_empty_list(tmp_path: Path) -> None:
+    scene = SceneFile()
+    child = scene.node("child", box())
+    scene.node("parent", children=[child])
+    scene.node("other", box((2, 0, 0)))
+    case = Edited(scene, tmp_path)
+    case.edit(gone=["child"])
+    assert case.trees[1]["nodes"][1] == {"name": "parent"}
+
+
+@pytest.mark.parametrize("what", ["animation", "joint", "camera", "extension"])
+def test_a_node_that_something_else_hangs_on_stays_in_the_scene_empty(tmp_path: Path, what: str) -> None:
+    scene = SceneFile()
+    scene.node("door", box())
+    scene.node("frame", box((2, 0, 0)))
+    match what:
+        case "animation":
+            times = scene.accessor(np.array([[0.0], [1.0]], "<f4"), min=[0.0], max=[1.0])
+            turns = scene.accessor(np.array([[0, 0, 0, 1], [0, 0, 1, 0]], "<f4"))
+            channel = {"sampler": 0, "target": {"node": 0, "path": "rotation"}}
+            scene.tree["animations"] = [{"channels": [channel], "samplers": [{"input": times, "output": turns}]}]
+        case "joint":
+            scene.tree["skins"] = [{"joints": [0]}]
+        case "camera":
+            scene.tree["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
+            scene.tree["nodes"][0]["camera"] = 0
+        case _:
+            scene.uses("ACME_note")
+            scene.tree["nodes"][0]["extensions"] = {"ACME_note": {"text": "mind the door"}}
+    case = Edited(scene, tmp_path)
+    case.edit(gone=["door"])
+    before, after = case.trees
+    del before["nodes"][0]["mesh"]
+    assert after == before
+
+
+def test_a_made_hull_moves_with_the_animated_node_that_it_comes_from(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("door", box(), translation=[0, 2, 0], scale=[2, 2, 2])
+    times = scene.accessor(np.array([[0.0], [1.0]], "<f4"), min=[0.0], max=[1.0])
+    places = scene.accessor(np.array([[0, 0, 0], [0, 0, 1]], "<f4"))
+    channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+    scene.tree["animations"] = [{"channels": [channel], "samplers": [{"input": times, "output": places}]}]
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["door"], made=[brick((7, 8, 9), "door~1", "door")])
+    assert after.geoms[0].shape.aabb.min.tolist() == pytest.approx([7, 8, 9], abs=1e-6)
+    assert case.trees[1]["nodes"][0]["children"] == [1]
+
+
+def test_a_mesh_whose_morphs_are_animated_is_not_taken_away(tmp_path: Path) -> None:
+    scene = SceneFile()
+    part = scene.primitive(box())
+    part["targets"] = [{"POSITION": scene.accessor(np.ones((8, 3), "<f4"))}]
+    scene.node("face", mesh=scene.mesh(part))
+    scene.node("box", box((5, 0, 0)))
+    times = scene.accessor(np.array([[0.0], [1.0]], "<f4"), min=[0.0], max=[1.0])
+    weights = scene.accessor(np.array([[0.0], [1.0]], "<f4"))
+    channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
+    scene.tree["animations"] = [{"channels": [channel], "samplers": [{"input": times, "output": weights}]}]
+    with pytest.raises(AssetError, match="an animation drives the morph weights of node 'face'"):
+        Edited(scene, tmp_path).edit(gone=["face"])
+
+
+def test_pieces_that_keep_their_names_stay_in_their_node(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path)
+    assert names(case.edit(gone=["legs#2"])) == ["legs#0", "legs#1", "top"]
+    before, after = case.trees
+    part = after["meshes"][0]["primitives"][0]
+    assert part["attributes"] == before["meshes"][0]["primitives"][0]["attributes"]
+    assert part["material"] == 0 and part["indices"] == len(before["accessors"])
+    assert len(after["meshes"]) == len(before["meshes"])
+    assert after["nodes"] == before["nodes"]
+
+
+def test_other_pieces_go_to_nodes_of_their_own_below_with_materials_and_attributes(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path)
+    assert names(case.edit(gone=["legs#1"])) == ["legs#0", "legs#2", "top"]
+    before, after = case.trees
+    legs = after["nodes"][0]
+    assert "mesh" not in legs and legs["extras"] == {"height": 1.0} and legs["translation"] == [0, 0, 1]
+    for child in legs["children"]:
+        part = after["meshes"][after["nodes"][child]["mesh"]]["primitives"][0]
+        assert part["attributes"] == before["meshes"][0]["primitives"][0]["attributes"]
+        assert part["material"] == 0
+    assert not case.saved.names
+
+
+def test_a_mesh_that_another_node_shows_too_is_parted_in_one_only(tmp_path: Path) -> None:
+    scene = SceneFile()
+    mesh = scene.mesh(three_legs())
+    scene.node("left", mesh=mesh)
+    scene.node("right", mesh=mesh, translation=[0, 0, 9])
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["left#2"])
+    assert names(after) == ["left#0", "left#1", "right#0", "right#1", "right#2"]
+    assert case.trees[1]["meshes"][0] == case.trees[0]["meshes"][0]
+
+
+def test_primitives_are_parted_each_and_points_and_lines_left_to_none(tmp_path: Path) -> None:
+    scene = SceneFile()
+    points, faces = together(box(), box((4, 0, 0)))
+    line = scene.primitive(box(), mode=1)
+    del line["indices"]
+    first, second, third = faces[:12], faces[12:18], faces[18:]
+    scene.node("set", mesh=scene.mesh((points, first), line, (points, second), (points, third)))
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["set#0"])) == ["set#1"]
+    child = case.trees[1]["nodes"][1]
+    assert len(case.trees[1]["meshes"][child["mesh"]]["primitives"]) == 2
+
+
+def test_strips_become_lists_of_triangles_where_they_are_parted(tmp_path: Path) -> None:
+    scene = SceneFile()
+    strip = np.array([3, 2, 7, 6, 4, 2, 0, 3, 1, 7, 5, 4, 1, 0])  # a box in one strip
+    points = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+    both = np.concatenate([strip, strip[-1:], strip[:1] + 8, strip + 8])
+    part = scene.primitive((np.concatenate([points, points + np.array([3, 0, 0])]), both.reshape(-1, 1)), mode=5)
+    scene.node("strip", mesh=scene.mesh(part))
+    scene.node("box", box((9, 0, 0)))
+    case = Edited(scene, tmp_path)
+    hulls = names(case.before)
+    assert len(hulls) >= 2
+    after = case.edit(gone=hulls[1:-1])
+    assert after.geoms[0].shape.volume == pytest.approx(case.before.geoms[0].shape.volume)
+
+
+def test_hulls_without_a_name_of_their_own_keep_the_one_they_had(tmp_path: Path) -> None:
+    scene = SceneFile()
+    for x in range(3):
+        scene.node(None, box((2.0 * x, 0, 0)))
+    scene.node("leg", box((0, 3, 0)))
+    scene.node("leg", box((0, 6, 0)))
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["geom0", "leg"])) == ["geom1", "geom2", "leg@2"]
+    assert not case.saved.names
+
+
+def test_new_geometry_goes_behind_the_chunk_of_a_glb(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path)
+    after = case.edit(gone=["top"], made=[brick((1, 2, 3), "top~1", "top")])
+    assert after.geoms[-1].shape.aabb.min.tolist() == pytest.approx([1, 2, 3])
+    old, new = case.source.read_bytes(), case.out.read_bytes()
+    chunks = [data[20 + int.from_bytes(data[12:16], "little") + 8 :] for data in (old, new)]
+    assert chunks[1].startswith(chunks[0]) and len(chunks[1]) > len(chunks[0])
+    assert case.trees[1]["buffers"][0]["byteLength"] == len(chunks[1])
+
+
+def test_new_geometry_of_a_text_goes_to_a_file_beside_it_and_again_to_another(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path, ".gltf")
+    case.edit(gone=["top"], made=[brick((1, 2, 3), "top~1", "top")])
+    assert sorted(path.name for path in case.out.parent.iterdir()) == ["a--hulls.bin", "a.bin", "a.gltf"]
+    assert (case.out.parent / "a.bin").read_bytes() == (tmp_path / "a.bin").read_bytes()
+    first = read(case.out)
+    save(first.with_geoms([*first.geoms, brick((9, 9, 9), "top~2", "top~1")]), tmp_path / "two" / "a.gltf")
+    assert "a--hulls_2.bin" in {path.name for path in (tmp_path / "two").iterdir()}
+    assert names(read(tmp_path / "two" / "a.gltf"))[-1] == "top~2"
+
+
+def test_a_text_that_holds_its_buffer_holds_the_new_one_too(tmp_path: Path) -> None:
+    (tmp_path / "b.gltf").write_bytes(table().gltf())
+    asset = read(tmp_path / "b.gltf")
+    saved = save(asset.with_geoms([*asset.geoms, brick((9, 0, 0), "x", None)]), tmp_path / "out" / "b.gltf")
+    assert [path.name for path in saved.files] == ["b.gltf"]
+    assert names(read(saved.path))[-1] == "x"
+
+
+def test_numbers_blanks_and_order_of_what_is_not_edited_are_as_they_were(tmp_path: Path) -> None:
+    text = table().gltf().decode().replace("1.5\n", "1.50\n").replace('"asset": {', '"asset" : \t{')
+    text = text.replace("[0, 0, 1]", "[0.000, -0.0, 1e0]").replace('"made by"', '"made \\u0062y"')
+    (tmp_path / "a.gltf").write_text(text)
+    asset = read(tmp_path / "a.gltf")
+    save(asset.with_geoms(asset.geoms[:-1]), tmp_path / "out" / "a.gltf")
+    lines = (tmp_path / "out" / "a.gltf").read_text().splitlines()
+    gone = [line for line in text.splitlines() if line not in lines]
+    assert len(gone) <= 6
+    assert any("1.50" in line for line in lines) and '"asset" : \t{' in "\n".join(lines)
+
+
+def test_other_chunks_of_a_glb_and_what_lies_behind_stay(tmp_path: Path) -> None:
+    scene = table()
+    tree = tree_of(scene.glb())
+    (tmp_path / "a.glb").write_bytes(glb_of(tree, scene.data, chunk(b"ACME", b"abcd")) + b"rest")
+    asset = read(tmp_path / "a.glb")
+    save(asset.with_geoms(asset.geoms[:-1]), tmp_path / "out.glb")
+    assert (tmp_path / "out.glb").read_bytes().endswith(chunk(b"ACME", b"abcd") + b"rest")
+
+
+def test_a_text_becomes_a_glb_and_back_with_everything_inside(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path, ".gltf", "b.glb")
+    save(case.before, case.out)
+    assert [path.name for path in case.out.parent.iterdir()] == ["b.glb"]
+    assert names(read(case.out)) == names(case.before)
+    save(read(case.out), tmp_path / "back" / "c.gltf")
+    assert sorted(path.name for path in (tmp_path / "back").iterdir()) == ["c.bin", "c.gltf"]
+    assert errors([case.out, tmp_path / "back" / "c.gltf"]) == [{}, {}]
+    inside = tree_of(case.out.read_bytes())
+    back = json.loads((tmp_path / "back" / "c.gltf").read_bytes())
+    assert back["buffers"][0].pop("uri") == "c.bin"
+    assert back == inside
+
+
+def test_an_edit_that_leaves_no_collision_is_refused(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("UCX_a", box())
+    scene.node("a", angle())
+    with pytest.raises(AssetError, match="the edit leaves no collision in this file"):
+        Edited(scene, tmp_path).edit(gone=["UCX_a"])
+
+
+def test_a_buffer_that_has_changed_since_is_noticed(tmp_path: Path) -> None:
+    case = Edited(table(), tmp_path, ".gltf")
+    (tmp_path / "a.bin").write_bytes((tmp_path / "a.bin").read_bytes()[::-1])
+    with pytest.raises(AssetError, match=r"the buffer a\.bin has changed"):
+        case.edit(gone=["top"])
+
+
+def test_a_hull_below_a_turned_and_stretched_parent_is_where_it_should_be(tmp_path: Path) -> None:
+    scene = SceneFile()
+    child = scene.node("child", box())
+    spare = scene.node("spare", box((3, 0, 0)))
+    scene.node(
+        "parent", children=[child, spare], translation=[5, 6, 7], rotation=[0.5, 0.5, 0.5, 0.5], scale=[1, -2, 3]
+    )
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["child"], made=[brick((1, 2, 3), "child~1", "child")])
+    made = next(geom for geom in after.geoms if geom.name == "child~1")
+    np.testing.assert_allclose([made.shape.aabb.min, made.shape.aabb.max], [[1, 2, 3], [2, 3, 4]], atol=1e-6)
+    assert len(case.trees[1]["nodes"][2]["children"]) == 2
+
+
+def test_a_made_hull_takes_the_material_of_its_parent_unless_that_needs_a_picture(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.tree["materials"] = [{"name": "wood"}, {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    scene.tree |= {"textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,AAAA"}]}
+    uv = scene.accessor(np.zeros((8, 2), "<f4"))
+    for k in (0, 1):
+        part = scene.primitive(box((3.0 * k, 0, 0)), material=k)
+        part["attributes"]["TEXCOORD_0"] = uv
+        scene.node(f"n{k}", mesh=scene.mesh(part))
+    case = Edited(scene, tmp_path)
+    case.edit(gone=["n0", "n1"], made=[brick((0, 0, 0), "n0~1", "n0"), brick((3, 0, 0), "n1~1", "n1")])
+    made = [case.trees[1]["meshes"][k]["primitives"][0].get("material") for k in (2, 3)]
+    assert made == [0, None]
+
+
+# Unreal
+
+
+def crate() -> SceneFile:
+    scene = SceneFile()
+    scene.node("crate", angle())
+    scene.node("UCX_crate_01", box())
+    scene.node("UBX_crate_02", box((2, 0, 0)))
+    return scene
+
+
+def test_hulls_made_for_unreal_have_its_names_and_numbers(tmp_path: Path) -> None:
+    case = Edited(crate(), tmp_path)
+    shapes: list[Shape] = [
+        convex_hull(box((5, 0, 0))[0]),
+        Box(Pose.of_translation([7, 0, 0]), np.full(3, 0.5)),
+        Sphere(Pose.of_translation([9, 0, 0]), 0.5),
+        Capsule(Pose.of_translation([11, 0, 0]), 0.5, 0.5),
+        Cylinder(Pose.of_translation([13, 0, 0]), 0.5, 0.5),
+    ]
+    made = [Geom(f"UCX_crate_01~{k}", "body", shape, "UCX_crate_01") for k, shape in enumerate(shapes, 1)]
+    after = case.edit(gone=["UCX_crate_01"], made=made)
+    assert case.saved.names == {
+        "UCX_crate_01~1": "UCX_crate_03",
+        "UCX_crate_01~2": "UBX_crate_04",
+        "UCX_crate_01~3": "USP_crate_05",
+        "UCX_crate_01~4": "UCP_crate_06",
+        "UCX_crate_01~5": "UCX_crate_07",
+    }
+    kinds = {geom.name: geom.shape.kind for geom in after.geoms}
+    assert [kinds[name] for name in case.saved.names.values()] == ["polytope", "box", "sphere", "capsule", "polytope"]
+    assert any("of shape cylinder, is written as a mesh" in note for note in case.saved.notes)
+    assert "crate" not in kinds and len(after.visuals) == 1
+
+
+def test_a_mesh_seen_keeps_to_itself_when_its_unreal_hull_goes(tmp_path: Path) -> None:
+    case = Edited(crate(), tmp_path)
+    assert names(case.edit(gone=["UCX_crate_01"])) == ["UBX_crate_02"]
+    before, after = case.trees
+    assert after["nodes"][0] == before["nodes"][0]
+    assert after["scenes"][0]["nodes"] == [0, 2]
+
+
+# Godot
+
+
+def test_a_node_that_is_seen_and_collides_is_only_seen_when_its_hull_goes(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("chair-col.001", together(box(), box((2, 0, 0))), extras={"a": 1})
+    scene.node("stool-convcolonly", box((5, 0, 0)))
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["chair-col.001#0", "chair-col.001#1"])) == ["stool-convcolonly"]
+    before, after = case.trees
+    before["nodes"][0]["name"] = "chair"
+    assert after == before
+
+
+def test_a_node_that_is_seen_keeps_its_mesh_when_part_of_its_collision_goes(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("chair-col", three_legs())
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["chair-col#1"])
+    assert names(after) == ["chair-colonly#0", "chair-colonly#1"]
+    assert case.saved.names == {"chair-col#0": "chair-colonly#0", "chair-col#2": "chair-colonly#1"}
+    assert [len(surface.faces) for surface in after.visuals] == [36]
+
+
+def test_a_node_that_only_collides_goes_whole_or_in_part(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("chair-colonly", three_legs())
+    scene.node("stool-convcolonly", box((9, 0, 0)))
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["chair-colonly#0", "stool-convcolonly"])) == ["chair-colonly#0", "chair-colonly#1"]
+    assert case.trees[1]["scenes"][0]["nodes"] == [0]
+
+
+def test_collision_told_by_the_name_of_a_mesh_goes_from_one_node_only(tmp_path: Path) -> None:
+    scene = SceneFile()
+    mesh = scene.mesh(box(), name="box-col")
+    scene.node("left", mesh=mesh)
+    scene.node("right", mesh=mesh, translation=[3, 0, 0])
+    case = Edited(scene, tmp_path)
+    assert names(case.before) == ["box-col", "box-col@2"]
+    after = case.edit(gone=["box-col@2"])
+    assert names(after) == ["box-col"]
+    assert len(after.visuals) == 2
+    assert case.trees[1]["meshes"][1]["name"] == "box"
+
+
+def test_hulls_made_for_godot_are_convex_and_not_seen(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("chair-col", box())
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["chair-col"], made=[brick((3, 0, 0), "chair-col~1", "chair-col")])
+    assert case.saved.names == {"chair-col~1": "chair~1-convcolonly"}
+    assert names(after) == ["chair~1-convcolonly"]
+    assert [len(surface.faces) for surface in after.visuals] == [12]
+
+
+# physics extensions
+
+
+def jar() -> SceneFile:
+    """A moving jar with a mesh that is seen, a lid beside it, and a material of contact."""
+    scene = SceneFile()
+    wall = scene.collider("wall", {"type": "box"}, mesh=scene.mesh(angle()))
+    own = scene.tree["nodes"][wall]["extensions"][KHR]["collider"]
+    own |= {"physicsMaterial": 0, "collisionFilter": 0, "extras": {"mind": "this"}}
+    base = scene.collider("base", {"type": "sphere"}, translation=[0, -2, 0])
+    scene.node("jar", children=[wall, base], extensions={KHR: {"motion": {"mass": 2}}}, translation=[0, 5, 0])
+    scene.collider("floor", {"type": "box", "box": {"size": [9, 1, 9]}})
+    materials = {"physicsMaterials": [{"staticFriction": 0.5}], "collisionFilters": [{"collisionSystems": ["a"]}]}
+    scene.tree["extensions"][KHR] = materials
+    return scene
+
+
+def test_a_collider_goes_and_the_mesh_of_its_node_stays(tmp_path: Path) -> None:
+    case = Edited(jar(), tmp_path)
+    after = case.edit(gone=["jar/wall"])
+    assert names(after) == ["jar/base", "body/floor"]
+    assert len(after.visuals) == 1
+    before, tree = case.trees
+    del before["nodes"][0]["extensions"]
+    assert tree == before
+
+
+def test_made_colliders_are_native_shapes_with_all_else_of_their_parent(tmp_path: Path) -> None:
+    case = Edited(jar(), tmp_path)
+    turn = Pose.from_rpy([1, 2, 3], [0.3, 0.2, 0.1])
+    shapes: list[Shape] = [
+        Box(turn, np.array([0.5, 1, 2])),
+        Sphere(turn, 0.25),
+        Cylinder(turn, 0.5, 1.5),
+        Capsule(turn, 0.5, 1.5),
+        convex_hull(angle()[0]),
+        Ellipsoid(turn, np.array([0.5, 1, 2])),
+    ]
+    made = [Geom(f"jar/wall~{k}", "jar", shape, "jar/wall") for k, shape in enumerate(shapes, 1)]
+    after = case.edit(gone=["jar/wall"], made=made)
+    back = {geom.name: geom.shape for geom in after.geoms}
+    assert not case.saved.names
+    assert {geom.body for geom in after.geoms if "~" in geom.name} == {"jar"}
+    for geom in made[:4]:
+        assert same_shape(back[geom.name], geom.shape, 1e-9)
+    assert back["jar/wall~5"].volume == pytest.approx(shapes[4].volume, rel=1e-5)
+    assert back["jar/wall~6"].kind == "polytope"
+    assert any("of shape ellipsoid, is written as a mesh" in note for note in case.saved.notes)
+    for node in case.trees[1]["nodes"]:
+        if "~" in node.get("name", "") and "extensions" in node:
+            collider = node["extensions"][KHR]["collider"]
+            assert {k: v for k, v in collider.items() if k != "geometry"} == {
+                "physicsMaterial": 0,
+                "collisionFilter": 0,
+                "extras": {"mind": "this"},
+            }
+
+
+def test_a_made_hull_on_a_body_that_is_itself_a_collider_goes_below_it(tmp_path: Path) -> None:
+    scene = SceneFile()
+    crate = scene.collider("crate", {"type": "box"}, translation=[4, 0, 0])
+    scene.tree["nodes"][crate]["extensions"][KHR]["motion"] = {}
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["crate/crate"], made=[brick((3, 0, 0), "crate/crate~1", "crate/crate", "crate")])
+    assert [(geom.name, geom.body) for geom in after.geoms] == [("crate/crate~1", "crate")]
+    assert case.trees[1]["nodes"][crate]["extensions"][KHR] == {"motion": {}}
+
+
+def test_pieces_of_a_collider_become_colliders_of_their_own(tmp_path: Path) -> None:
+    scene = SceneFile()
+    mesh = scene.mesh(three_legs())
+    scene.uses(KHR)
+    scene.node("legs", extensions={KHR: {"collider": {"geometry": {"mesh": mesh}, "physicsMaterial": 0}}}, mesh=mesh)
+    scene.tree["extensions"] = {KHR: {"physicsMaterials": [{}]}}
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["legs#1"])
+    assert names(after) == ["legs#0", "legs#2"]
+    assert [len(surface.faces) for surface in after.visuals] == [36]
+    child = case.trees[1]["nodes"][case.trees[1]["nodes"][0]["children"][0]]
+    assert child["extensions"][KHR]["collider"]["physicsMaterial"] == 0
+
+
+@pytest.mark.parametrize("form", ["omi", "omi collider"])
+def test_the_extensions_of_omi_are_written_in_their_own_form(tmp_path: Path, form: str) -> None:
+    scene = SceneFile()
+    flat = form == "omi collider"
+    key = "OMI_collider" if flat else "OMI_physics_shape"
+    shapes: list[dict[str, Any]] = [{"type": "box", **({"size": [1, 1, 1]} if flat else {"box": {"size": [1, 1, 1]}})}]
+    scene.tree["extensions"] = {key: {"colliders" if flat else "shapes": shapes}}
+    own = {"OMI_collider": {"collider": 0}} if flat else {"OMI_physics_body": {"collider": {"shape": 0}}}
+    scene.node("box", extensions=own)
+    scene.node("other", extensions=own, translation=[3, 0, 0])
+    scene.uses(key, *own)
+    made = [
+        Geom("box~1", "body", Capsule(Pose.of_translation([0, 5, 0]), 0.5, 1.0), "box"),
+        Geom("box~2", "body", Cylinder(Pose.of_translation([0, 9, 0]), 0.5, 1.0), "box"),
+        Geom("box~3", "body", convex_hull(angle()[0]), "box"),
+    ]
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=["box"], made=made)
+    back = {geom.name: geom.shape for geom in after.geoms}
+    assert same_shape(back["box~1"], made[0].shape, 1e-9) and same_shape(back["box~2"], made[1].shape, 1e-9)
+    assert back["box~3"].volume == pytest.approx(made[2].shape.volume, rel=1e-5)
+
+
+def test_a_hull_on_a_body_that_is_not_there_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(AssetError, match="is on 'nowhere', which is no body of the file"):
+        Edited(jar(), tmp_path).edit(made=[brick((0, 0, 0), "x", None, "nowhere")])
+
+
+def test_shapes_extension_is_told_as_used_when_the_first_shape_is_made(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.uses(KHR)
+    scene.node("hull", extensions={KHR: {"collider": {"geometry": {"mesh": scene.mesh(box()), "convexHull": True}}}})
+    case = Edited(scene, tmp_path)
+    case.edit(made=[Geom("hull~1", "body", Sphere(Pose.of_translation([5, 0, 0]), 1.0), "hull")])
+    assert case.trees[1]["extensionsUsed"] == [KHR, SHAPES]
