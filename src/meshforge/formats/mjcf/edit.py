@@ -10,13 +10,14 @@ from meshforge.formats.mjcf.hull_meshes import HullMeshes
 from meshforge.formats.mjcf.kept_masses import (
     always_from_geoms,
     changed,
+    inertial,
     no_longer_always,
     refuse_weightless,
     weighed,
 )
 from meshforge.formats.mjcf.model import Reading
 from meshforge.formats.mjcf.plan import Kept, Plan
-from meshforge.formats.mjcf.sources import Tree, gather
+from meshforge.formats.mjcf.sources import Node, Tree, gather
 from meshforge.formats.slots import Slot, at_end, lead_inside
 from meshforge.formats.xml import Splice, newline, spliced
 
@@ -42,9 +43,10 @@ class Edit:
     def texts(self) -> list[bytes]:
         """The bytes of each of the authored files, edited. Raises AssetError where one of them cannot be."""
         rest = [*self._masses(), *self._assets()]
+        masses = {name: text for name, (node, text) in self._inertials().items() if not node.element.children}
         out = []
         for k, source in enumerate(self.tree.sources):
-            splices = [*self.plan.splices(k), *(splice for owner, splice in rest if owner == k)]
+            splices = [*self.plan.splices(k, masses), *(splice for owner, splice in rest if owner == k)]
             if splices and source.place is None:
                 raise AssetError(
                     f"the edit is in {source.reference!r}, which is included by an absolute path",
@@ -105,15 +107,20 @@ class Edit:
     def _masses(self) -> Iterator[tuple[int, Splice]]:
         if self.weighs and always_from_geoms(self.tree):
             yield from no_longer_always(self.tree)
-        nodes: dict[int, None] = {}
+        for node, text in self._inertials().values():
+            if node.element.children:
+                yield from weighed(self.tree, node, text)
+
+    def _inertials(self) -> dict[str, tuple[Node, bytes]]:
+        """The elements of the bodies that say their masses, and what they say; copies of a body have one mass."""
+        found: dict[int, tuple[str, Node, bytes]] = {}
         for body in self.weighs:
             name = self.authored.body_names[body]
             node = self.plan.body_node(name)
             if node is None:
                 raise refuse_weightless(name, self.tree)
-            if id(node) not in nodes:  # the copies of a replicated body have one mass
-                yield from weighed(self.tree, node, self.authored, body)
-            nodes[id(node)] = None
+            found.setdefault(id(node), (name, node, inertial(self.authored, body)))
+        return {name: (node, text) for name, node, text in found.values()}
 
     def _assets(self) -> Iterator[tuple[int, Splice]]:
         """The made meshes, at the end of the last `<asset>` of the main file, or in a new one."""

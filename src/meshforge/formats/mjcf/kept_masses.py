@@ -40,19 +40,24 @@ def no_longer_always(tree: Tree) -> list[tuple[int, Splice]]:
     ]
 
 
-def weighed(tree: Tree, node: Node, reading: Reading, body: int) -> list[tuple[int, Splice]]:
-    """The edits, with their files, by which a body says its mass; node: its element.
-
-    reading: of the unedited document, masses not scaled. An `<inertial>` that was ignored so far gives way.
-    """
-    model, data = reading.model, tree.sources[node.source].text.data
+def inertial(reading: Reading, body: int) -> bytes:
+    """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
+    model = reading.model
     mass, quaternion = float(model.body_mass[body]), model.body_iquat[body]
     said = inertial_attributes(mass, model.body_ipos[body], quaternion, model.body_inertia[body])
+    return tag("inertial", said)
+
+
+def weighed(tree: Tree, node: Node, text: bytes) -> list[tuple[int, Splice]]:
+    """The edits, with their files, that put an `<inertial>` before the children of a body's element.
+
+    One that was ignored so far gives way.
+    """
+    data = tree.sources[node.source].text.data
     gone = [(old.source, removed(tree.sources[old.source].text.data, old.element)) for old in _ignored(node)]
     at = node.element.inside
-    lead = indent(data, node.element.children[0].start) if node.element.children else None
-    text = b"" if lead is None else newline(data) + lead
-    return [*gone, (node.source, Splice(at, at, text + tag("inertial", said)))]
+    lead = indent(data, node.element.children[0].start)
+    return [*gone, (node.source, Splice(at, at, (b"" if lead is None else newline(data) + lead) + text))]
 
 
 def refuse_weightless(body: str, tree: Tree) -> AssetError:

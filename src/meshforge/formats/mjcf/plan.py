@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 
 from meshforge.asset import Asset, Geom
@@ -105,8 +105,8 @@ class Plan:
         """The new elements."""
         return [entry.slot for entry in self.expected() if isinstance(entry, Made)]
 
-    def splices(self, source: int) -> list[Splice]:
-        """The edits of one of the files."""
+    def splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
+        """The edits of one of the files; masses: the `<inertial>` of bodies whose elements hold nothing yet."""
         data = self.tree.sources[source].text.data
         found = []
         for place in self.places:
@@ -117,17 +117,17 @@ class Plan:
         for body, slots in self.ends.items():
             node = self.body_node(body)
             if node is not None and node.source == source:
-                found.append(at_end(data, node.element, slots))
+                first = [Slot(body, (), text=masses[body])] if body in masses else []
+                found.append(at_end(data, node.element, [*first, *slots]))
         return found
 
     def body_node(self, body: str) -> Node | None:
         """The element of a body; of the world, the last one, in which its last geoms stand. None without one."""
-        entries = [entry for entry in self.document.bodies if entry.name == body]
-        if not entries or entries[0].source < 0:
-            return None
-        if entries[0].parent is None:
-            return [node for node in self.tree.root.children if node.tag == "worldbody"][-1]
-        return self.nodes.get((entries[0].source, entries[0].start))
+        if body == self.reading.body_names[0]:
+            worlds = list(self.tree.root.each("worldbody"))
+            return worlds[-1] if worlds else None
+        entry = next((entry for entry in self.document.bodies if entry.name == body), None)
+        return self.nodes.get((entry.source, entry.start)) if entry else None
 
     def _place(self, entry: Authored, kept: Container[str]) -> Place:
         node = self.nodes.get((entry.source, entry.start))
