@@ -54,7 +54,7 @@ class Format(ABC):
     is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
     title: its name for people; up: the axis that points up in its files, None where the format does not say.
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
-    leaves out all the same; instead: how it writes what the format does not hold (`written as hulls`).
+    leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
     """
 

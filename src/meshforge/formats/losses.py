@@ -12,8 +12,8 @@ from meshforge.words import counted, listed
 class Loss:
     """Things of one kind that are not in the output as they were.
 
-    why: the reason, a clause; instead: how they are written all the same (`written as hulls`), None where they are not.
-    unnamed: how many there are that have no name.
+    why: the reason, a clause; instead: how they are there all the same (`written as triangles`), None where they are
+    not; unnamed: how many there are that have no name.
     """
 
     what: What

@@ -26,7 +26,7 @@ from meshforge.geometry import Piece, Pose, pieces
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
-AS_HULLS: Mapping[What, str] = dict.fromkeys(PRIMITIVES.values(), "written as hulls")
+AS_HULLS: Mapping[What, str] = dict.fromkeys(PRIMITIVES.values(), "written as triangles")
 """How formats without native shapes hold them."""
 
 

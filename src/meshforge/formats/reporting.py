@@ -71,7 +71,8 @@ def _renamed(output: Output, target: Format) -> list[Loss]:
     if not output.names or What.NAMES not in target.holds:
         return []
     now = listed(list(output.names.values()), 3)
-    return [Loss(What.NAMES, tuple(output.names), f"{target.title} files read back as {now}", "written otherwise")]
+    why = f"{'it reads' if len(output.names) == 1 else 'they read'} back as {now}"
+    return [Loss(What.NAMES, tuple(output.names), why, "written otherwise")]
 
 
 def _of_visuals(asset: Asset) -> Iterator[Feature]:

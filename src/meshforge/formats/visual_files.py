@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import posixpath
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.meshfile import joined
 from meshforge.formats.triangles import read_triangles
 from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
-from meshforge.geometry import Floats, Pose, Shape
+from meshforge.geometry import Floats, Ints, Pose, Shape
 
 _ROUNDING = 1e-14  # share of a scale that is lost when a rotation is taken off it
 
@@ -41,13 +41,13 @@ def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
 
 @dataclass(slots=True)
 class VisualFiles:
-    """Collects the files; suffixes: of mesh files that the format reads, lower case.
+    """Collects the files; takes: whether the format shows a mesh file as it is.
 
     copies: by their place beside the main file; refused: bodies whose visual cannot be read.
     """
 
     files: HullFiles
-    suffixes: tuple[str, ...]
+    takes: Callable[[Path], bool]
     copies: dict[str, Path] = field(default_factory=dict)
     refused: list[str] = field(default_factory=list)
     _base: Path | None = None
@@ -64,7 +64,7 @@ class VisualFiles:
         """A visual as it is to be written; None where its file cannot be read."""
         link_t_root = root_t_link.inverse()
         if isinstance(visual, Surface):
-            reference = self.files.add(f"{body}-visual", "", link_t_root.apply(visual.vertices), visual.faces)
+            reference = self._made_of(f"{body}-visual", link_t_root.apply(visual.vertices), visual.faces)
             return Shown(reference, Pose.identity(), np.ones(3), None)
         moved = visual.moved(link_t_root)
         if isinstance(moved.what, Shape):
@@ -81,7 +81,7 @@ class VisualFiles:
     def _placed(self, mesh: Path) -> str | None:
         """The reference to a mesh file in the output."""
         if mesh not in self._made:
-            self._made[mesh] = self._copied(mesh) if mesh.suffix.lower() in self.suffixes else self._converted(mesh)
+            self._made[mesh] = self._copied(mesh) if self.takes(mesh) else self._converted(mesh)
         return self._made[mesh]
 
     def _copied(self, mesh: Path) -> str:
@@ -101,7 +101,7 @@ class VisualFiles:
             soup = joined(read_triangles(mesh))
         except MeshForgeError:
             return None
-        return self.files.add(f"{mesh.stem}-visual", "", soup.vertices, soup.faces)
+        return self._made_of(f"{mesh.stem}-visual", soup.vertices, soup.faces)
 
     def _baked(self, body: str, visual: Visual) -> Shown | None:
         """An OBJ of a visual under a map that shears."""
@@ -111,8 +111,13 @@ class VisualFiles:
             return None
         starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
         faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
-        reference = self.files.add(f"{body}-visual", "", np.concatenate([s.vertices for s in surfaces]), faces)
+        reference = self._made_of(f"{body}-visual", np.concatenate([s.vertices for s in surfaces]), faces)
         return Shown(reference, Pose.identity(), np.ones(3), visual.rgba)
+
+    def _made_of(self, name: str, vertices: Floats, faces: Ints) -> str:
+        """An OBJ of triangles, with the four vertices at least that MuJoCo asks for."""
+        enough = np.concatenate([vertices, vertices[:1]]) if len(vertices) < 4 else vertices
+        return self.files.add(name, "", enough, faces)
 
 
 def _split(linear: Floats) -> tuple[Floats, Floats] | None:

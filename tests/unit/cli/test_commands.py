@@ -144,11 +144,46 @@ def test_convert_within_a_format_writes_the_same_bytes(run: Run) -> None:
     assert Path("copy.obj").read_bytes() == Path("row.obj").read_bytes()
 
 
-def test_convert_to_another_format_keeps_the_hulls(run: Run) -> None:
-    assert run("convert", "row.obj", "made/row.urdf").code == 0
-    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", "made/row.urdf"))
-    assert [hull["volume"] for hull in after] == pytest.approx([hull["volume"] for hull in before])
-    assert [hull["label"] for hull in after] == ["leg", "panel", "leg"]
+@pytest.mark.parametrize("out", ["row.urdf", "row.xml", "row.glb", "row.gltf", "row.stl", "row.ply", "row"])
+def test_convert_to_another_format_keeps_the_hulls_and_their_labels(run: Run, out: str) -> None:
+    assert run("convert", "row.obj", f"made/{out}").code == 0
+    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", f"made/{out}"))
+    found = {round(hull["aabb"]["min"][0]): hull for hull in after}
+    for hull in before:
+        now = found[round(hull["aabb"]["min"][0])]
+        assert now["volume"] == pytest.approx(hull["volume"])
+        assert now["label"] == hull["label"]
+
+
+def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
+    Path("t.urdf").write_text(
+        '<robot name="t"><link name="a"><collision name="pin"><geometry><sphere radius="1"/></geometry></collision>'
+        '</link><link name="b"/><joint name="hinge" type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
+    )
+    told = run("convert", "t.urdf", "t.obj", "--json")
+    assert told.code == 0
+    assert told.json == {
+        "asset": "t.urdf",
+        "out": "t.obj",
+        "hulls": 1,
+        "held": [{"what": "hull names", "count": 1, "names": ["a/pin"]}],
+        "lost": [
+            {"what": "bodies", "count": 2, "names": ["a", "b"], "why": "OBJ has no bodies", "instead": None},
+            {
+                "what": "spheres",
+                "count": 1,
+                "names": ["a/pin"],
+                "why": "OBJ has no spheres",
+                "instead": "written as triangles",
+            },
+            {"what": "joints", "count": 1, "names": ["hinge"], "why": "OBJ has no joints", "instead": None},
+        ],
+        "notes": ["coordinates are as they were, z-up: OBJ does not say what is up"],
+    }
+    assert run("convert", "t.urdf", "t2.obj").err.splitlines()[:2] == [
+        "note: coordinates are as they were, z-up: OBJ does not say what is up",
+        "note: 2 bodies (a, b) are left out: OBJ has no bodies",
+    ]
 
 
 def test_convert_leaves_labels_that_are_there_alone(run: Run) -> None:

@@ -160,7 +160,7 @@ def test_other_formats_are_converted_with_what_is_opaque(tmp_path: Path, suffix:
     assert len(back.geoms) == 4
     assert [o.reason for o in back.opaque] == ["flat"]
     assert [n for n in saved.notes if "capsule" in n or "floor" in n] == [
-        f"1 capsule (pin) is written as hulls: {suffix[1:].upper()} has no capsules",
+        f"1 capsule (pin) is written as triangles: {suffix[1:].upper()} has no capsules",
         "1 piece without a surface (floor) is left out: an endless plane",
     ]
 

@@ -60,7 +60,7 @@ def test_bodies_hulls_and_names_come_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(new.shape.aabb.max, shape.aabb.max, atol=1e-12)
     assert told(CART, output) == (
         "3 links without a mass (frame, wheel <1>, lid): PyBullet takes 1 kg, MuJoCo computes it from the hulls",
-        "1 capsule (lid/rod) is written as hulls: URDF has no capsules",
+        "1 capsule (lid/rod) is written as triangles: URDF has no capsules",
     )
 
 

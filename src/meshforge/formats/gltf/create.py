@@ -92,8 +92,6 @@ class _Creator:
         shown = self._shown() if self.convention == "khr" else []
         style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not shown)
         for geom in self.asset.geoms:
-            if geom.shape.kind == "ellipsoid":
-                self.lost.append(Loss(What.ELLIPSOIDS, (geom.name,), "no extension has them", "written as hulls"))
             style.make(geom, self._own(geom), self.nodes.get(geom.body), None)
         for piece in self.asset.opaque:
             self._opaque(style, piece)

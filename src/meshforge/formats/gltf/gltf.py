@@ -26,7 +26,7 @@ class GltfFormat(Format):
     up: ClassVar[Literal["y", "z"] | None] = "y"
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
-    instead: ClassVar[Mapping[What, str]] = {What.ELLIPSOIDS: "written as hulls"}
+    instead: ClassVar[Mapping[What, str]] = {What.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_gltf(path)

@@ -17,6 +17,7 @@ from meshforge.formats.mjcf.elements import Native, geom_attributes, mesh_geom_a
 from meshforge.formats.mjcf.joints import joint_tag, parts_of
 from meshforge.formats.mjcf.masses import inertial_tag, light_tag
 from meshforge.formats.mjcf.mesh_assets import MeshAssets
+from meshforge.formats.mjcf.shown_whole import shown_whole
 from meshforge.formats.visual_files import VisualFiles, visuals_of
 from meshforge.formats.visuals import Rgba
 from meshforge.formats.xml import shown
@@ -43,7 +44,7 @@ class _Creator:
         self.poses = asset.body_poses
         self.shown = visuals_of(asset)
         self.meshes = MeshAssets(stem)
-        self.visuals = VisualFiles(self.meshes.files, (".obj", ".stl"))
+        self.visuals = VisualFiles(self.meshes.files, shown_whole)
         self.visuals.gather(self.shown)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names

@@ -39,7 +39,7 @@ class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
         self.maker = Maker(b"", b"\n", HullFiles(stem))
-        self.visuals = VisualFiles(self.maker.files, MESHES)
+        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in MESHES)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
         shown = visuals_of(asset)
@@ -125,7 +125,7 @@ class _Creator:
                 f"prismatic joints without limits ({listed(unlimited, 3)}) are limited to {ENDLESS:g} m each way"
             )
         if self.chain.light:
-            notes.append(f"{counted(len(self.chain.light), 'link')} of {LIGHT.mass:g} kg between joints of one body")
+            notes.append(f"links of {LIGHT.mass:g} kg stand between joints of one body ({listed(self.chain.light, 3)})")
         heavy = {*self.inertials, *self.chain.light, "world"}  # of that name, PyBullet knows that it has no mass
         weightless = [link for link in self.chain.frames if link not in heavy]
         if weightless:

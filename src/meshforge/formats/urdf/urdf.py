@@ -25,7 +25,10 @@ class UrdfFormat(Format):
     up: ClassVar[Literal["y", "z"] | None] = "z"
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
-    instead: ClassVar[Mapping[What, str]] = {What.CAPSULES: "written as hulls", What.ELLIPSOIDS: "written as hulls"}
+    instead: ClassVar[Mapping[What, str]] = {
+        What.CAPSULES: "written as triangles",
+        What.ELLIPSOIDS: "written as triangles",
+    }
     shown_files: ClassVar[tuple[str, ...]] = MESHES
 
     def read(self, path: Path, options: ReadOptions) -> Asset:

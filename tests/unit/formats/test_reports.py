@@ -1,0 +1,178 @@
+"""What conversions say: golden texts beside the tests, and what a report is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset, What
+from meshforge.formats import FORMATS, Format, Loss, Output, read, save
+from meshforge.formats.reporting import report
+from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.words import counted
+from tests.conversion_samples import SAMPLES, crowd, doors
+from tests.urdf_sample import THREE
+
+GOLDEN = Path(__file__).parents[2] / "golden" / "reports"
+SUFFIXES = (".obj", ".stl", ".ply", "", ".urdf", ".xml", ".glb")
+
+BUSY_URDF = """\
+<robot name="busy">
+  <!-- a comment --><!-- and another -->
+  <material name="wood"><texture filename="wood.png"/></material>
+  <link name="base">
+    <contact><lateral_friction value="1"/></contact>
+    <visual><geometry><mesh filename="shown.obj"/></geometry><material name="wood"/></visual>
+    <collision><geometry><box size="1 1 1"/></geometry></collision>
+  </link>
+  <link name="a"><collision name="pin"><geometry><capsule radius="0.1" length="1"/></geometry></collision></link>
+  <link name="b"/>
+  <joint name="left" type="revolute">
+    <parent link="base"/><child link="a"/><limit lower="0" upper="1" effort="1" velocity="2"/>
+  </joint>
+  <joint name="right" type="revolute">
+    <parent link="base"/><child link="b"/><mimic joint="left"/><safety_controller k_velocity="1"/>
+  </joint>
+  <gazebo reference="a"/><gazebo reference="b"/><transmission name="t"/>
+</robot>
+"""
+BUSY_MJCF = """\
+<mujoco>
+  <option timestep="0.001"/>
+  <!-- a comment -->
+  <asset>
+    <material name="steel" rgba="1 1 1 1"/><texture name="sky" type="skybox" builtin="flat" width="8" height="8"/>
+  </asset>
+  <worldbody>
+    <light name="sun" pos="0 0 5"/><camera name="eye" pos="0 0 5"/>
+    <geom name="floor" type="plane" size="1 1 1"/>
+    <body name="arm"><joint name="elbow" stiffness="2" range="0 90"/>
+      <geom name="bone" size=".1" friction="2 1 1"/><site name="tip"/>
+      <body name="hand"><joint name="wrist" type="ball"/><geom type="ellipsoid" size=".1 .2 .3"/></body></body>
+    <body name="cup" pos="2 0 0"><freejoint name="loose"/><geom type="capsule" size=".1 .1"/></body>
+  </worldbody>
+  <contact><exclude body1="arm" body2="cup"/></contact>
+  <tendon><fixed name="string"><joint joint="elbow" coef="1"/></fixed></tendon>
+  <equality><joint name="locked" joint1="elbow"/></equality>
+  <actuator><motor name="motor" joint="elbow"/></actuator>
+  <sensor><jointpos name="angle" joint="elbow"/></sensor>
+  <keyframe><key name="home"/></keyframe>
+</mujoco>
+"""
+BUSY_OBJ = "# made by hand\nmtllib x.mtl\nusemtl oak\n" + THREE.replace("f ", "vt 0 0\nf ", 1)
+BUSY_PLY = """\
+ply
+format ascii 1.0
+comment by hand
+element vertex 4
+property float x
+property float y
+property float z
+property uchar red
+property uchar green
+property uchar blue
+element face 4
+property list uchar int vertex_indices
+end_header
+0 0 0 1 2 3
+1 0 0 1 2 3
+0 1 0 1 2 3
+0 0 1 1 2 3
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+
+
+def busy(name: str, text: str) -> Callable[[Path], Asset]:
+    """Reads an asset out of a text, in a folder."""
+
+    def reading(folder: Path) -> Asset:
+        (folder / "shown.obj").write_text("mtllib shown.mtl\n" + THREE)
+        (folder / "shown.mtl").write_text("newmtl oak\n")
+        (folder / "wood.png").write_bytes(b"")
+        (folder / name).write_text(text)
+        return read(folder / name)
+
+    return reading
+
+
+SOURCES: dict[str, Callable[[Path], Asset]] = {
+    **{name: (lambda folder, make=make: make()) for name, make in SAMPLES.items()},  # type: ignore[misc]
+    "busy_urdf": busy("busy.urdf", BUSY_URDF),
+    "busy_mjcf": busy("busy.xml", BUSY_MJCF),
+    "busy_obj": busy("busy.obj", BUSY_OBJ),
+    "busy_ply": busy("busy.ply", BUSY_PLY),
+    "doors_of_a_glb": lambda folder: read(save(SAMPLES["doors"](), folder / "doors.glb").path),
+}
+
+
+def said(source: str, folder: Path) -> str:
+    """What converting an asset to every format says, with what it holds."""
+    asset = SOURCES[source](folder)
+    parts = []
+    for suffix in SUFFIXES:
+        saved = save(asset, folder / "out" / suffix.removeprefix(".") / f"thing{suffix}")
+        held = ", ".join(counted(f.count, f.what.one, f.what.many) for f in saved.report.held)
+        parts.append("\n".join([f"== to {suffix or 'a folder'}, which holds: {held or 'hulls'}", *saved.notes]))
+    return "\n\n".join(parts) + "\n"
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_reports_are_as_they_were(source: str, tmp_path: Path) -> None:
+    assert said(source, tmp_path) == (GOLDEN / f"{source}.txt").read_text()
+
+
+@pytest.mark.parametrize("known", FORMATS, ids=lambda known: known.name)
+def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) -> None:
+    assert known.title
+    assert not known.holds & known.could
+    assert not known.holds & set(known.instead)
+
+
+def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -> None:
+    told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
+    assert {loss.what for loss in told.lost} >= {What.MATERIALS, What.SENSORS, What.CONTACT}
+    assert not {feature.what for feature in told.held} & {loss.what for loss in told.lost}
+
+
+def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
+    three = Loss(What.JOINTS, ("door", "drawer", "lid", "wheel"), "OBJ has no joints")
+    assert str(three) == "4 joints (door, drawer, lid and 1 more) are left out: OBJ has no joints"
+    assert str(Loss(What.BODIES, ("a",), "so it is", "flat")) == "1 body (a) is flat: so it is"
+    assert str(Loss(What.COMMENTS, (), "because", unnamed=1_200)) == "1,200 comments are left out: because"
+
+
+def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
+    asset, urdf = SAMPLES["opaque"](), next(known for known in FORMATS if known.name == "urdf")
+    lost = tuple(Loss(What.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
+    told = report(asset, None, urdf, Output(b"", lost=lost))
+    assert What.OPAQUE not in {feature.what for feature in told.held}
+    assert [str(loss) for loss in told.lost if loss.what is What.OPAQUE] == [
+        "2 opaque pieces (room/walls, room/other) are left out: flat"
+    ]
+
+
+def test_names_count_where_an_author_gave_them_only() -> None:
+    obj = next(known for known in FORMATS if known.name == "obj")
+    held = {feature.what: feature.names for feature in report(crowd(), None, obj, Output(b"")).held}
+    assert held[What.NAMES] == ("left/part", "right/part")
+
+
+@pytest.mark.parametrize("suffix", [".urdf", ".xml", ".glb"])
+def test_a_visual_that_cannot_be_read_is_told(suffix: str, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.wrl"
+    bad.write_text("nothing of the kind")
+    asset = replace(doors(), visuals=LazySurfaces((Visual("door", bad, np.eye(3), np.zeros(3)),)))
+    notes = save(asset, tmp_path / "out" / f"m{suffix}").notes
+    assert "1 visual (door) is left out: their files cannot be read" in notes
+
+
+def test_within_a_format_nothing_is_lost(tmp_path: Path) -> None:
+    saved = save(SOURCES["busy_urdf"](tmp_path), tmp_path / "out" / "m.urdf")
+    assert (saved.notes, saved.report.lost, saved.report.held) == ((), (), ())
