@@ -77,7 +77,7 @@ def _decomposed(
     hulls = hulls_of(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
     names = free_names(source.base, len(hulls), taken)
     made = dict(zip(names, map(hull_digest, hulls), strict=True))
-    told = "; ".join([told_fit(source.surface, hulls, hollow), *notes])
+    told = "; ".join([told_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
     return Replaced(source.what, source.kind, surface_digest(source.surface), made, told), hulls
 
 

@@ -16,10 +16,13 @@ _POINTS = 4000
 _LEAST = 0.005  # shares below are told as none
 
 
-def told_fit(surface: Surface, hulls: Sequence[Polytope], hollow: bool) -> str:
-    """`12 hulls, 3% more volume, 2% of the surface outside`; without volume where the surface is open."""
+def told_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) -> str:
+    """`12 hulls, 3% more volume, 2% of the surface outside`; solid: whether what the surface encloses is its volume.
+
+    An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
+    """
     parts = [counted(len(hulls), "hull")]
-    volume = None if hollow else enclosed_volume(surface.vertices, surface.faces)
+    volume = enclosed_volume(surface.vertices, surface.faces) if solid else None
     if volume:
         excess = volume_of_union(hulls) / volume - 1
         parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {_word(excess)} volume")

@@ -48,9 +48,10 @@ def _hulls(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
     bare = [asset for asset in assets if asset.hulls == 0 and asset.sources]
     if not bare:
         return None
-    count = "an asset has" if len(bare) == 1 else f"{len(bare)} assets have"
+    first = bare[0].id
+    who = f"{first} has" if len(bare) == 1 else f"{len(bare)} assets, first {first}, have"
     return Advice(
-        f"{count.capitalize()} no hulls, first {bare[0].id}: decompose what has none.",
+        f"{who} no hulls: decompose what has none.",
         f"meshforge prepare {_word(folder)} --decompose coacd",
     )
 
