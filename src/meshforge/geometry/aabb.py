@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import dist
 
 import numpy as np
 import numpy.typing as npt
@@ -46,7 +47,7 @@ class Aabb:
     @property
     def diagonal(self) -> float:
         """Length of the spatial diagonal [m]."""
-        return float(np.linalg.norm(self.size))
+        return dist(self.min.tolist(), self.max.tolist())
 
     @property
     def corners(self) -> Floats:

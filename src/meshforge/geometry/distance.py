@@ -11,10 +11,9 @@ from collections.abc import Sequence
 
 import coal
 import numpy as np
-import numpy.typing as npt
 
 from meshforge.geometry.aabb import bounds
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Floats
 from meshforge.geometry.coal_shapes import Frame, Placed
 from meshforge.geometry.shapes import Shape
 
@@ -28,7 +27,7 @@ def distance(a: Shape, b: Shape) -> float:
     low, high = bounds([a.aabb, b.aabb])
     frame = Frame.around(low.min(axis=0), high.max(axis=0))
     one, other = frame.all_placed([a, b])
-    return float(_gaps([(one, other)])[0]) * frame.unit
+    return _gaps([(one, other)])[0] * frame.unit
 
 
 def close_pairs(
@@ -41,43 +40,32 @@ def close_pairs(
     if len(shapes) < 2:
         return {}
     low, high = bounds([shape.aabb for shape in shapes])
-    frame = Frame.around(low.min(axis=0), high.max(axis=0))
-    pairs = near_boxes(low, high, reach)
+    near = near_boxes(low, high, reach)
     if settled:
-        stays = np.isin(pairs, list(settled))
-        pairs = pairs[~(stays[:, 0] & stays[:, 1])]
-    used = np.unique(pairs).tolist()
+        near = [(i, j) for i, j in near if i not in settled or j not in settled]
+    frame = Frame.around(low.min(axis=0), high.max(axis=0))
+    used = list(dict.fromkeys(k for pair in near for k in pair))
     placed = dict(zip(used, frame.all_placed([shapes[k] for k in used]), strict=True))
-    near = pairs.tolist()
-    gaps = _gaps([(placed[i], placed[j]) for i, j in near]) * frame.unit
-    return {(i, j): gap for (i, j), gap in zip(near, gaps.tolist(), strict=True) if gap <= reach}
+    gaps = _gaps([(placed[i], placed[j]) for i, j in near])
+    return {pair: gap * frame.unit for pair, gap in zip(near, gaps, strict=True) if gap * frame.unit <= reach}
 
 
-def near_boxes(low: Floats, high: Floats, reach: float) -> Ints:
-    """Pairs (k, 2), i < j, in order, of boxes (n, 3) within `reach` of each other along every axis."""
-    reach += 1e-12 * float(max(-low.min(), high.max()))  # rounding must lose no pair
+def near_boxes(low: Floats, high: Floats, reach: float) -> list[tuple[int, int]]:
+    """Pairs (i, j), i < j, in order, of boxes (n, 3) within `reach` of each other along every axis."""
+    reach += 1e-12 * max(-float(low.min()), float(high.max()))  # rounding must lose no pair
     low, high = low.T - reach, high.T
-    first, second = [], []
+    pairs: list[tuple[int, int]] = []
     for start in range(0, low.shape[1], _BLOCK):
         rows = slice(start, start + _BLOCK)
-        i, j = np.nonzero(_overlap(low[:, rows], high[:, rows], low[:, start:], high[:, start:]))
-        first.append(i[i < j] + start)
-        second.append(j[i < j] + start)
-    return np.column_stack([np.concatenate(first), np.concatenate(second)])
+        near = (low[:, rows, None] <= high[:, None, start:]) & (high[:, rows, None] >= low[:, None, start:])
+        first, second = np.nonzero(near[0] & near[1] & near[2])
+        found = zip(first.tolist(), second.tolist(), strict=True)
+        pairs += [(i + start, j + start) for i, j in found if i < j]
+    return pairs
 
 
-def _overlap(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> npt.NDArray[np.bool_]:
-    """Which boxes, corners (3, n), overlap which others, corners (3, m)."""
-    near = np.less_equal.outer(low[0], other_high[0])
-    for k in (1, 2):
-        near &= np.less_equal.outer(low[k], other_high[k])
-    for k in range(3):
-        near &= np.greater_equal.outer(high[k], other_low[k])
-    return np.asarray(near)
-
-
-def _gaps(pairs: list[tuple[Placed, Placed]]) -> Floats:
-    """The distance (n,) of each pair, in units of their frame."""
+def _gaps(pairs: list[tuple[Placed, Placed]]) -> list[float]:
+    """The distance of each pair, in units of their frame."""
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     request.enable_signed_distance = False
     request.gjk_tolerance = _TOLERANCE
@@ -85,5 +73,6 @@ def _gaps(pairs: list[tuple[Placed, Placed]]) -> Floats:
     found: list[float] = []
     for (one, pose), (other, other_pose) in pairs:
         result.clear()
-        found.append(coal.distance(one, pose, other, other_pose, request, result))
-    return np.maximum(found, 0.0)
+        gap = coal.distance(one, pose, other, other_pose, request, result)
+        found.append(gap if gap > 0.0 else 0.0)
+    return found
