@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.compiling import again, plain
@@ -36,9 +36,8 @@ class Edit:
         self.weighs: list[int] = []
         self.expected = plan.expected()
         taken = {geom.name for geom in authored.spec_geoms}
-        for geom_slot in plan.made_slots():
-            _name(geom_slot, geom_slot.names[0], taken)
-            taken.add(geom_slot.name or "")
+        for slot in plan.made_slots():
+            _name(slot, slot.names[0], taken)
 
     def texts(self) -> list[bytes]:
         """The bytes of each of the authored files, edited. Raises AssetError where one of them cannot be."""
@@ -151,10 +150,11 @@ class Edit:
                 yield slot, wanted, read
 
 
-def _name(slot: Slot, wanted: str, taken: Collection[str]) -> bool:
-    """Give an element a name attribute under which it reads as wanted, if there is one that is not taken."""
+def _name(slot: Slot, wanted: str, taken: set[str]) -> bool:
+    """Give an element a name attribute under which it reads as wanted, if there is one that is free; take that."""
     for name in (wanted.removeprefix(f"{slot.body}/"), wanted):
         if name not in taken and name != slot.name:
             slot.name = name
+            taken.add(name)
             return True
     return False

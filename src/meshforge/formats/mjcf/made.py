@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class Maker:
         said = self._settled(geom, said, {**set_by_class, **_own(parent)}, set_by_class, parent_volume)
         data = self.context.tree.sources[parent.source].text.data
         changed = [key for key in (*_GEOMETRY, "mass", "shellinertia") if said.get(key) != parent.attributes.get(key)]
-        edits = tuple(attribute(data, parent.element, key, said.get(key)) for key in changed)
+        edits = tuple(attribute(data, parent.element, key, said.get(key), last=True) for key in changed)
         return Slot(geom.body, (geom.name,), None, parent.element, edits, copy=True)
 
     def apart(self, geom: Geom, root_t_body: Pose, body: Node, parent: Node | None, parent_volume: float) -> Slot:
@@ -56,12 +57,11 @@ class Maker:
 
     def _geometry(self, geom: Geom, root_t_body: Pose, parent: Node | None, body_t_frame: Pose) -> dict[str, str]:
         """The geometry of a hull in the frame in which its element stands."""
-        shape = geom.shape.moved(root_t_body.inverse())
-        frame_t_body = body_t_frame.inverse()
+        frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
+        shape = geom.shape
         if isinstance(shape, Box | Capsule | Cylinder | Ellipsoid | Sphere):
-            moved = shape.moved(frame_t_body)
-            assert isinstance(moved, Box | Capsule | Cylinder | Ellipsoid | Sphere)  # rigid moves keep the kind
-            return geom_attributes(moved)
+            return geom_attributes(replace(shape, pose=frame_t_body @ body_t_root @ shape.pose))
+        shape = shape.moved(body_t_root)
         own = _own(parent) if parent else {}
         said = {**(self.context.set_by(self.context.class_of(parent)) if parent else {}), **own}
         centre = _far_centre(shape)

@@ -32,15 +32,19 @@ def spliced(data: bytes, splices: Iterable[Splice], start: int = 0, end: int | N
     return b"".join([*out, data[at:end]])
 
 
-def attribute(data: bytes, element: Element, name: str, value: str | None) -> Splice:
-    """The edit that sets an attribute of an element, in its place and quotes where it is there; None removes it."""
-    after_tag = element.start + 1 + len(element.tag.encode())
-    for found in _ATTRIBUTE.finditer(data, after_tag, element.inside):
+def attribute(data: bytes, element: Element, name: str, value: str | None, *, last: bool = False) -> Splice:
+    """The edit that sets an attribute of an element, in its place and quotes where it is there; None removes it.
+
+    last: a new one goes after the others instead of before them.
+    """
+    at = element.start + 1 + len(element.tag.encode())
+    for found in _ATTRIBUTE.finditer(data, at, element.inside):
         if found[1] == name.encode():
             if value is None:
                 return Splice(found.start(), found.end(), b"")
             return Splice(found.start(2) + 1, found.end(2) - 1, escaped(value))
-    return Splice(after_tag, after_tag, b"" if value is None else b' %s="%s"' % (name.encode(), escaped(value)))
+        at = found.end() if last else at
+    return Splice(at, at, b"" if value is None else b' %s="%s"' % (name.encode(), escaped(value)))
 
 
 def escaped(value: str) -> bytes:
