@@ -57,13 +57,14 @@ class Draft:
             )
         return {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
 
-    def add_node(self, node: Json, holder: int | None) -> int:
-        """A new node below another one, or at the root of the scene."""
+    def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
+        """A new node below another one, or at the root of the scene; at: before which child, None for the last."""
         nodes: list[Any] = self.tree.setdefault("nodes", [])
         nodes.append(node)
         index = len(nodes) - 1
         if holder is not None:
-            self.node(holder).setdefault("children", []).append(index)
+            children: list[Any] = self.node(holder).setdefault("children", [])
+            children.insert(len(children) if at is None else at, index)
         elif entries(self.tree, "scenes"):
             self._scene().setdefault("nodes", []).append(index)
         return index

@@ -48,10 +48,10 @@ class PhysicsStyle(Style):
         assert element.owner is not None  # only meshes have several pieces
         source = draft.scene.placements[element.node]
         mesh = collider_of(source, self.convention, draft.scene).mesh
-        for k in kept:
+        for at, k in enumerate(kept):
             own = element.names[k].removeprefix(f"{element.body}/")
             parted = draft.add_mesh({**draft.parted(mesh, element.owner, [k]), "name": own})
-            index = draft.add_node({"name": own}, element.node)
+            index = draft.add_node({"name": own}, element.node, at)
             self._collide(
                 index, source.node, geometry_of(draft, self.convention, parted, None, hulled=False, like=source.node)
             )

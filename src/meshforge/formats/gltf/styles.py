@@ -34,12 +34,12 @@ class Style(ABC):
         """Add a hull; own: its name without the body; body: the node of that; parent: the node it comes after."""
 
     def split(self, element: Authored, kept: Sequence[int], mesh: int, own: Sequence[str]) -> list[int]:
-        """Give a node that lost its mesh a child for each kept piece of that; own: their names."""
+        """Give a node that lost its mesh a child for each kept piece of that, ahead of others; own: their names."""
         draft, gone = self.draft, self.draft.without_mesh(element.node)
         assert element.owner is not None  # only meshes have several pieces
-        made = []
+        made: list[int] = []
         for k, name in zip(kept, own, strict=True):
             parted = draft.add_mesh(draft.parted(mesh, element.owner, [k]), mesh)
-            made.append(draft.add_node({"name": name, **gone, "mesh": parted}, element.node))
+            made.append(draft.add_node({"name": name, **gone, "mesh": parted}, element.node, at=len(made)))
             draft.expected[made[-1]] = (element.names[k],)
         return made
