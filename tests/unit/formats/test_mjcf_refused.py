@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -135,7 +136,8 @@ def test_a_flat_collision_mesh_is_an_error_about_the_mesh(tmp_path: Path) -> Non
         ("m.obj", b"v 0 0 0\nf 1 2 3\n", "MuJoCo refuses this file"),
         ("m.stl", b"solid ascii", "MuJoCo refuses this file"),
         ("m.dae", b"<COLLADA/>", "MuJoCo refuses this file"),
-        ("m.msh", b"\0" * 7, "MuJoCo refuses this file"),
+        ("m.msh", b"\0" * 7, "nothing but zero bytes"),
+        ("m.msh", b"\1" * 7, "MuJoCo refuses this file"),
     ],
 )
 def test_a_broken_mesh_file_is_one_message(name: str, data: bytes, message: str, tmp_path: Path) -> None:
@@ -148,6 +150,24 @@ def test_bodies_too_deep_for_mujoco_are_one_message(tmp_path: Path) -> None:
     path = put(tmp_path, {"main.xml": model("<body>" * 3000 + "</body>" * 3000)})
     with pytest.raises(AssetError, match="MuJoCo refuses this file: Element nesting is too deep"):
         read(path)
+
+
+@pytest.mark.parametrize(
+    ("inside", "before", "message"),
+    [
+        ('<replicate count="101"><replicate count="100"><geom/></replicate></replicate>', "", "<replicate> makes more"),
+        ('<flexcomp type="grid" count="1000 1000 2" spacing="1 1 1"/>', "", "this <flexcomp> is too large to be made"),
+        ("", '<asset><hfield name="h" nrow="10000" ncol="10000" size="1 1 1 1"/></asset>', 'nrow="10000" ncol="10000"'),
+        ("", '<asset><mesh name="m" builtin="supertorus" params="99999 1 1 1"/></asset>', "this <mesh> is too large"),
+        ("", '<asset><texture name="t" builtin="flat" width="90000" height="90000"/></asset>', "this <texture> is too"),
+        ("", '<asset><hfield name="h" nrow="inf" ncol="2" size="1 1 1 1"/></asset>', "this <hfield> is too large"),
+    ],
+)  # fmt: skip
+def test_numbers_that_would_bring_mujoco_down_are_refused(
+    inside: str, before: str, message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(AssetError, match=re.escape(message)):
+        read(put(tmp_path, {"main.xml": model(inside, before)}))
 
 
 def test_nothing_is_printed_or_written_where_one_works(

@@ -8,6 +8,7 @@ from meshforge.asset import Asset, Body
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.formats.mjcf.engine import Compiled, compile_flat
+from meshforge.formats.mjcf.excess import refuse_excess
 from meshforge.formats.mjcf.flat import Flat, flatten
 from meshforge.formats.mjcf.fragments import gather_model
 from meshforge.formats.mjcf.mechanism import read_mechanism
@@ -26,6 +27,7 @@ def read_mjcf(path: Path) -> Asset:
     there, a model whose collision geometry MuJoCo refuses too.
     """
     tree = gather_model(path)
+    refuse_excess(tree)
     flat, made, stand_ins, refusal = _compiled(tree)
     reading = Reading(tree, flat, made)
     geoms, opaque = reading.pieces()
