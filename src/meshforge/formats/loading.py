@@ -11,7 +11,7 @@ from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.registry import SUFFIXES, format_of
-from meshforge.formats.units import unit_note
+from meshforge.formats.units import refuse_beyond, unit_note
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
 
@@ -22,6 +22,7 @@ def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     """
     path = Path(path)
     asset = format_of(path).read(path, options or ReadOptions.from_environment())
+    refuse_beyond(asset)
     found = [note for note in (_absence(asset), unit_note(asset)) if note]
     return replace(asset, notes=(*asset.notes, *found)) if found else asset
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.errors import AssetError
+from meshforge.formats.meshfile import FARTHEST
 from meshforge.formats.mjcf.flat import Flat, flatten
 from meshforge.formats.mjcf.sources import Tree, gather
 from meshforge.formats.mjcf.submodels import submodels
@@ -98,14 +99,22 @@ def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
 def _refuse_unplaced(
     tree: Tree, flat: Flat, bodies: tuple[mujoco.MjsBody, ...], geoms: tuple[mujoco.MjsGeom, ...]
 ) -> None:
-    """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns."""
+    """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns, or beyond any size."""
     for kind, of_kind in (("body", bodies), ("geom", geoms)):
         for thing in of_kind:
-            if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
+            if problem := _unplaced(thing):
                 node = flat.node(thing.info)
                 where = tree.where(node) if node else str(tree.main.path)
                 told = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
-                raise AssetError(f"the pose of {told} is not of finite numbers", where=where)
+                raise AssetError(problem.format(told), where=where)
+
+
+def _unplaced(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
+    if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
+        return "the pose of {} is not of finite numbers"
+    if max(map(abs, (*thing.pos, *getattr(thing, "size", ())))) > FARTHEST:
+        return "the place or size of {} is larger than anything"
+    return None
 
 
 def _failures() -> tuple[type[Exception], ...]:

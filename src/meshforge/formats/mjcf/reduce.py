@@ -12,6 +12,7 @@ from meshforge.formats.mjcf.engine import Compiled, compile_spec, geoms_of, pars
 from meshforge.formats.mjcf.flat import Flat, flatten
 from meshforge.formats.mjcf.sources import Node, Tree
 from meshforge.formats.references import Resolver
+from meshforge.formats.triangles import contents
 
 if TYPE_CHECKING:
     import mujoco
@@ -88,6 +89,7 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
             last = error
             continue
         _refuse_missing(tree, flat, spec)
+        _refuse_lookalikes(tree, flat, spec)
         infos = _stood_in(tree, flat, spec, attempt.all_visuals)
         spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
@@ -121,6 +123,17 @@ def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
             where=tree.where(mesh),
             remedy=Resolver(tree.main.path.parent).advice(str(Folders.of(tree).find(tree, mesh))),
         )
+
+
+def _refuse_lookalikes(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
+    folders = Folders.of(tree)
+    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _collides(geom, spec)):
+        node = nodes.get(name)
+        path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
+        if path is not None and path.is_file():
+            contents(path)
 
 
 def _lost(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> dict[str, Node]:
