@@ -44,7 +44,16 @@ def write(asset: Asset, folder: Path, mass: Mass = "keep") -> tuple[Path, Output
 
 
 def compiled(path: Path) -> mujoco.MjModel:
-    return mujoco.MjModel.from_xml_path(str(path))
+    """What MuJoCo makes of a file; its warnings go nowhere, else it leaves a log in the current folder."""
+    config = mujoco.MjLogConfig.get()
+    before = config.logto_console, config.logto_file
+    config.logto_console = config.logto_file = False
+    config.set()
+    try:
+        return mujoco.MjModel.from_xml_path(str(path))
+    finally:
+        config.logto_console, config.logto_file = before
+        config.set()
 
 
 def hull_names(model: mujoco.MjModel) -> list[str]:

@@ -51,7 +51,6 @@ SETTINGS = {
 }
 
 
-@pytest.mark.filterwarnings("ignore:.*deprecated")
 @pytest.mark.parametrize("change", ["box", "nothing"])
 @pytest.mark.parametrize("joint", [FREE, "", '<freejoint align="true"/>'])
 @pytest.mark.parametrize("setting", SETTINGS)
@@ -182,7 +181,6 @@ def test_a_shell_stays_a_shell_as_a_mesh(tmp_path: Path) -> None:
     np.testing.assert_allclose(after.body_inertia, before.body_inertia, rtol=1e-5)
 
 
-@pytest.mark.filterwarnings("ignore:.*deprecated")
 @pytest.mark.parametrize("setting", ['alignfree="true"', 'settotalmass="3"'])
 def test_recomputed_masses_may_move_the_frame_of_a_free_body(setting: str, tmp_path: Path) -> None:
     text = model(TWO.format(FREE, ""), f"<compiler {setting}/>")
