@@ -1,0 +1,1 @@
+"""Measurements of MeshForge, with their results."""

@@ -1,0 +1,167 @@
+"""Contact graphs of real meshes: MeshForge against trimesh, PyBullet and bare calls of the library below."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from contextlib import closing
+from functools import partial
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from benchmark.speed.assets import multi_hull
+from benchmark.speed.clock import Run, in_turns, medians
+from benchmark.speed.report import Goal, Result, Table, Tell
+from benchmark.speed.rivals import Bullet, Coal, Fcl, Pairs, Trimesh
+from meshforge.geometry import Polytope, distance
+from meshforge.symbolic import Hull, SymbolicMesh
+
+OURS, AGAIN = "MeshForge", "MeshForge, known hulls"
+_RIVALS = (Trimesh, Bullet, Fcl, Coal)
+_ROUNDS, _SECONDS = 7, 6.0  # a mesh
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Time all contestants on all meshes, and hold their answers against each other."""
+    found = multi_hull(tell, 2, bundled_only=True) if quick else multi_hull(tell)
+    rows = []
+    for k, (name, mesh) in enumerate(found.items()):
+        rows.append(one_mesh(name, mesh, 1 if quick else _ROUNDS))
+        tell(f"contact graphs: {k + 1} of {len(found)}")
+    return _result(rows)
+
+
+def one_mesh(name: str, mesh: SymbolicMesh, rounds: int) -> dict[str, Any]:
+    """Median seconds of building and asking of each contestant on one mesh, and where the answers differ."""
+    shapes = [hull.shape.tessellated() for hull in mesh.hulls]
+    known = _of(shapes)
+    near, pairs = known.contact_distance, near_pairs(shapes, known.contact_distance)
+    rivals = [kind(shapes, near, pairs) for kind in _RIVALS]
+    turns: dict[str, Run] = {OURS: lambda: _asking(_of(_anew(shapes))), AGAIN: lambda: _asking(_of(shapes))}
+    with closing(next(r for r in rivals if isinstance(r, Bullet))):
+        answers = {rival.name: rival.query(rival.build()) for rival in rivals}
+        for rival in rivals:
+            turns[f"{rival.name}: build"] = partial(_building, rival)
+            turns[f"{rival.name}: ask"] = partial(_querying, rival)
+        seconds = medians(in_turns(turns, rounds, _SECONDS))
+    return {
+        "asset": name,
+        "hulls": len(shapes),
+        "corners": sum(len(shape.vertices) for shape in shapes),
+        "near": len(pairs),
+        "contacts": len(known.contacts),
+        "seconds": seconds,
+        "differ": {who: _differences(shapes, known, answer) for who, answer in answers.items()},
+    }
+
+
+def near_pairs(shapes: list[Polytope], near: float) -> list[tuple[int, int]]:
+    """Pairs (i, j), i < j, whose boxes are no farther apart than `near`."""
+    low, high = np.array([s.aabb.min for s in shapes]), np.array([s.aabb.max for s in shapes])
+    gaps = np.maximum(low[:, None] - high, low - high[:, None]).clip(0)
+    i, j = np.nonzero(np.triu(np.linalg.norm(gaps, axis=2) <= near, 1))
+    return list(zip(i.tolist(), j.tolist(), strict=True))
+
+
+def _of(shapes: Iterable[Polytope]) -> SymbolicMesh:
+    return SymbolicMesh(tuple(Hull(str(k), "body", shape) for k, shape in enumerate(shapes)))
+
+
+def _anew(shapes: list[Polytope]) -> list[Polytope]:
+    """The shapes as other objects, of which nothing is remembered."""
+    return [Polytope(shape.vertices, shape.faces) for shape in shapes]
+
+
+def _asking(mesh: SymbolicMesh) -> Callable[[], object]:
+    return lambda: mesh.contacts
+
+
+def _building(rival: Any) -> Callable[[], object]:
+    if isinstance(rival, Bullet):
+        rival.reset()
+    return lambda: _keep(rival, rival.build())
+
+
+def _keep(rival: Any, built: Any) -> None:
+    rival.built = built
+
+
+def _querying(rival: Any) -> Callable[[], object]:
+    return lambda: rival.query(rival.built)
+
+
+def _differences(shapes: list[Polytope], ours: SymbolicMesh, theirs: Pairs) -> list[dict[str, Any]]:
+    """The pairs in one answer only, with their distance in thresholds."""
+    return [
+        {
+            "pair": list(pair),
+            "theirs": pair in theirs,
+            "thresholds": round(distance(shapes[pair[0]], shapes[pair[1]]) / ours.contact_distance, 9),
+        }
+        for pair in sorted(ours.contacts ^ theirs)
+    ]
+
+
+def _result(rows: list[dict[str, Any]]) -> Result:
+    total = {who: 1e3 * sum(row["seconds"][who] for row in rows) for who in rows[0]["seconds"]}
+    lines = [(OURS, "", "", total[OURS], 1.0, 1.0), (AGAIN, "", "", total[AGAIN], *_ratios(rows, [AGAIN], OURS))]
+    for kind in _RIVALS:
+        steps = [f"{kind.name}: build", f"{kind.name}: ask"]
+        build, ask = (total[step] for step in steps)
+        lines.append((kind.name, build, ask, build + ask, *_ratios(rows, steps, OURS)))
+    differ = [(kind.name, sum(len(row["differ"][kind.name]) for row in rows)) for kind in _RIVALS]
+    columns = ("", "build, ms", "ask, ms", "in all, ms", "times MeshForge", "median of meshes")
+    edges = sum(row["contacts"] for row in rows)
+    return Result(
+        "contact",
+        f"Contact graphs of {len(rows)} meshes",
+        (
+            Table("From vertices and faces to the pairs in contact", columns, tuple(lines)),
+            Table("Pairs in one answer only", ("against", f"of {edges} pairs"), tuple(differ)),
+            Table("The meshes", ("hulls, up to", "meshes"), _sizes(rows)),
+        ),
+        _goals(rows),
+        (
+            "Hulls are polytopes (primitives are tessellated for all alike), threshold 0.002 of the diagonal.",
+            "*Known hulls*: shapes whose distances were asked for before, as in all meshes after an edit.",
+            "MeshForge also measures pairs up to three thresholds apart, to show near misses; the others do not.",
+            "PyBullet, python-fcl and bare coal are given the pairs whose boxes are near; finding them is not timed.",
+            "Bare coal is called with the request that MeshForge uses.",
+        ),
+        tuple(rows),
+    )
+
+
+def _ratios(rows: list[dict[str, Any]], steps: list[str], base: str) -> tuple[float, float]:
+    """How many times the time of `base` some steps take, in all and in the median of the meshes."""
+    theirs = [sum(row["seconds"][step] for step in steps) for row in rows]
+    ours = [row["seconds"][base] for row in rows]
+    return sum(theirs) / sum(ours), median(t / o for t, o in zip(theirs, ours, strict=True))
+
+
+def _goals(rows: list[dict[str, Any]]) -> tuple[Goal, ...]:
+    def against(kind: Any, base: str, *steps: str) -> float:
+        return _ratios(rows, [f"{kind.name}: {step}" for step in steps], base)[0]
+
+    both = min(against(kind, OURS, "build", "ask") for kind in (Trimesh, Bullet))
+    asked = min(against(kind, AGAIN, "ask") for kind in (Trimesh, Bullet))
+    return (
+        Goal("times as fast as the better of trimesh and PyBullet, building included", "at least", 10.0, both),
+        Goal("the same, nothing built by anyone", "at least", 10.0, asked),
+        Goal("times bare coal, building included", "at most", 2.0, 1 / against(Coal, OURS, "build", "ask")),
+        Goal("times bare coal, hulls known, shapes built", "at most", 2.0, 1 / against(Coal, AGAIN, "ask")),
+        Goal(
+            "times bare coal with shapes built, MeshForge building its own",
+            "at most",
+            2.0,
+            1 / against(Coal, OURS, "ask"),
+        ),
+    )
+
+
+def _sizes(rows: list[dict[str, Any]]) -> tuple[tuple[int, int], ...]:
+    steps = (4, 8, 16, 32, 64, 128)
+    return tuple(
+        (top, sum(low < row["hulls"] <= top for row in rows)) for low, top in zip((0, *steps), steps, strict=False)
+    )
