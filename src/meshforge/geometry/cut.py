@@ -17,9 +17,11 @@ def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, P
 
     None stands for a part that is not there. Vertices of the shape stay what they are, bit for bit; a round primitive
     is cut as its tessellation. A part that is thinner than 1e-6 of the shape's size is left out.
-    Raises GeometryError for a normal without direction.
+    Raises GeometryError for a point that is not finite, or a normal without direction.
     """
     whole = shape.tessellated()
+    if not np.isfinite(point).all():
+        raise GeometryError("a plane needs a point whose coordinates are finite")
     length = float(np.linalg.norm(normal))
     if not (np.isfinite(length) and length > 0):
         raise GeometryError("a plane needs a normal that is not zero")

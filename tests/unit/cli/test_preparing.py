@@ -1,0 +1,145 @@
+"""Preparing from the command line: what is printed, exit codes, JSON, and words that do not fit."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.cli import main
+from tests.loop.command import Done
+from tests.unit.preparation.samples import write_boxes, write_stand
+
+Run = Callable[..., Done]
+VOXELS = ("--decompose", "vhacd", "--set", "resolution=5000", "--set", "max_convex_hulls=4", "--workers", "1")
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, cache: Path) -> Run:
+    """Runs the command line in a folder that holds `in/stand.urdf` and `in/row.obj`."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MESHFORGE_CACHE", str(cache))
+    write_stand(Path("in"))
+    write_boxes(Path("in/row.obj"))
+
+    def run(*words: str) -> Done:
+        monkeypatch.setattr(sys, "argv", ["meshforge", *words])
+        with pytest.raises(SystemExit) as left:
+            main()
+        printed = capsys.readouterr()
+        assert "Traceback" not in printed.err
+        return Done(int(left.value.code or 0), printed.out, printed.err)
+
+    return run
+
+
+@pytest.fixture
+def project(run: Run) -> str:
+    assert run("new", "p", "in/stand.urdf", "in/row.obj", "--vocabulary", "a,b").code == 0
+    return "p"
+
+
+def test_new_with_decompose_makes_hulls_and_says_what_it_made(run: Run) -> None:
+    told = run("new", "p", "in/stand.urdf", "in/row.obj", *VOXELS)
+    assert told.code == 0
+    assert "row.obj: nothing new\n" in told.out and "stand.urdf: 2 pieces into " in told.out
+    assert "\n    frame/body: " in told.out
+    assert "2 pieces decomposed into" in run("status", "p").out
+    assert run("prepare", "p", *VOXELS).out == "row.obj: nothing new\nstand.urdf: nothing new\n"
+
+
+def test_new_with_decompose_exits_with_1_where_a_piece_fails_and_the_project_is_there(run: Run) -> None:
+    Path("in/bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    told = run("new", "p", "in/bad.obj", "in/stand.urdf", *VOXELS)
+    assert told.code == 1 and "bad.obj" in told.out and "failed: " in told.out
+    assert "stand.urdf: 2 pieces into " in told.out
+    assert Path("p/meshforge.toml").is_file()
+
+
+def test_an_unknown_option_of_the_engine_makes_no_project(run: Run) -> None:
+    told = run("new", "p", "in/row.obj", "--decompose", "coacd", "--set", "treshold=1")
+    assert told.code == 2 and "threshold=0.05" in told.err
+    assert not Path("p").exists()
+
+
+def test_status_and_info_lead_to_what_can_be_prepared(run: Run, project: str) -> None:
+    assert "2 without hulls (meshforge prepare)" in run("status", project).out
+    run("prepare", project, "stand.urdf", *VOXELS, "--only", "frame/*")
+    assert "1 without hulls (meshforge prepare)" in run("status", project).out
+    for asset in ("stand.urdf", "in/stand.urdf"):
+        told = run("info", asset, "--project", project, "--json").json
+        assert {hull["name"].partition("#")[0] for hull in told["hulls"]} == {"frame/body", "frame/foot"}
+        assert told["opaque"] == []
+    assert len(run("info", "in/stand.urdf", "--json").json["opaque"]) == 1
+
+
+def test_select_and_render_show_the_project_s_asset_with_its_labels(run: Run, project: str) -> None:
+    run("split", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    assert run("select", "Geo(All, +X)", "row.obj", "--project", project, "--json").json == {"hulls": ["geom0#2"]}
+    assert run("render", "row.obj", "--project", project, "-o", "row.png", "--size", "200x150").code == 0
+    assert run("info", "row.obj", "--project", project, "--labels", "x.json").code == 2
+    assert "Did you mean 'row.obj'" in run("info", "roww.obj", "--project", project).err
+
+
+def test_prepare_as_json_has_a_line_for_each_asset(run: Run, project: str) -> None:
+    row, stand = run("prepare", project, *VOXELS, "--json").lines
+    assert row == {"asset": "row.obj", "made": [], "notes": [], "problems": [], "undone": [], "hulls": []}
+    assert [entry["what"] for entry in stand["made"]] == ["frame/body", "cover"]
+    assert stand["hulls"] == [name for entry in stand["made"] for name in entry["made"]]
+
+
+def test_split_along_a_plane_and_back(run: Run, project: str) -> None:
+    told = run("split", project, "row.obj", "geom0#1", "--at", "1.5,0,0", "--across", "1,0,0")
+    assert told.code == 0 and told.out == "row.obj: 1 piece into 2 hulls\n    geom0#1: 2 hulls\n"
+    told = run("prepare", project, "row.obj", "--undo")
+    assert told.out == "row.obj: taken back\n    geom0#1 cut into 2 hulls\n"
+    assert run("prepare", project, "row.obj", "--undo").code == 2
+
+
+def test_negative_coordinates_are_understood(run: Run, project: str) -> None:
+    told = run("split", project, "stand.urdf", "frame/foot", "--at", "-0.5,0,-1", "--across", "-1,0,0")
+    assert told.code == 0 and "frame/foot: 2 hulls" in told.out
+
+
+def test_a_split_that_divides_nothing_says_what_to_do(run: Run, project: str) -> None:
+    run("prepare", project, "stand.urdf", *VOXELS)
+    told = run("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=1")
+    assert told.code == 2 and "the decomposition (1 piece) does not divide it" in told.err
+
+
+def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
+    run("prepare", project, *VOXELS)
+    run("split", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    told = run("prepare", project, "--remove")
+    assert told.out.count("taken back") == 2
+    assert not Path("p/prepared/row.obj").exists()
+    assert run("prepare", project, "--remove").out == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (("prepare", "p"), "say what to do"),
+        (("prepare", "p", "--decompose", "coacd", "--undo"), "say what to do"),
+        (("prepare", "p", "--undo"), "--undo of which asset?"),
+        (("prepare", "p", "roww.obj", "--decompose", "vhacd"), "Did you mean 'row.obj'"),
+        (("split", "p", "row.obj", "geom0#1"), "say how"),
+        (("split", "p", "row.obj", "geom0#1", "--at", "1,0,0"), "say how"),
+        (("split", "p", "row.obj", "geom0#1", "--at", "1,0", "--across", "1,0,0"), "--at 1,0: three numbers"),
+        (("split", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"), "does not cut it"),
+        (("split", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"), "are finite"),
+        (("split", "p", "row.obj", "geom9", "--at", "2,0,0", "--across", "1,0,0"), "there is no hull 'geom9'"),
+        (("split", "p", "row.obj", "geom0#1", "--decompose", "vhacd"), "shows nothing"),
+    ],
+)
+def test_words_that_do_not_fit_are_wrong_usage(run: Run, project: str, words: tuple[str, ...], problem: str) -> None:
+    told = run(*words)
+    assert told.code == 2 and problem in told.err
+    assert not (Path(project) / "prepared").exists()
