@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from meshforge.asset import Geom, Opaque
+from meshforge.formats.mjcf.contact import contact_attributes
 from meshforge.formats.mjcf.document import Authored, MjcfBody, body_names, geom_names
 from meshforge.formats.mjcf.engine import Compiled
 from meshforge.formats.mjcf.flat import Flat
@@ -49,7 +50,7 @@ class Reading:
                 continue
             part = shapes.part(k, pose)
             if part.shape is not None:
-                geoms.append(Geom(name, body, part.shape))
+                geoms.append(Geom(name, body, part.shape, contact=contact_attributes(self.model, k)))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
                 opaque.append(Opaque(name, body, part.reason, part.surface, plane))
