@@ -12,6 +12,7 @@ import numpy as np
 from meshforge.asset import Asset, Geom, Opaque, Surface, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Output
+from meshforge.formats.gltf.colors import GAMMA
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import Draft
 from meshforge.formats.gltf.motions import motion_of
@@ -142,8 +143,7 @@ class _Creator:
         refused = []
         for body, visual in visuals_of(self.asset):
             surfaces = visual.surfaces() if isinstance(visual, Visual) else [visual]
-            rgba = visual.rgba if isinstance(visual, Visual) else None
-            found += [(body, surface, rgba) for surface in surfaces if len(surface.faces)]
+            found += [(body, surface, visual.rgba) for surface in surfaces if len(surface.faces)]
             if not surfaces:
                 refused.append(body)
         if refused:
@@ -161,8 +161,7 @@ class _Creator:
         """The number of a material of a colour."""
         if rgba is None:
             return None
-        # colours of glTF are linear, those of other formats are as screens show them
-        linear = [round(float(c), 6) for c in np.clip(rgba[:3], 0, 1) ** 2.2]
+        linear = [round(float(c), 6) for c in np.clip(rgba[:3], 0, 1) ** GAMMA]
         wanted: Json = {"pbrMetallicRoughness": {"baseColorFactor": [*linear, float(rgba[3])], "metallicFactor": 0.0}}
         if rgba[3] < 1:
             wanted["alphaMode"] = "BLEND"

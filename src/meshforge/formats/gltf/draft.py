@@ -28,7 +28,6 @@ class Draft:
         self.geometry = NewGeometry(tree, before)
         self.referred = Referred(scene.tree)
         self.expected: dict[int, tuple[str, ...]] = {}
-        self.notes: list[str] = []
         self._bodies = body_nodes(scene)
 
     def node(self, index: int) -> Json:

@@ -15,12 +15,14 @@ def settle(draft: Draft, document: GltfDocument, *, renames: bool) -> dict[str, 
 
     Returns the names that cannot be had all the same, with what they read back as.
     """
-    for _ in range(4 if renames else 0):
-        for node, (body, _) in _misread(draft, document).items():
+    misread = _misread(draft, document)
+    for _ in range(4 if renames and misread else 0):
+        for node, (body, _) in misread.items():
             draft.node(node)["name"] = _own_name(draft.expected[node], body)
+        misread = _misread(draft, document)
     return {
         wanted: name
-        for node, (_, names) in _misread(draft, document).items()
+        for node, (_, names) in misread.items()
         for wanted, name in zip(draft.expected[node], names, strict=True)
         if wanted != name
     }

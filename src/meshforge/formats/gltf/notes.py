@@ -16,7 +16,6 @@ _HOW: dict[Convention, str] = {
     "omi collider": "its colliders are those of OMI_collider",
     "unreal": "its collision is the nodes that Unreal takes by their names, UCX_ and the like",
     "godot": "its collision is the nodes that Godot takes by their names, -col and the like",
-    "plain": "no node is marked as collision: all meshes are taken for it",
 }
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
 _KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")
@@ -25,7 +24,8 @@ _PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body
 
 def scene_notes(scene: Scene, convention: Convention) -> Iterator[str]:
     """The notes on a scene, whose collision was read by a convention."""
-    yield _HOW[convention]
+    if convention in _HOW:  # else all meshes are collision, as in any mesh file
+        yield _HOW[convention]
     placements, tree = scene.placements, scene.tree
     outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
     if outside:

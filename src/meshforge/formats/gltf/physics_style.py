@@ -31,6 +31,8 @@ class PhysicsStyle(Style):
     """
 
     renames = True
+    holds = ("polytope", "box", "sphere", "cylinder", "capsule")
+    lacks = "the extension has no"
 
     def __init__(self, draft: Draft, convention: Convention, drawn: bool = False) -> None:
         super().__init__(draft)

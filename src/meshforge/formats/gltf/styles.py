@@ -13,10 +13,13 @@ from meshforge.formats.gltf.draft import Draft
 class Style(ABC):
     """Edits one draft.
 
-    renames: whether a node may be given the name that its hull should have.
+    renames: whether a node may be given the name that its hull should have; holds: the shapes that come back as they
+    are, or, as a box does in a mesh, just as exactly; lacks: why others do not.
     """
 
     renames = False
+    holds: tuple[str, ...] = ("polytope", "box")
+    lacks = "meshes have no"
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft

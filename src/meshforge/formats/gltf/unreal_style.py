@@ -17,6 +17,9 @@ _PREFIXES = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}
 class UnrealStyle(Style):
     """A hull is a node with a mesh, called after the mesh it stands for: `UCX_table_02`."""
 
+    holds = ("polytope", *_PREFIXES)
+    lacks = "Unreal has no"
+
     def remove(self, element: Authored) -> None:
         self.draft.empty(element.node)
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import overload
 
 from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
+from meshforge.formats.gltf.colors import coloured
 from meshforge.formats.gltf.conventions import convention_of
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.names import godot_kind, unreal_kind
@@ -38,8 +40,9 @@ class SceneSurfaces(Sequence[Surface]):
             found = []
             for index in visible(scene, convention_of(scene)):
                 mesh, linear, offset = scene.placed(scene.placements[index])
-                if len(mesh.faces):
-                    found.append(placed(mesh.vertices, mesh.faces, linear, offset, self._bodies.get(index)))
+                body = self._bodies.get(index)
+                for part, rgba in coloured(scene, scene.placements[index].node["mesh"], mesh):
+                    found.append(replace(placed(part.vertices, part.faces, linear, offset, body), rgba=rgba))
             return found
 
     @overload

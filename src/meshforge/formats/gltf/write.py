@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +24,7 @@ from meshforge.formats.gltf.unreal_style import UnrealStyle
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.parts import renaming
 from meshforge.formats.urdf.document import digest_of
+from meshforge.words import counted
 
 
 def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
@@ -44,7 +46,8 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         draft = Draft(scene, copy.deepcopy(base.tree), base.before)
         names = _edited(draft, document, kept, made, asset.path)
         output = packed(base, scene, draft.geometry, name)
-    return replace(output, notes=(*draft.notes, *renaming(names)), names=names)
+    notes = _as_hulls(style_of(document.convention, draft), made)
+    return replace(output, notes=(*notes, *renaming(names)), names=names)
 
 
 def _edited(draft: Draft, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path) -> dict[str, str]:
@@ -91,15 +94,17 @@ def _place(style: Style, geom: Geom, document: GltfDocument, path: Path) -> None
     if geom.body not in nodes and geom.body not in bodies:
         raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
     parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
-    if geom.shape.kind == "ellipsoid" or (not isinstance(style, PhysicsStyle) and geom.shape.is_primitive):
-        style.draft.notes.append(_as_hull(style, geom))
     own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
     style.make(geom, own, nodes.get(geom.body), parent)
 
 
-def _as_hull(style: Style, geom: Geom) -> str:
-    count = len(geom.shape.vertices)
-    return f"{geom.name!r}, of shape {geom.shape.kind}, is written as a mesh of {count} vertices"
+def _as_hulls(style: Style, made: Sequence[Geom]) -> list[str]:
+    """Notes on the round shapes that the convention of a file lacks."""
+    count = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
+    return [
+        f"{counted(number, kind)} written as hull meshes: {style.lacks} {kind}"
+        for kind, number in sorted(count.items())
+    ]
 
 
 def _refuse_changed(document: GltfDocument, asset: Asset) -> None:
