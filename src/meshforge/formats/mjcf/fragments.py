@@ -58,7 +58,9 @@ def _candidates(folder: Path) -> list[Path]:
 
 def _includes(path: Path, fragment: Path) -> bool:
     try:
-        if path == fragment or path.stat().st_size > _MOST_BYTES or b"<include" not in path.read_bytes():
+        if path == fragment or not path.is_file() or path.stat().st_size > _MOST_BYTES:
+            return False
+        if b"<include" not in path.read_bytes():
             return False
         tree = gather(path)
     except (MeshForgeError, OSError):

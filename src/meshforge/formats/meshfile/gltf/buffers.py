@@ -82,7 +82,7 @@ class Buffers:
         if uri.startswith("data:"):
             return _of_data_uri(uri)
         try:
-            return self._beside(uri).read_bytes()
+            return self._file(uri).read_bytes()
         except OSError as error:
             why = "is not there" if isinstance(error, FileNotFoundError) else f"cannot be read: {error.strerror}"
             raise AssetError(
@@ -90,6 +90,15 @@ class Buffers:
                 where=str(self.path),
                 remedy="Put it there, or export the model as one .glb.",
             ) from error
+
+    def _file(self, uri: str) -> Path:
+        """The file of a buffer. Raises OSError: a pipe would be waited for, a device may never end."""
+        path = self._beside(uri)
+        if path.exists() and not path.is_file():
+            raise OSError(0, "it is a folder, a pipe or a device")
+        if "\0" in str(path):
+            raise FileNotFoundError(uri)
+        return path
 
     def _beside(self, uri: str) -> Path:
         return self.path.parent / unquote(uri).replace("\\", "/")
