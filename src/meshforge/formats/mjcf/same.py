@@ -24,7 +24,7 @@ _OF_BODY = tuple(
 )
 _OF_MASS = (
     *("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_subtreemass", "body_invweight0"),
-    *("dof_M0", "dof_invweight0", "tendon_invweight0", "actuator_acc0"),
+    *("dof_M0", "dof_invweight0", "dof_simplenum", "tendon_invweight0", "actuator_acc0"),
 )
 _OTHERS = (
     *("jnt_", "dof_", "site_", "cam_", "light_", "mat_", "eq_", "tendon_", "actuator_", "sensor_", "exclude_"),
