@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from meshforge.formats.obj_text import rows_text
 from meshforge.formats.references import Resolver, placement
 from meshforge.geometry import Floats, Ints
 
@@ -62,6 +63,4 @@ def folder_of(reference: str | None) -> str:
 
 def obj_text(vertices: Floats, faces: Ints) -> bytes:
     """An OBJ of vertices (n, 3) in full precision and triangles (m, 3)."""
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (vertices + 0.0).tolist()]
-    lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
-    return ("\n".join(lines) + "\n").encode()
+    return rows_text(vertices, faces)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from meshforge.formats.parts import Part
+from meshforge.geometry import Floats, Ints
 
 
 def parts_text(parts: Sequence[Part], start: int = 0, end: bytes = b"\n", colors: int = 0) -> bytes:
@@ -14,15 +15,22 @@ def parts_text(parts: Sequence[Part], start: int = 0, end: bytes = b"\n", colors
     start: the vertices ahead of them in the file; end: the line end; colors: values behind the coordinates of each
     vertex, where the file has colours there (some readers want them for all).
     """
-    lines: list[bytes] = []
-    tail = " 1.0" * colors
+    text: list[bytes] = []
     for part in parts:
-        surface = part.surface
-        lines.append(named(b"o", part.name))
-        lines += [f"v {x!r} {y!r} {z!r}{tail}".encode() for x, y, z in (surface.vertices + 0.0).tolist()]
-        lines += [f"f {a} {b} {c}".encode() for a, b, c in (surface.faces + 1 + start).tolist()]
-        start += len(surface.vertices)
-    return b"".join(line + end for line in lines)
+        vertices, faces = part.surface.vertices, part.surface.faces
+        text += [named(b"o", part.name), end, rows_text(vertices, faces + start, end, " 1.0" * colors)]
+        start += len(vertices)
+    return b"".join(text)
+
+
+def rows_text(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "") -> bytes:
+    """The statements of vertices (n, 3) in full precision and of triangles (m, 3), whose numbers count from 0.
+
+    end: the line end; tail: what follows the coordinates of each vertex.
+    """
+    last = end.decode()
+    corners = f"v %r %r %r{tail}{last}" * len(vertices) % tuple((vertices + 0.0).ravel().tolist())
+    return (corners + f"f %d %d %d{last}" * len(faces) % tuple((faces + 1).ravel().tolist())).encode()
 
 
 def named(word: bytes, name: str) -> bytes:

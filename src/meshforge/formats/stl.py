@@ -36,12 +36,12 @@ class Stl(PlainFormat):
         data = edit.document.data
         text = parse_stl(data, str(edit.path))
         if text.binary:
-            records = np.frombuffer(data, RECORD, len(text.corners), HEADER)[edit.stays]
-            return _binary(data[:80], [records, *map(_records, edit.parts)])
+            kept = np.frombuffer(data, RECORD, len(text.corners), HEADER)[edit.stays]
+            return _binary(data[:80], [kept, _records(edit.parts)])
         return _ascii(data, text, edit)
 
     def made(self, parts: Sequence[Part]) -> bytes:
-        return _binary(_TITLE, list(map(_records, parts)))
+        return _binary(_TITLE, [_records(parts)])
 
 
 def _binary(title: bytes, records: Sequence[npt.NDArray[np.void]]) -> bytes:
@@ -60,8 +60,8 @@ def _normals(corners: Floats) -> Floats:
     return normals / np.where(lengths > 0, lengths, 1.0) + 0.0
 
 
-def _records(part: Part) -> npt.NDArray[np.void]:
-    corners = _corners(part)
+def _records(parts: Sequence[Part]) -> npt.NDArray[np.void]:
+    corners = np.concatenate([np.zeros((0, 3, 3)), *map(_corners, parts)])
     records = np.zeros(len(corners), RECORD)
     records["normal"] = _normals(corners)
     records["corners"] = corners

@@ -21,6 +21,7 @@ from meshforge.geometry import Floats
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, RecursionError, OverflowError, MemoryError)
 _ALIKE = 1e-12  # how far a quaternion's length may be from one, squared, to be taken as it is
+_PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -117,6 +118,8 @@ def damage_at(where: str) -> Iterator[None]:
 def matrix_of(node: Json) -> Floats:
     """The transform (4, 4) of a node to its parent. Raises ValueError."""
     matrix = np.eye(4)
+    if _PLACED.isdisjoint(node):
+        return matrix
     if "matrix" in node:
         return numbers(node, "matrix", 16, ()).reshape(4, 4).T
     quaternion = numbers(node, "rotation", 4, (0.0, 0.0, 0.0, 1.0))
