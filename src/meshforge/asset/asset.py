@@ -39,12 +39,14 @@ class Geom:
 class Surface:
     """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
 
-    body: the one that shows it, None where that is not told.
+    body: the one that shows it, None where that is not told; rgba: its colour, four shares of 1, None where it has no
+    single one.
     """
 
     vertices: Floats
     faces: Ints
     body: str | None = None
+    rgba: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

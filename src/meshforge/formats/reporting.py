@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.asset import Asset, Feature, What, features
+from meshforge.asset import Asset, Feature, Surface, What, features
 from meshforge.formats.base import Format, Output
 from meshforge.formats.companions import companions
 from meshforge.formats.losses import Loss
-from meshforge.formats.visuals import LazySurfaces
+from meshforge.formats.visuals import LazySurfaces, Visual
 from meshforge.words import listed
 
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
@@ -61,6 +61,8 @@ def _lost(feature: Feature, target: Format) -> Loss:
 
 
 def _why(what: What, target: Format) -> str:
+    if what is What.MATERIALS and What.COLORS in target.holds:
+        return f"MeshForge carries their plain colours alone over to {target.title}"
     if what in target.could | target.holds:
         return f"MeshForge does not carry {what.many} over to {target.title}"
     return _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
@@ -78,11 +80,11 @@ def _renamed(output: Output, target: Format) -> list[Loss]:
 def _of_visuals(asset: Asset) -> Iterator[Feature]:
     """Visuals and their colours."""
     if not isinstance(asset.visuals, LazySurfaces):
-        yield _counted(What.VISUALS, [surface.body for surface in asset.visuals])
-        return
-    visuals = asset.visuals.visuals
-    yield _counted(What.VISUALS, [visual.body for visual in visuals])
-    yield _counted(What.COLORS, [visual.body for visual in visuals if visual.rgba is not None])
+        shown: Sequence[Surface | Visual] = asset.visuals
+    else:
+        shown = asset.visuals.visuals
+    yield _counted(What.VISUALS, [visual.body for visual in shown])
+    yield _counted(What.COLORS, [visual.body for visual in shown if visual.rgba is not None])
 
 
 def _faded(asset: Asset, target: Format) -> list[Loss]:

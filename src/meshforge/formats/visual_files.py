@@ -65,7 +65,7 @@ class VisualFiles:
         link_t_root = root_t_link.inverse()
         if isinstance(visual, Surface):
             reference = self._made_of(f"{body}-visual", link_t_root.apply(visual.vertices), visual.faces)
-            return Shown(reference, Pose.identity(), np.ones(3), None)
+            return Shown(reference, Pose.identity(), np.ones(3), visual.rgba)
         moved = visual.moved(link_t_root)
         if isinstance(moved.what, Shape):
             return Shown(moved.what, Pose.identity(), np.ones(3), moved.rgba)

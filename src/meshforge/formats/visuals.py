@@ -39,11 +39,13 @@ class Visual:
     def surfaces(self) -> list[Surface]:
         """Its surfaces; none where the file cannot be read."""
         if isinstance(self.what, Shape):
-            return [Surface(self.what.vertices, self.what.faces, self.body)]
+            return [Surface(self.what.vertices, self.what.faces, self.body, self.rgba)]
         try:
-            return [placed(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read_triangles(self.what)]
+            read = read_triangles(self.what)
         except MeshForgeError:
             return []
+        found = [placed(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
+        return [replace(surface, rgba=self.rgba) for surface in found]
 
 
 class LazySurfaces(Sequence[Surface]):

@@ -15,7 +15,7 @@ from meshforge.formats.losses import Loss
 from meshforge.formats.mjcf.document import geom_names
 from meshforge.formats.mjcf.elements import Native, geom_attributes, mesh_geom_attributes, pose_attributes, tag
 from meshforge.formats.mjcf.joints import joint_tag, parts_of
-from meshforge.formats.mjcf.masses import inertial_tag, light_tag
+from meshforge.formats.mjcf.masses import LEAST, LIGHT, inertial_tag, light_tag
 from meshforge.formats.mjcf.mesh_assets import MeshAssets
 from meshforge.formats.mjcf.shown_whole import shown_whole
 from meshforge.formats.visual_files import VisualFiles, visuals_of
@@ -132,8 +132,7 @@ class _Creator:
         joints = [part for joint in self.tree.joints[body] for part in self._parts(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
-        if self.bodies[body] != WORLD:
-            yield from (lead + text for text in self._mass(body, moves=bool(joints), hulls=bool(own)))
+        yield from (lead + text for text in self._mass(body, bool(joints), sum(geom.shape.volume for geom in own)))
         yield from (lead + self._geom(geom) for geom in own)
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
         yield from (lead + text for piece in pieces if piece.plane for text in self._plane(piece, piece.plane))
@@ -147,14 +146,18 @@ class _Creator:
             self.notes.setdefault(how, [])
         return parts
 
-    def _mass(self, body: str, moves: bool, hulls: bool) -> Iterator[bytes]:
+    def _mass(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
+        """The mass of a body, whose hulls have a volume [m^3]; one that is to move has some mass in any case."""
         inertial = self.inertials.get(body)
-        if inertial is not None:
+        if self.bodies[body] == WORLD:
+            if inertial is not None:
+                self.lost.append(Loss(What.MASSES, (body,), "the world of MuJoCo has none"))
+        elif inertial is not None and (inertial.mass >= LEAST or not moves):
             text, changed = inertial_tag(inertial, self.poses[body])
             if changed:
                 self.notes.setdefault(_MENDED, []).append(body)
             yield text
-        elif hulls:
+        elif inertial is None and volume * _DENSITY >= (LIGHT if moves else 0) and volume > 0:
             self.notes.setdefault(_COMPUTED, []).append(body)
         elif moves:
             self.notes.setdefault(_LIGHT, []).append(body)
@@ -167,8 +170,10 @@ class _Creator:
         shape = geom.shape.moved(body_t_root)
         if isinstance(shape, Native):
             return tag("geom", {**named, **class_, **geom_attributes(shape)})
-        mesh = self.meshes.hull(geom.name, shape.tessellated())
-        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, Pose.identity())})
+        middle = shape.aabb.center
+        place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
+        mesh = self.meshes.hull(geom.name, shape.moved(place.inverse()).tessellated())
+        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, place)})
 
     def _name(self, piece: str) -> dict[str, str]:
         name = self.named[piece][0]
@@ -226,9 +231,11 @@ class _Creator:
         return tuple(notes)
 
 
+_FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
 _MENDED = "moments of inertia that no rigid body has are replaced by their mean"
-_COMPUTED = "MuJoCo computes the masses that are not told, at 1000 kg/m^3"
-_LIGHT = "moving bodies without a mass or a hull get 1e-06 kg"
+_DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
+_COMPUTED = f"MuJoCo computes the masses that are not told, at {_DENSITY:g} kg/m^3"
+_LIGHT = f"moving bodies without a mass to speak of get {LIGHT:g} kg"
 _DEFAULTS = [
     b"  <default>",
     b'    <default class="collision">',

@@ -11,6 +11,9 @@ from meshforge.geometry import Floats, Pose
 
 LIGHT = 1e-6
 """The mass [kg] of a moving body that has none; MuJoCo refuses to move nothing."""
+LEAST = 1e-9
+"""The least mass [kg] that a moving body is left with."""
+_LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
 _LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
 _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
 
@@ -48,10 +51,10 @@ def _legal(moments: Floats, mass: float) -> Floats:
     largest = int(np.argmax(moments))
     others = float(moments.sum() - moments[largest])
     excess = float(moments[largest]) - others
-    if moments.min() > 0 and excess <= 0:
+    if moments.min() > _LEAST_MOMENT and excess <= 0:
         return moments
-    if moments.min() > 0 and excess <= _SLIGHT * moments[largest]:
+    if moments.min() > _LEAST_MOMENT and excess <= _SLIGHT * moments[largest]:
         mended = moments.copy()
         mended[largest] = others * (1 - 1e-12)
         return mended
-    return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass))
+    return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass, _LEAST_MOMENT))

@@ -36,7 +36,8 @@ def joint_element(made: LinkJoint) -> list[bytes]:
         lower, upper = joint.limits or (-ENDLESS, ENDLESS)
         range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_number(lower), _number(upper))
         most = _number(joint.effort or _STRONG), _number(joint.velocity or _STRONG)
-        lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
+        if range_ or joint.effort or joint.velocity:
+            lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
     if joint and (joint.damping or joint.friction):
         said = _number(joint.damping), _number(joint.friction)
         lines.append(b'    <dynamics damping="%s" friction="%s"/>' % said)
