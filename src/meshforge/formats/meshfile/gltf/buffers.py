@@ -17,6 +17,7 @@ from meshforge.formats.meshfile.gltf.items import Json, entries, entry, extensio
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+_MOST_ZEROS = 10_000_000  # values of an accessor without a buffer, which a few bytes ask for
 
 
 class Buffers:
@@ -33,6 +34,8 @@ class Buffers:
         count, width, kind = _layout(accessor)
         if "bufferView" in accessor:
             values = self._strided(accessor["bufferView"], accessor, count, kind, width)
+        elif count > _MOST_ZEROS:
+            raise ValueError(f"accessor {index} has {count:,} values and no buffer")
         else:
             values = np.zeros((count, width), kind)
         if "sparse" in accessor:
@@ -79,6 +82,8 @@ class Buffers:
             if self.chunk is None or index > 0:
                 raise ValueError(f"buffer {index} has neither a uri nor a binary chunk")
             return self.chunk
+        if not isinstance(uri, str):
+            raise ValueError(f"the uri of buffer {index} is no text")
         if uri.startswith("data:"):
             return _of_data_uri(uri)
         try:
@@ -106,6 +111,8 @@ class Buffers:
     def _mended(self, values: npt.NDArray[Any], sparse: Json) -> npt.NDArray[Any]:
         """Values (count, width) with those of a sparse accessor in their places."""
         count = sparse["count"]
+        if not isinstance(count, int) or count < 0:
+            raise ValueError(f"a sparse accessor of {count!r} values")
         kind = np.dtype(_TYPES[sparse["indices"]["componentType"]])
         at = self._strided(sparse["indices"]["bufferView"], sparse["indices"], count, kind, 1).ravel()
         new = self._strided(sparse["values"]["bufferView"], sparse["values"], count, values.dtype, values.shape[1])
