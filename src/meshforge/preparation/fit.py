@@ -13,6 +13,7 @@ from meshforge.words import counted
 
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
+_SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
 _LEAST = 0.005  # shares below are told as none
 
 
@@ -22,9 +23,9 @@ def told_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) -> str
     An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
     """
     parts = [counted(len(hulls), "hull")]
-    volume = enclosed_volume(surface.vertices, surface.faces) if solid else None
-    if volume:
-        excess = volume_of_union(hulls) / volume - 1
+    volume, own = volume_of_union(hulls), enclosed_volume(surface.vertices, surface.faces) if solid else None
+    if own and own > _SKIN * volume:
+        excess = volume / own - 1
         parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {_word(excess)} volume")
     bare = uncovered(surface, hulls)
     parts += [f"{bare:.0%} of the surface outside"] if bare >= _LEAST else []
