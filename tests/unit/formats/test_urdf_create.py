@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Opaque, Surface
+from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
+from meshforge.formats import save
 from meshforge.formats.base import Output
 from meshforge.formats.reporting import report
 from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.visuals import LazySurfaces, Visual
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
-from tests.urdf_sample import put, read
+from tests.urdf_sample import boxes_obj, put, read
 
 TURNED = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])
 BLOCK = Box.filling(Aabb((0, 0, 0), (1, 2, 3)))
+BLOCK_OBJ = boxes_obj(((0, 0, 0), (1, 2, 3)))
 
 
 def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaque: Opaque) -> Asset:
@@ -103,3 +108,143 @@ def test_opaque_pieces_are_meshes_as_they_are_unless_they_are_flat(flat: bool, t
         if flat
         else "of opaque pieces (lid/open) engines take the convex hull"
     ]
+
+
+def jointed(*joints: Joint, bodies: dict[str, Pose] | None = None) -> Asset:
+    """Bodies with a hull each, with joints between them."""
+    poses = bodies or {"base": Pose.identity(), "arm": TURNED}
+    asset = foreign(poses, [(f"{name}/a", name, BLOCK) for name in poses if name != "world"])
+    return replace(asset, mechanism=Mechanism(joints))
+
+
+def elements(path: Path, tag: str) -> dict[str, ElementTree.Element]:
+    return {element.attrib["name"]: element for element in ElementTree.parse(path).getroot().iter(tag)}
+
+
+def test_a_link_has_its_frame_on_the_axis_of_its_joint(tmp_path: Path) -> None:
+    axis = np.array([0.6, 0.0, 0.8])
+    away = TURNED.translation + np.array([0.5, 0, 0])
+    again, _, _ = created(jointed(Joint("j", "revolute", "base", "arm", away, axis)), tmp_path)
+    joint = again.mechanism.joints[0]
+    np.testing.assert_allclose(joint.axis, axis, atol=1e-12)
+    np.testing.assert_allclose(np.cross(joint.anchor - away, axis), 0, atol=1e-12)
+    assert np.linalg.norm(joint.anchor - TURNED.translation) == pytest.approx(0.4)  # the nearest point of the axis
+    np.testing.assert_allclose(again.geoms[1].shape.aabb.max, BLOCK.aabb.max, atol=1e-12)
+
+
+def test_a_frame_that_is_on_the_axis_stays_where_it_is(tmp_path: Path) -> None:
+    axis = np.array([0.6, 0.0, 0.8])
+    along = TURNED.translation + 3 * axis
+    again, _, _ = created(jointed(Joint("j", "revolute", "base", "arm", along, axis)), tmp_path)
+    np.testing.assert_allclose(again.body_poses["arm"].translation, TURNED.translation, atol=1e-12)
+
+
+def test_limits_are_told_as_urdf_wants_them(tmp_path: Path) -> None:
+    bodies = {name: Pose.identity() for name in ("base", "a", "b", "c", "d")}
+    x = np.array([1.0, 0, 0])
+    joints = (
+        Joint("endless", "revolute", "base", "a", np.zeros(3), x),
+        Joint("hinge", "revolute", "base", "b", np.zeros(3), x, (-1.0, 0.5), effort=3.0, velocity=4.0),
+        Joint("rail", "prismatic", "base", "c", np.zeros(3), x),
+        Joint("plane", "planar", "base", "d", np.zeros(3), x),
+    )
+    _, path, output = created(jointed(*joints, bodies=bodies), tmp_path)
+    found = elements(path, "joint")
+    assert {name: joint.attrib["type"] for name, joint in found.items()} == {
+        "endless": "continuous",
+        "hinge": "revolute",
+        "rail": "prismatic",
+        "plane": "planar",
+    }
+    limits = {name: limit.attrib for name, joint in found.items() if (limit := joint.find("limit")) is not None}
+    assert limits == {
+        "hinge": {"lower": "-1", "upper": "0.5", "effort": "3", "velocity": "4"},
+        "rail": {"lower": "-1000", "upper": "1000", "effort": "1000", "velocity": "1000"},
+    }
+    assert "prismatic joints without limits (rail) are limited to 1000 m each way" in output.notes
+
+
+def test_a_world_that_only_holds_one_body_is_left_out(tmp_path: Path) -> None:
+    bodies = {"world": Pose.identity(), "cup": TURNED}
+    free = Joint("loose", "floating", "world", "cup", np.zeros(3), np.array([0, 0, 1.0]))
+    asset = jointed(free, bodies=bodies)
+    again, _, output = created(asset, tmp_path)
+    assert [body.name for body in again.bodies] == ["cup"]
+    np.testing.assert_array_equal(again.body_poses["cup"].translation, 0)
+    np.testing.assert_allclose(again.geoms[0].shape.aabb.max, BLOCK.aabb.max, atol=1e-12)
+    said = told(asset, output)
+    assert "1 joint (loose) is left out: the root link of a URDF has none" in said
+    assert any(note.startswith("'cup' moves freely: it is the root link") for note in said)
+    hinged = jointed(replace(free, kind="revolute"), bodies=bodies)
+    assert [body.name for body in created(hinged, tmp_path)[0].bodies] == ["world", "cup"]
+
+
+def test_two_free_bodies_float_in_the_world(tmp_path: Path) -> None:
+    bodies = {"world": Pose.identity(), "cup": TURNED, "lid": Pose.identity()}
+    up = np.array([0, 0, 1.0])
+    joints = tuple(Joint("", "floating", "world", child, np.zeros(3), up) for child in ("cup", "lid"))
+    again, path, _ = created(jointed(*joints, bodies=bodies), tmp_path)
+    assert [(joint.name, joint.kind) for joint in again.mechanism.joints] == [
+        ("cup_floating", "floating"),
+        ("lid_floating", "floating"),
+    ]
+    assert mujoco_model(path).njnt == 2
+
+
+def test_joints_of_one_body_have_light_links_between_them(tmp_path: Path) -> None:
+    x, z = np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
+    slide = Joint("slide", "prismatic", "base", "arm", np.zeros(3), x, (0.0, 1.0))
+    turn = Joint("", "ball", "base", "arm", np.array([4.0, 5, 6]), z)
+    asset = jointed(slide, turn)
+    again, path, output = created(asset, tmp_path)
+    assert [joint.kind for joint in again.mechanism.joints] == ["prismatic", "revolute", "revolute", "revolute"]
+    assert [body.name for body in again.bodies] == ["base", "arm_slide", "arm_arm_ball_x", "arm_arm_ball_y", "arm"]
+    assert [inertial.mass for inertial in again.mechanism.inertials] == [1e-6] * 3
+    for joint in again.mechanism.joints[1:]:  # all three axes go through the middle of the ball
+        np.testing.assert_allclose(np.cross(joint.anchor - [4, 5, 6], joint.axis), 0, atol=1e-12)
+    assert mujoco_model(path).njnt == 4
+    said = told(asset, output)
+    assert "1 ball joint is written as three joints that turn about one point: URDF has no ball joints" in said
+    assert "links of 1e-06 kg stand between joints of one body (arm_slide, arm_arm_ball_x, arm_arm_ball_y)" in said
+
+
+def test_masses_are_told_in_the_frame_of_the_link(tmp_path: Path) -> None:
+    inertia = TURNED.rotation @ np.diag([0.1, 0.2, 0.25]) @ TURNED.rotation.T
+    mass = Inertial("arm", 2.5, TURNED.translation + TURNED.rotation @ [0, 0, 1], inertia)
+    asset = jointed(Joint("j", "fixed", "base", "arm", TURNED.translation, np.array([0, 0, 1.0])))
+    asset = replace(asset, mechanism=replace(asset.mechanism, inertials=(mass,)))
+    again, path, _ = created(asset, tmp_path)
+    inertial = ElementTree.parse(path).getroot().findall("link")[1].find("inertial")
+    assert inertial is not None
+    moments = inertial.find("inertia")
+    assert moments is not None
+    assert [round(float(moments.attrib[key]), 12) for key in ("ixx", "iyy", "izz")] == [0.1, 0.2, 0.25]
+    found = again.mechanism.inertials[0]
+    np.testing.assert_allclose(found.centre, mass.centre, atol=1e-12)
+    np.testing.assert_allclose(found.inertia, mass.inertia, atol=1e-12)
+
+
+def test_visuals_are_copied_with_what_lies_beside_them_or_become_objs(tmp_path: Path) -> None:
+    folder = tmp_path / "in"
+    (folder / "b").mkdir(parents=True)
+    (folder / "a.obj").write_text("mtllib b/a.mtl\n" + BLOCK_OBJ)
+    (folder / "b" / "a.mtl").write_text("newmtl oak\n")
+    ply = folder / "b" / "c.ply"
+    save(foreign({"x": Pose.identity()}, [("x", "x", BLOCK)]), ply)
+    linear = TURNED.rotation * np.array([2.0, 3.0, -4.0])
+    visuals = (
+        Visual("base", folder / "a.obj", linear, TURNED.translation, (1.0, 0.5, 0.25, 1.0)),
+        Visual("base", ply, np.eye(3), np.zeros(3)),
+        Visual("arm", Capsule(TURNED, 0.1, 0.4), np.eye(3), np.zeros(3)),
+        Visual("arm", Sphere(TURNED, 0.1), np.eye(3), np.zeros(3)),
+    )
+    asset = replace(jointed(), visuals=LazySurfaces(visuals))
+    again, path, output = created(asset, tmp_path / "out")
+    assert sorted(output.copies) == ["new--visuals/a.obj", "new--visuals/b/a.mtl"]
+    assert b'<mesh filename="new--visuals/a.obj" scale="2 3 -4"/>' in output.main
+    assert len(again.visuals) == len(asset.visuals) == 4
+    for old, new in zip(asset.visuals, again.visuals, strict=True):
+        assert (new.body, new.rgba) == (old.body, old.rgba)
+        np.testing.assert_allclose(new.vertices.max(axis=0), old.vertices.max(axis=0), atol=1e-6)
+        np.testing.assert_allclose(new.vertices.min(axis=0), old.vertices.min(axis=0), atol=1e-6)
+    assert [len(link.visuals) for link in yourdf(path).robot.links] == [2, 2]
