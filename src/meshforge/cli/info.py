@@ -102,7 +102,7 @@ def _print(mesh: SymbolicMesh, asset: str) -> None:
         columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
         table(columns, rows, right=("vertices", "volume", "touches"))
     if opaque:
-        typer.echo("\nOpaque (never selected, written back untouched; `meshforge decompose` makes hulls of it):")
+        typer.echo("\nOpaque (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:
             typer.echo(f"  {piece.name}: {piece.reason}")
     if mesh.near_misses:
