@@ -61,7 +61,7 @@ def _normals(corners: Floats) -> Floats:
 
 
 def _records(parts: Sequence[Part]) -> npt.NDArray[np.void]:
-    corners = np.concatenate([np.zeros((0, 3, 3)), *map(_corners, parts)])
+    corners = np.concatenate([np.zeros((0, 3, 3)), *(p.surface.vertices[p.surface.faces] for p in parts)]) + 0.0
     records = np.zeros(len(corners), RECORD)
     records["normal"] = _normals(corners)
     records["corners"] = corners

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from meshforge.geometry.arrays import Floats, Ints
 
@@ -35,13 +32,13 @@ def nearly_welded(points: Floats, corners: Ints, reach: float) -> Ints | None:
 
     Only points that are corners take part; None where no two are that near.
     """
+    from scipy.spatial import cKDTree  # a third of the time that all imports take, and seldom needed
+
     used = np.unique(corners)
     pairs = cKDTree(points[used]).query_pairs(reach, output_type="ndarray")
     if len(pairs) == 0:
         return None
-    group = linked(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
-    _, lowest = np.unique(group, return_index=True)
-    return np.asarray(lowest[group], dtype=np.int64)
+    return linked(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
 
 
 def by_vertices(corners: Ints) -> Ints:
@@ -78,10 +75,21 @@ def edges_of(corners: Ints) -> tuple[Ints, Bools]:
 
 
 def linked(a: Ints, b: Ints, count: int) -> Ints:
-    """The component (count,) of each of `count` things, of which a[k] and b[k] are linked."""
-    graph = coo_array((np.ones(len(a)), (a, b)), shape=(count, count))
-    labels: Ints = connected_components(graph, directed=False)[1].astype(np.int64)
-    return labels
+    """For each of `count` things, of which a[k] and b[k] are linked, the lowest one that it hangs together with.
+
+    Each lowest one so far takes on the lowest of its neighbours, until there is nothing to take.
+    """
+    lowest = np.arange(count)
+    while True:
+        one, other = lowest[a], lowest[b]
+        apart = one != other
+        if not apart.any():
+            return lowest
+        one, other = one[apart], other[apart]
+        a, b = a[apart], b[apart]
+        np.minimum.at(lowest, np.maximum(one, other), np.minimum(one, other))
+        while (lowest != (further := lowest[lowest])).any():
+            lowest = further
 
 
 def numbered(labels: Ints) -> Ints:

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from math import floor
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.convex import convex_hull
-from meshforge.geometry.pieces.connect import row_ids
+from meshforge.geometry.pieces.connect import linked, row_ids
 from meshforge.geometry.shapes.polytope import Polytope
 
 FILLED = 0.95
@@ -125,10 +123,9 @@ def _caps(points: Floats, rim: Ints, weight: Ints, origin: Floats, level: float)
     """Six times the volume that planar caps over the holes add; None where a hole is not planar."""
     used, local = np.unique(rim, return_inverse=True)
     local = local.reshape(-1, 2)
-    graph = coo_array((np.ones(len(local)), (local[:, 0], local[:, 1])), shape=(len(used),) * 2)
-    count, hole = connected_components(graph, directed=False)
+    hole = linked(local[:, 0], local[:, 1], len(used))
     total = 0.0
-    for k in range(count):
+    for k in np.unique(hole):
         edges = local[hole[local[:, 0]] == k]
         around = points[used[np.unique(edges)]]
         middle = around.mean(axis=0)
@@ -153,8 +150,7 @@ def _wound_alike(corners: Ints) -> Ints:
     n = len(corners)  # node k is triangle k as it is wound, node n + k is it turned over
     rows = np.concatenate([one, one + n])
     columns = np.concatenate([other + n * (1 - agree), other + n * agree])
-    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(2 * n, 2 * n))
-    _, side = connected_components(graph, directed=False)
+    side = linked(rows, columns, 2 * n)
     turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to mend
     out = corners.copy()
     out[turned] = out[turned][:, ::-1]
