@@ -60,6 +60,8 @@ def _surface(node: Node, world: Floats, name: str | None, where: str) -> list[Ra
     indices = node.numbers("coordIndex")
     if not all(x.is_integer() for x in indices):
         raise AssetError("a face names a vertex by a number that is not whole", where=where)
+    if not all(-1 <= x < len(points) for x in indices):
+        raise AssetError(f"a face names a vertex that is not there, there are {len(points)}", where=where)
     faces = fans(_polygons([int(x) for x in indices]))
     return [RawSurface(name, points, faces[:, ::-1] if node.word("ccw") == "FALSE" else faces)]
 
