@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import numpy as np
-
-from meshforge.asset import Asset, Geom, Joint, Opaque, Surface, What
+from meshforge.asset import Asset, Joint, What
 from meshforge.formats.base import Output
-from meshforge.formats.body_tree import BodyTree, free_name
+from meshforge.formats.body_tree import BodyTree
 from meshforge.formats.losses import Loss
-from meshforge.formats.mjcf.document import geom_names
-from meshforge.formats.mjcf.elements import Native, geom_attributes, mesh_geom_attributes, pose_attributes, tag
+from meshforge.formats.mjcf.elements import pose_attributes, tag
 from meshforge.formats.mjcf.joints import joint_tag, parts_of
 from meshforge.formats.mjcf.masses import LEAST, LIGHT, inertial_tag, light_tag
-from meshforge.formats.mjcf.mesh_assets import MeshAssets
-from meshforge.formats.mjcf.shown_whole import shown_whole
-from meshforge.formats.visual_files import VisualFiles, visuals_of
-from meshforge.formats.visuals import Rgba
-from meshforge.formats.xml import shown
+from meshforge.formats.mjcf.new_geoms import NewGeoms
+from meshforge.formats.mjcf.new_names import WORLD, new_body_names, new_geom_names
 from meshforge.geometry import Pose
 from meshforge.words import counted, listed
-
-WORLD = "world"
-"""What MuJoCo calls the body that never moves; no other may have this name."""
 
 
 def create_mjcf(asset: Asset, name: str) -> Output:
@@ -42,53 +32,24 @@ class _Creator:
         self.asset, self.stem = asset, stem
         self.tree = BodyTree.of(asset)
         self.poses = asset.body_poses
-        self.shown = visuals_of(asset)
-        self.meshes = MeshAssets(stem)
-        self.visuals = VisualFiles(self.meshes.files, shown_whole)
-        self.visuals.gather(self.shown)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names
-        self.bodies = self._body_names()
-        self.named = self._geom_names()
+        self.bodies = new_body_names(self.tree)
+        self.named = new_geom_names(asset, self.tree, self.bodies)
+        self.made = NewGeoms(asset, stem, self.tree, {piece: name for piece, (name, _) in self.named.items()})
         self.lost: list[Loss] = []
         self.notes: dict[str, list[str]] = {}
 
     def output(self) -> Output:
         body = list(self._lines())
         head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
-        defaults = _DEFAULTS if self.shown or self.asset.opaque else []
-        main = b"\n".join([*head, *defaults, *self.meshes.lines(), *body, b"</mujoco>", b""])
+        defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
+        meshes, files = self.made.meshes, self.made.files
+        main = b"\n".join([*head, *defaults, *meshes.lines(), *body, b"</mujoco>", b""])
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
-        return Output(
-            main, dict(self.meshes.files.made), self.visuals.copies, self._told(), names, tuple(self._losses())
-        )
-
-    def _body_names(self) -> dict[str, str]:
-        """What each body is called; the root of that name is the world."""
-        roots = [name for name in self.tree.roots if name == WORLD]
-        taken = {WORLD} | {body.name for body in self.asset.bodies}
-        return {
-            b.name: free_name(b.name, taken) if b.name == WORLD and not roots else b.name for b in self.asset.bodies
-        }
-
-    def _geom_names(self) -> dict[str, tuple[str, str]]:
-        """For each hull and plane the name attribute, empty where it needs none, and the name that it reads back as."""
-        pieces = [(geom.name, geom.body) for geom in self.asset.geoms]
-        pieces += [(piece.name, piece.body) for piece in self.asset.opaque if piece.plane]
-        ordered = [(name, own) for body in self.tree.order for name, own in pieces if own == body]
-        plain = [name.removeprefix(f"{body}/") for name, body in ordered]
-        seen = Counter(plain)
-        bodies = [self.bodies[body] for _, body in ordered]
-        wanted = [f"{body}/{name}" if seen[name] > 1 else name for body, name in zip(bodies, plain, strict=True)]
-        unnamed = geom_names([(body, "") for body in bodies])
-        taken: set[str] = set()
-        attributes = [
-            "" if read == f"{body}/{name}" else free_name(attribute, taken)
-            for read, body, name, attribute in zip(unnamed, bodies, plain, wanted, strict=True)
-        ]
-        back = geom_names(list(zip(bodies, attributes, strict=True)))
-        return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}
+        lost = (*self.made.losses(), *self.lost)
+        return Output(main, dict(meshes.files.made), files.copies, self._told(), names, lost)
 
     def _lines(self) -> Iterator[bytes]:
         """The `<worldbody>`, bodies nested in it."""
@@ -133,11 +94,13 @@ class _Creator:
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
         yield from (lead + text for text in self._mass(body, bool(joints), sum(geom.shape.volume for geom in own)))
-        yield from (lead + self._geom(geom) for geom in own)
+        yield from (lead + self.made.hull(geom) for geom in own)
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
-        yield from (lead + text for piece in pieces if piece.plane for text in self._plane(piece, piece.plane))
-        yield from (lead + text for text in self._visuals(body))
-        yield from (lead + text for piece in pieces if piece.surface for text in self._surface(piece, piece.surface))
+        yield from (lead + text for piece in pieces if piece.plane for text in self.made.plane(piece, piece.plane))
+        yield from (lead + text for text in self.made.visuals_of(body))
+        yield from (
+            lead + text for piece in pieces if piece.surface for text in self.made.surface(piece, piece.surface)
+        )
 
     def _parts(self, joint: Joint, top: bool) -> Sequence[Joint]:
         parts = parts_of(joint, top, self.joint_names)
@@ -163,61 +126,6 @@ class _Creator:
             self.notes.setdefault(_LIGHT, []).append(body)
             yield light_tag()
 
-    def _geom(self, geom: Geom) -> bytes:
-        named = self._name(geom.name)
-        class_ = {"class": "collision"} if self.shown else {}
-        body_t_root = self.poses[geom.body].inverse()
-        shape = geom.shape.moved(body_t_root)
-        if isinstance(shape, Native):
-            return tag("geom", {**named, **class_, **geom_attributes(shape)})
-        middle = shape.aabb.center
-        place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
-        mesh = self.meshes.hull(geom.name, shape.moved(place.inverse()).tessellated())
-        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, place)})
-
-    def _name(self, piece: str) -> dict[str, str]:
-        name = self.named[piece][0]
-        return {"name": name} if name else {}
-
-    def _visuals(self, body: str) -> Iterator[bytes]:
-        for own, visual in self.shown:
-            if own != body or (seen := self.visuals.shown(body, visual, self.poses[body])) is None:
-                continue
-            if isinstance(seen.what, Native):
-                yield _visual(geom_attributes(seen.what), seen.rgba)
-            elif isinstance(seen.what, str):
-                mesh = self.meshes.shown(seen.what, seen.scale)
-                yield _visual(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
-            else:
-                file = self.meshes.files.add(f"{body}-visual", "", seen.what.vertices, seen.what.faces)
-                yield _visual(mesh_geom_attributes(self.meshes.shown(file, np.ones(3)), Pose.identity()), seen.rgba)
-
-    def _plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
-        """An endless plane."""
-        if not self.tree.is_static(piece.body):
-            self.lost.append(Loss(What.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only"))
-            return
-        said = pose_attributes(self.poses[piece.body].inverse() @ plane)
-        yield tag("geom", {**self._name(piece.name), "type": "plane", "size": "0 0 1", **said})
-
-    def _surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
-        """An opaque surface to look at, where its body shows nothing else."""
-        why = "MuJoCo would collide with the convex hull"
-        if any(body == piece.body for body, _ in self.shown):
-            self.lost.append(Loss(What.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
-            return
-        seen = self.visuals.shown(piece.name, surface, self.poses[piece.body])
-        assert seen is not None  # only files may be unreadable
-        assert isinstance(seen.what, str)
-        self.lost.append(Loss(What.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
-        yield _visual(mesh_geom_attributes(self.meshes.shown(seen.what, seen.scale), seen.pose), None)
-
-    def _losses(self) -> Iterator[Loss]:
-        """What is lost."""
-        if self.visuals.refused:
-            yield Loss(What.VISUALS, tuple(dict.fromkeys(self.visuals.refused)), "their files cannot be read")
-        yield from self.lost
-
     def _told(self) -> tuple[str, ...]:
         notes = [f"{text} ({listed(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
@@ -231,7 +139,6 @@ class _Creator:
         return tuple(notes)
 
 
-_FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
 _MENDED = "moments of inertia that no rigid body has are replaced by their mean"
 _DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
 _COMPUTED = f"MuJoCo computes the masses that are not told, at {_DENSITY:g} kg/m^3"
@@ -246,8 +153,3 @@ _DEFAULTS = [
     b"    </default>",
     b"  </default>",
 ]
-
-
-def _visual(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
-    color = {"rgba": shown(rgba)} if rgba else {}
-    return tag("geom", {"class": "visual", **attributes, **color})
