@@ -1,0 +1,148 @@
+"""Laws of editing glTF: whatever the scene and the edit, the hulls are those asked for, and all else is as it was."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.asset import Asset, Geom
+from meshforge.formats import read, save
+from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, same_shape
+from tests.gltf_files import KHR, SceneFile, Tree, tree_of
+from tests.soups import angle, box, together
+
+NAMES: dict[str, list[str | None]] = {
+    "plain": [None, "leg", "leg", "top 1", "é/#0"],
+    "unreal": ["UCX_leg_01", "UCX_leg", "ubx_top_3", "leg", None],
+    "godot": ["leg-col", "leg-colonly", "top_convcol.001", "top-convcolonly", "leg"],
+    "khr": [None, "leg", "leg", "top"],
+}
+NUMBERS = st.sampled_from([-2.0, -1.0, 0.5, 1.0, 3.0])
+TURNS = st.sampled_from([[0, 0, 0, 1], [0.5, 0.5, 0.5, 0.5], [0, 0.6, 0, 0.8]])
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> SceneFile:
+    """A scene of a convention: nodes in a random forest, with shared meshes of one to three pieces."""
+    convention = draw(st.sampled_from(sorted(NAMES)))
+    scene = SceneFile()
+    scene.tree |= {"extras": {"n": 1.25}, "materials": [{"name": "wood"}, {"doubleSided": True}]}
+    parts = [box(), together(box(), box((3, 0, 0))), together(box(), angle(), box((0, 5, 0))), angle()]
+    for soup in draw(st.lists(st.sampled_from(parts), min_size=1, max_size=3)):
+        scene.mesh(scene.primitive(soup, material=draw(st.integers(0, 1))))
+    count = draw(st.integers(1, 6))
+    parents = [draw(st.integers(-1, k - 1)) for k in range(count)]
+    if convention == "khr":
+        scene.uses(KHR)
+        scene.collider("always", {"type": "box", "box": {"size": [1, 2, 3]}})
+    first = len(scene.tree.get("nodes", []))
+    for _ in range(count):
+        node = _node(draw, scene, convention)
+        name = draw(st.sampled_from(NAMES[convention]))
+        scene.node(name, None, **node)
+    for k, parent in enumerate(parents):
+        if parent >= 0:
+            scene.tree["nodes"][first + parent].setdefault("children", []).append(first + k)
+    return scene
+
+
+def _node(draw: st.DrawFn, scene: SceneFile, convention: str) -> Tree:
+    node: Tree = {"extras": {"k": draw(st.integers(0, 9))}} if draw(st.booleans()) else {}
+    if draw(st.integers(0, 4)):
+        node["mesh"] = draw(st.integers(0, len(scene.tree["meshes"]) - 1))
+    if draw(st.booleans()):
+        node |= {"translation": [draw(NUMBERS) for _ in range(3)], "rotation": draw(TURNS)}
+    if draw(st.booleans()):
+        node["scale"] = [draw(NUMBERS) for _ in range(3)]
+    if convention == "khr" and draw(st.booleans()):
+        mesh = draw(st.integers(0, len(scene.tree["meshes"]) - 1))
+        collider = {"geometry": {"mesh": mesh, "convexHull": draw(st.booleans())}, "extras": {"keep": True}}
+        node["extensions"] = {KHR: {"collider": collider}}
+        if draw(st.booleans()):
+            node["extensions"][KHR]["motion"] = {}
+    return node
+
+
+def shapes() -> st.SearchStrategy[Shape]:
+    turned = Pose.from_rpy([1, 2, 3], [0.3, 0.2, 0.1])
+    return st.sampled_from(
+        [Box(turned, np.array([1.0, 2, 3])), Sphere(turned, 2.0), Capsule(turned, 1.0, 2.0), convex_hull(angle()[0])]
+    )
+
+
+def edited(draw: st.DataObject, asset: Asset) -> Asset:
+    """Some hulls gone, some of them with others in their stead."""
+    geoms = []
+    for geom in asset.geoms:
+        match draw.draw(st.sampled_from(["keep", "keep", "delete", "replace"])):
+            case "keep":
+                geoms.append(geom)
+            case "replace":
+                geoms.append(Geom(f"{geom.name}~1", geom.body, draw.draw(shapes()), geom.name))
+    return asset.with_geoms(geoms)
+
+
+@settings(max_examples=80)
+@given(scenes(), st.sampled_from([".glb", ".gltf"]), st.data())
+def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix: str, draw: st.DataObject) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        source = scene.write(Path(folder) / f"a{suffix}")
+        assume(any("mesh" in n or "extensions" in n for n in scene.tree["nodes"]))
+        before = read(source)
+        save(before, Path(folder) / "same" / source.name)
+        assert (Path(folder) / "same" / source.name).read_bytes() == source.read_bytes()
+        wanted = edited(draw, before)
+        assume(wanted.geoms or wanted.opaque)
+        saved = save(wanted, Path(folder) / "out" / source.name)
+        after = read(saved.path)
+        _assert_has(after, wanted, saved.names)
+        assert _seen(after) == _seen(before)  # collision goes, what is seen stays
+        _assert_rest_is_same(before, wanted, tree_of(source.read_bytes()), tree_of(saved.path.read_bytes()))
+        if suffix == ".glb":
+            assert _chunk(saved.path).startswith(_chunk(source))
+
+
+def _chunk(path: Path) -> bytes:
+    data = path.read_bytes()
+    return data[28 + int.from_bytes(data[12:16], "little") :]
+
+
+def _seen(asset: Asset) -> list[tuple[str, int, list[list[float]]]]:
+    return sorted((s.body or "", len(s.faces), np.round(s.vertices, 9).tolist()) for s in asset.visuals)
+
+
+def _assert_has(after: Asset, wanted: Asset, names: object) -> None:
+    """All hulls are there under their names, or those that are told, on their bodies."""
+    assert isinstance(names, dict)
+    back = {geom.name: geom for geom in after.geoms}
+    assert len(back) == len(wanted.geoms)
+    for geom in wanted.geoms:
+        now = back[names.get(geom.name, geom.name)]
+        assert now.body == geom.body
+        if geom.parent is None:
+            assert same_shape(now.shape, geom.shape, 1e-9)
+        else:
+            size = geom.shape.aabb.diagonal
+            np.testing.assert_allclose(now.shape.aabb.min, geom.shape.aabb.min, atol=0.02 * size)
+            np.testing.assert_allclose(now.shape.centroid, geom.shape.centroid, atol=0.02 * size)
+    assert sorted(o.reason for o in after.opaque) == sorted(o.reason for o in wanted.opaque)
+
+
+def _assert_rest_is_same(before: Asset, wanted: Asset, then: Tree, now: Tree) -> None:
+    """Nodes, meshes, views and all else that no edit concerns are there, under the numbers that they had."""
+    kept = {geom.name for geom in wanted.geoms} | {piece.name for piece in wanted.opaque}
+    touched = {e.node for e in before.document.authored if not set(e.names) <= kept}  # type: ignore[attr-defined]
+    for k, node in enumerate(then["nodes"]):
+        free = {"children", "name"} | ({"mesh", "extensions"} if k in touched else set())
+        assert {a: b for a, b in now["nodes"][k].items() if a not in free} == {
+            a: b for a, b in node.items() if a not in free
+        }
+        assert set(node.get("children", [])) - touched <= set(now["nodes"][k].get("children", []))
+    for key in ("bufferViews", "accessors", "materials", "asset", "extras"):
+        assert now.get(key, [])[: len(then[key])] == then[key] if isinstance(then[key], list) else now[key] == then[key]
+    for mesh, same in zip(then["meshes"], now["meshes"], strict=False):
+        assert [p["attributes"] for p in same["primitives"]] == [p["attributes"] for p in mesh["primitives"]]
