@@ -11,8 +11,6 @@ from meshforge.asset import Surface
 from meshforge.geometry import Floats, Ints, Polytope
 from meshforge.geometry.decompose import DecomposeSettings, decompose, is_sheet, sheet_hulls
 
-_PACKAGES = {"coacd": "coacd", "vhacd": "vhacdx"}
-
 
 def hulls_of(
     surface: Surface,
@@ -44,5 +42,4 @@ def settings_record(settings: DecomposeSettings, hollow: bool) -> dict[str, Any]
 
 def software(settings: DecomposeSettings | None = None) -> dict[str, str]:
     """The versions of what makes hulls."""
-    engine = _PACKAGES[settings.engine] if settings else "manifold3d"
-    return {name: version(name) for name in ("meshforge", engine)}
+    return {name: version(name) for name in ("meshforge", settings.package if settings else "manifold3d")}

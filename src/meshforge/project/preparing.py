@@ -1,23 +1,20 @@
-"""What is done to assets before the program: geometry decomposed, hulls split, and all that taken back."""
+"""Putting one preparation of an asset in the place of another: hulls, and the labels that follow them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.asset import Asset
-from meshforge.batch import Lost, isolated
-from meshforge.errors import AssetError, MeshForgeError, ProjectError, told
+from meshforge.errors import AssetError, ProjectError
 from meshforge.formats import read
 from meshforge.geometry import Shape
 from meshforge.geometry.decompose import DecomposeSettings, cache_folder
 from meshforge.preparation import (
-    Decomposed,
     Preparation,
     Replaced,
-    decompose_asset,
     fitting,
     prepared,
     read_preparation,
@@ -55,83 +52,13 @@ class Prepared:
         return tuple(name for entry in self.made for name in entry.made)
 
 
-@dataclass(frozen=True, slots=True)
-class _Work:
-    """One asset to be decomposed; folder: of its preparation."""
-
-    path: Path
-    folder: Path
-    settings: DecomposeSettings
-    only: tuple[str, ...]
-    again: bool
-    hollow: bool
-
-
-def decompose(
-    project: Project,
-    assets: Sequence[str],
-    settings: DecomposeSettings,
-    *,
-    only: Sequence[str],
-    again: bool,
-    hollow: bool,
-    workers: int | None,
-    timeout: float | None,
-    progress: Callable[[], None] | None,
-) -> Iterator[Prepared]:
-    """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
-    layout = project.layout
-    work = [
-        _Work(project.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow) for asset in assets
-    ]
-    results = isolated(_decomposed, work, workers=workers, timeout=timeout, done=progress)
-    for asset, result in zip(assets, results, strict=True):
-        if isinstance(result, Lost):
-            yield Prepared(asset, problems=(result.why,))
-        elif isinstance(result, str):
-            yield Prepared(asset, problems=(result,))
-        else:
-            yield _kept(project, asset, *result)
-
-
-def _decomposed(work: _Work) -> tuple[Decomposed, str | None] | str:
-    """What a worker makes of an asset and the digest of the preparation it saw, or why it failed."""
-    try:
-        seen = record_digest(work.folder)
-        before = read_preparation(work.folder) or Preparation()
-        asset = read(work.path)
-        done = decompose_asset(
-            asset,
-            before,
-            work.settings,
-            only=work.only,
-            again=work.again,
-            hollow=work.hollow,
-            cache=cache_folder(),
-        )
-        return done, seen
-    except Exception as error:  # one asset never stops the others
-        return told(error, str(work.path))
-
-
-def _kept(project: Project, asset: str, result: Decomposed, seen: str | None) -> Prepared:
-    problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
-    notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
-    try:
-        if result.made or result.dropped:
-            notes += _exchanged(project, asset, result.preparation, seen)
-    except MeshForgeError as error:
-        return Prepared(asset, problems=(*problems, error.message))
-    return Prepared(asset, result.made, tuple(notes), tuple(problems))
-
-
 def change(project: Project, asset: str, make: Callable[[Asset, Preparation], Preparation]) -> Prepared:
     """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
     folder = project.layout.preparation(asset)
     seen = record_digest(folder)
     before = read_preparation(folder) or Preparation()
     after = make(read(project.path(asset)), before)
-    notes = _exchanged(project, asset, after, seen)
+    notes = exchanged(project, asset, after, seen)
     added = after.steps[len(before.steps) :]
     return Prepared(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))
 
@@ -154,7 +81,7 @@ def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
         raise ProjectError("nothing was done to it that could be taken back", where=asset)
     before = _readable(folder) if everything else read_preparation(folder) or Preparation()
     left = 0 if everything else len(before.steps) - 1
-    notes = _exchanged(project, asset, before.of(before.steps[:left]), seen)
+    notes = exchanged(project, asset, before.of(before.steps[:left]), seen)
     return Prepared(asset, undone=tuple(map(str, before.steps[left:])), notes=tuple(notes))
 
 
@@ -166,7 +93,7 @@ def _readable(folder: Path) -> Preparation:
         return Preparation()
 
 
-def _exchanged(project: Project, asset: str, after: Preparation, seen: str | None) -> list[str]:
+def exchanged(project: Project, asset: str, after: Preparation, seen: str | None) -> list[str]:
     """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
     with project.lock():
         if record_digest(project.layout.preparation(asset)) != seen:

@@ -14,7 +14,17 @@ from meshforge.formats import Mass
 from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
 from meshforge.preparation import Preparation, cut_hull, read_preparation, read_prepared
-from meshforge.project import applying, correcting, demonstrating, labelling, learning, overview, preparing, reviewing
+from meshforge.project import (
+    applying,
+    correcting,
+    decomposing,
+    demonstrating,
+    labelling,
+    learning,
+    overview,
+    preparing,
+    reviewing,
+)
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
 from meshforge.project.preparing import Prepared
@@ -188,7 +198,7 @@ class Project:
         again: anew, also where that is done; hollow: shells of one sheet are not filled. workers, timeout [s] for an
         asset, progress: as of `meshforge.batch.apply`. What is done stays done when the caller stops in the midst.
         """
-        return preparing.decompose(
+        return decomposing.decompose(
             self,
             self.assets() if assets is None else tuple(assets),
             settings or CoacdSettings(),

@@ -5,15 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
-from meshforge.cli import main
 from meshforge.cli.main import COMMANDS
-from tests.loop.command import Done
+from tests.unit.cli.in_process import Run, runner
 
 CUBE = """\
 o {name}
@@ -34,9 +32,6 @@ f {3} {0} {4} {7}
 """
 
 
-Run = Callable[..., Done]
-
-
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
     """Runs the command line in a folder that holds `row.obj` with labels: three cubes in a row, the last apart."""
@@ -46,16 +41,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
         text += CUBE.format(*(8 * k + i for i in range(1, 9)), name=name, x=x, x1=x + 1)
     Path("row.obj").write_text(text)
     Path("row.labels.json").write_text('{"hulls": {"left": "leg", "middle": "panel", "far": "leg"}}')
-
-    def run(*words: str) -> Done:
-        monkeypatch.setattr(sys, "argv", ["meshforge", *words])
-        with pytest.raises(SystemExit) as left:
-            main()
-        printed = capsys.readouterr()
-        assert "Traceback" not in printed.err
-        return Done(int(left.value.code or 0), printed.out, printed.err)
-
-    return run
+    return runner(monkeypatch, capsys)
 
 
 @pytest.mark.parametrize("command", COMMANDS)

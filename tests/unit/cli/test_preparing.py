@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from meshforge.cli import main
-from tests.loop.command import Done
+from tests.unit.cli.in_process import Run, runner
 from tests.unit.preparation.samples import write_boxes, write_stand
 
-Run = Callable[..., Done]
 VOXELS = ("--decompose", "vhacd", "--set", "resolution=5000", "--set", "max_convex_hulls=4", "--workers", "1")
 
 
@@ -28,16 +24,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     monkeypatch.setenv("MESHFORGE_CACHE", str(cache))
     write_stand(Path("in"))
     write_boxes(Path("in/row.obj"))
-
-    def run(*words: str) -> Done:
-        monkeypatch.setattr(sys, "argv", ["meshforge", *words])
-        with pytest.raises(SystemExit) as left:
-            main()
-        printed = capsys.readouterr()
-        assert "Traceback" not in printed.err
-        return Done(int(left.value.code or 0), printed.out, printed.err)
-
-    return run
+    return runner(monkeypatch, capsys)
 
 
 @pytest.fixture

@@ -22,7 +22,6 @@ Piece = tuple[Floats, Ints]
 """Vertices (n, 3) and triangles (m, 3) of one piece, as the engine gave them."""
 
 _SEAL = 16  # bytes
-_PACKAGES = {"coacd": "coacd", "vhacd": "vhacdx"}
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -35,7 +34,7 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 def cache_key(mesh: Triangles, settings: DecomposeSettings) -> str:
     """A digest of geometry, settings, engine and its version."""
-    wheel = version(_PACKAGES[settings.engine])
+    wheel = version(settings.package)
     told = json.dumps([settings.engine, wheel, settings.as_dict(), mesh.vertices.shape], sort_keys=True)
     content = told.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes()
     return hashlib.blake2b(content, digest_size=20).hexdigest()

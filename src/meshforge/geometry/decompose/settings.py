@@ -17,6 +17,7 @@ class _Settings:
 
     __slots__ = ()
     engine: ClassVar[str]
+    package: ClassVar[str]
 
     def __post_init__(self) -> None:
         for option in fields(self):  # type: ignore[arg-type]  # subclasses are dataclasses
@@ -42,6 +43,7 @@ class CoacdSettings(_Settings):
     """Options of CoACD (Wei et al. 2022), with the defaults of its authors; limits are those of its own program."""
 
     engine: ClassVar[str] = "coacd"
+    package: ClassVar[str] = "coacd"
     threshold: float = _option(0.05, "Concavity at which splitting stops: lower gives more, closer hulls.", 0.01, 1)
     max_convex_hull: int = _option(-1, "Most hulls to make, by merging; -1 sets no limit.", -1)
     preprocess_mode: str = _option(
@@ -68,6 +70,7 @@ class VhacdSettings(_Settings):
     """Options of V-HACD 4 (Mamou, Ratcliff), with the defaults of its authors. It has no seed: it is deterministic."""
 
     engine: ClassVar[str] = "vhacd"
+    package: ClassVar[str] = "vhacdx"
     max_convex_hulls: int = _option(64, "Most hulls to make.", 1, 4096)
     resolution: int = _option(400_000, "Voxels in all: more is closer and slower.", 1000, 64_000_000)
     volume_error: float = _option(1.0, "Stop splitting where voxels and hull differ by this percentage.", 0.001, 10)
