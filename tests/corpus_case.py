@@ -28,6 +28,13 @@ BOMB = "bomb_"
 _PARTS = ("parts", "goldens.txt", "README.md")
 _GOLDENS = (".out", ".err")
 _MEMORY = 1 << 30  # bytes of addresses beyond those that the program has when it starts
+_UNSTEADY = (
+    (r"(?<=Opaque) \(.*\)(?=:)", ""),
+    (r"\nBoxes and contacts are .*", ""),
+    (r"(\.\./)+", "../"),
+    (r"\b\d+\.\d\d s\b", "TIME"),
+)
+"""Advice that stands under every output, ways up that depend on where folders are, and times."""
 _SECONDS = 120  # for all bombs together
 
 
@@ -139,10 +146,11 @@ def _tell_bombs() -> None:
 
 
 def _without(text: str, places: dict[str, str]) -> str:
-    """A text with names for this machine's folders, no way up from one to the other, no times, no blanks at ends."""
+    """A text with names for this machine's folders, without ways up, times, and advice."""
     for place, word in places.items():
         text = text.replace(place, word)
-    text = re.sub(r"\b\d+\.\d\d s\b", "TIME", re.sub(r"(\.\./)+", "../", text))
+    for pattern, word in _UNSTEADY:
+        text = re.sub(pattern, word, text)
     lines = [line.rstrip() for line in text.splitlines()]
     return "\n".join(lines).strip("\n") + "\n" if any(lines) else ""
 
