@@ -29,7 +29,7 @@ class What(Enum):
     BALL_JOINTS = "ball joint", "ball joints"
     FIXED_JOINTS = "name of a fixed joint", "names of fixed joints"
     SPEEDS = "speed limit", "speed limits"
-    MIMICS = "coupling of joints", "couplings of joints"
+    MIMICS = "coupling", "couplings"
     MASSES = "mass", "masses"
     VISUALS = "visual", "visuals"
     COLORS = "colour", "colours"

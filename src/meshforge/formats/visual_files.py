@@ -15,11 +15,13 @@ from meshforge.errors import MeshForgeError
 from meshforge.formats.companions import companions
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.meshfile import joined
+from meshforge.formats.numbers import tidy
 from meshforge.formats.triangles import read_triangles
 from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
 from meshforge.geometry import Floats, Ints, Pose, Shape
 
-_ROUNDING = 1e-14  # share of a scale that is lost when a rotation is taken off it
+_ROUNDING = 1e-14  # share that is lost when a rotation is taken off a scale, and back
+_SHEAR = 1e-9
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -76,7 +78,7 @@ class VisualFiles:
         if file is None:
             self.refused.append(body)
             return None
-        return Shown(file, Pose(split[0], moved.offset), split[1], moved.rgba)
+        return Shown(file, Pose(split[0], tidy(moved.offset, 1.0)), split[1], moved.rgba)
 
     def _placed(self, mesh: Path) -> str | None:
         """The reference to a mesh file in the output."""
@@ -130,4 +132,7 @@ def _split(linear: Floats) -> tuple[Floats, Floats] | None:
     if np.linalg.det(linear) < 0:
         scale[2] = -scale[2]
     rotation = linear / scale
-    return (rotation, scale) if np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-9 else None
+    if np.abs(rotation.T @ rotation - np.eye(3)).max() > _SHEAR:
+        return None
+    square = np.round(rotation)
+    return (square if np.abs(rotation - square).max() < _ROUNDING else rotation), scale
