@@ -1,0 +1,50 @@
+"""The page on formats names tests that exist, and its table of what conversions keep is that of the code.
+
+`python -m tests.unit.formats.test_formats_page` writes the table anew.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+from meshforge.asset import What
+from meshforge.formats import FORMATS
+
+ROOT = Path(__file__).parents[3]
+PAGE = ROOT / "docs" / "formats.md"
+_START, _END = "<!-- matrix: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of matrix -->"
+_MADE = [known for known in FORMATS if known.name != "wrl"]
+
+
+def matrix() -> str:
+    """What each format takes over from others, a row for each kind of thing that any of them takes."""
+    rows = [["", *(known.title for known in _MADE)], ["---"] * (len(_MADE) + 1)]
+    for what in What:
+        cells = ["●" if what in known.holds else known.instead.get(what, "") for known in _MADE]
+        if "●" in cells:
+            rows.append([what.many, *cells])
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def test_the_page_tells_what_conversions_keep() -> None:
+    assert f"{_START}\n{matrix()}\n{_END}" in PAGE.read_text()
+
+
+def test_every_test_that_the_page_names_exists() -> None:
+    named: list[tuple[str, str]] = []
+    for file, test in re.findall(r"`([\w/.]*)::(\w+)`", PAGE.read_text()):
+        named.append((file or named[-1][0], test))
+    known = {file: _tests(ROOT / file) for file, _ in named}
+    assert len(named) > 80
+    assert [place for place in named if place[1] not in known[place[0]]] == []
+
+
+def _tests(file: Path) -> set[str]:
+    return {node.name for node in ast.parse(file.read_text()).body if isinstance(node, ast.FunctionDef)}
+
+
+if __name__ == "__main__":
+    head, _, tail = PAGE.read_text().partition(_START)
+    PAGE.write_text(f"{head}{_START}\n{matrix()}\n{_END}{tail.partition(_END)[2]}")
