@@ -123,7 +123,7 @@ def told(case: Case) -> Told:
 
 def _told(case: Case) -> Told:
     with tempfile.TemporaryDirectory() as scratch, chdir(case.path.parent):
-        done = _run(words_for(case, Path(scratch)))
+        done = run_main(words_for(case, Path(scratch)))
         places = {scratch: "SCRATCH", str(case.path.parent): "HERE", str(ROOT): "CORPUS"}
     return Told(done.code, _without(done.out, places), _without(done.err, places))
 
@@ -155,7 +155,7 @@ def _without(text: str, places: dict[str, str]) -> str:
     return "\n".join(lines).strip("\n") + "\n" if any(lines) else ""
 
 
-def _run(words: list[str]) -> Told:
+def run_main(words: list[str]) -> Told:
     """What the command prints in this process, in UTF-8 as a terminal has it."""
     out, err, before = _terminal(), _terminal(), sys.argv
     sys.argv = ["meshforge", *words]

@@ -14,11 +14,16 @@ from meshforge.errors import AssetError
 from meshforge.files import write_atomically
 from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.copying import copy_atomically, same_content
-from meshforge.formats.registry import FOLDER, FORMATS, format_for
+from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for
 from meshforge.formats.reporting import Report, report
 from meshforge.formats.turning import stood_up
 from meshforge.geometry import Pose
 from meshforge.symbolic import SymbolicMesh
+
+_MESHES = (".dae", ".msh", ".off", ".skn", ".usd", ".usda", ".usdc", ".usdz", ".bin", ".mtl", ".hf")
+_PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tga", ".tif", ".tiff", ".dds", ".webp", ".hdr", ".exr", ".ktx2")
+_KINDS = frozenset((*SUFFIXES, *_MESHES, *_PICTURES))
+"""The suffixes of files that assets consist of."""
 
 Content = bytes | Path
 """What a file is to hold: these bytes, or what another file holds."""
@@ -55,6 +60,7 @@ def save(
     known = format_for(out, asset.format)
     output, told = _written(asset, known, out.name, mass)
     plan = _plan(output, out, known.is_folder)
+    _refuse_outside(plan, out if known.is_folder else out.parent)
     _refuse(plan, asset, overwrite)
     extra = _extra(plan, out, overwrite) if known.is_folder else []
     with _aside(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
@@ -92,6 +98,17 @@ def _plan(output: Output, out: Path, is_folder: bool) -> dict[Path, Content]:
         plan.pop(Path(os.path.normpath(out)), None)
         plan[out] = output.main
     return plan
+
+
+def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
+    """Raise AssetError where a reference that climbs out of the folder would put another kind of file there."""
+    for target in plan:
+        if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
+            raise AssetError(
+                "this is no mesh or texture, and lies outside of the output folder: not written",
+                where=str(target),
+                remedy="Correct the reference to it in the input.",
+            )
 
 
 def _refuse(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:
