@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.errors import AssetError
-from meshforge.formats import read
+from meshforge.formats import read, save
 from tests.gltf_files import SceneFile, Tree, chunk, glb_of, tree_of
 from tests.soups import box
 
@@ -62,6 +62,14 @@ BROKEN: dict[str, tuple[Callable[[Tree], object], str]] = {
     "matrix": (lambda t: t["nodes"][0].update(matrix=[1, 2]), "its 'matrix' should be 16 finite numbers"),
     "rotation": (lambda t: t["nodes"][0].update(rotation=[0, 0, 0, 0]), "a rotation of all zeros"),
     "huge": (lambda t: t["nodes"][0].update(scale=[1e999, 1, 1]), "Infinity is no number of JSON"),
+    "overflow": (
+        lambda t: (
+            t["nodes"].append({"children": [0], "scale": [1e300] * 3}),
+            t["nodes"][0].update(rotation=[1e300, 0, 0, 0], scale=[1e300] * 3),
+            t["scenes"][0].update(nodes=[1]),
+        ),
+        "the place of node 0 is not finite",
+    ),
     "far": (lambda t: t["nodes"][0].update(scale=["a", 1, 1]), "this glTF file is damaged"),
     "view": (lambda t: t["bufferViews"][0].update(byteLength=10**6), "buffer view 0 goes beyond its buffer"),
     "offset": (lambda t: t["bufferViews"][0].update(byteOffset=-4), "buffer view 0 goes beyond its buffer"),
@@ -137,7 +145,7 @@ def test_buffers_are_missed_by_name_and_cut_ones_told(tmp_path: Path) -> None:
     assert "a buffer is cut short" in message(text, tmp_path, "a.gltf")
     (tmp_path / "the box.bin").write_bytes(scene.data)
     assert read(tmp_path / "a.gltf").geoms[0].name == "box"
-    assert "cannot be read: Is a directory" in message(scene.gltf("."), tmp_path, "b.gltf")
+    assert "its buffer . cannot be read" in message(scene.gltf("."), tmp_path, "b.gltf")
 
 
 @pytest.mark.parametrize("uri", ["data:application/octet-stream;base64", "data:;base64,AAA*", "data:,abc"])
@@ -164,3 +172,13 @@ def test_chunks_of_other_kinds_bytes_behind_and_odd_lengths_are_read_past(tmp_pa
 def test_a_mark_of_byte_order_is_read_past(tmp_path: Path) -> None:
     (tmp_path / "a.gltf").write_bytes(b"\xef\xbb\xbf" + scene_of_a_box().gltf())
     assert read(tmp_path / "a.gltf").geoms[0].name == "box"
+
+
+def test_damage_in_what_is_not_read_comes_to_light_when_it_would_be_lost(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(edited(lambda t: t.update(animations=5)))
+    asset = read(tmp_path / "a.glb")
+    assert len(asset.geoms) == 1
+    save(asset, tmp_path / "out.glb")
+    assert (tmp_path / "out.glb").read_bytes() == (tmp_path / "a.glb").read_bytes()
+    with pytest.raises(AssetError, match="its 'animations' are no array"):
+        save(asset, tmp_path / "a.urdf")

@@ -8,7 +8,7 @@ from typing import Any
 
 from meshforge.asset import Feature, What
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.formats.meshfile.gltf import Json, Scene
+from meshforge.formats.meshfile.gltf import Json, Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entries, extension
 
 _LISTS = {
@@ -21,9 +21,13 @@ _LISTS = {
 _LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
 
 
-def features_of(document: GltfDocument, path: Path) -> Iterator[Feature]:
-    """The features of a glTF file that its asset does not tell."""
-    tree = Scene.of(document.source, path).tree
+def features_of(document: GltfDocument, path: Path) -> list[Feature]:
+    """The features of a glTF file that its asset does not tell. Raises AssetError: what lists them is damaged."""
+    with damage_at(str(path)):
+        return list(_features(Scene.of(document.source, path).tree))
+
+
+def _features(tree: Json) -> Iterator[Feature]:
     for key, what in _LISTS.items():
         yield _feature(what, entries(tree, key))
     yield _feature(What.LIGHTS, entries(extension(tree, _LIGHTS) or {}, "lights"))

@@ -61,7 +61,8 @@ def named_bodies(scene: Scene) -> dict[int, tuple[int, str]]:
     """For each node in a rigid body, the node that is the body, and the body's name."""
     owners = body_nodes(scene)
     nodes = list(dict.fromkeys(owners.values()))
-    wanted = [scene.placements[node].node.get("name") or f"body{k}" for k, node in enumerate(nodes)]
+    own = [scene.placements[node].node.get("name") for node in nodes]
+    wanted = [name if isinstance(name, str) and name else f"body{k}" for k, name in enumerate(own)]
     names = dict(zip(nodes, unique_names([BODY, *wanted])[1:], strict=True))
     return {node: (owner, names[owner]) for node, owner in owners.items()}
 

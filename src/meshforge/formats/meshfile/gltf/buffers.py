@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.gltf.items import Json, entries, entry, extension
+from meshforge.formats.meshfile.surface import as_doubles
 
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -41,7 +42,7 @@ class Buffers:
         if "sparse" in accessor:
             values = self._mended(values, accessor["sparse"])
         if kind.kind == "f":
-            return values.astype(np.float64)
+            return as_doubles(values)
         if accessor.get("normalized"):
             return np.maximum(values.astype(np.float64) / np.iinfo(kind).max, -1.0)
         return values

@@ -109,7 +109,8 @@ class Scene:
 def damage_at(where: str) -> Iterator[None]:
     """Makes one clear AssetError of all that reading a damaged file may raise."""
     try:
-        yield
+        with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and told
+            yield
     except _DAMAGE as error:
         problem = f"{error.args[0]!r} is missing in it" if isinstance(error, KeyError) and error.args else str(error)
         raise AssetError(f"this glTF file is damaged: {problem}", where=where, remedy="Export it again.") from error
@@ -127,7 +128,8 @@ def matrix_of(node: Json) -> Floats:
     if length == 0.0:
         raise ValueError("a rotation of all zeros")
     if abs(length - 1.0) > _ALIKE:
-        quaternion = quaternion / np.sqrt(length)
+        quaternion = quaternion / np.abs(quaternion).max()  # lest its square has no number
+        quaternion = quaternion / np.linalg.norm(quaternion)
     matrix[:3, :3] = turn_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
     matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
     return matrix
