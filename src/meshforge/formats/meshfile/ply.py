@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.ply_header import Element, Header, parse_header
-from meshforge.formats.meshfile.surface import RawSurface, checked, remedy_for, text_of
+from meshforge.formats.meshfile.surface import RawSurface, as_doubles, checked, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
 _SHOWN = 60  # characters of a row in a message
@@ -180,7 +180,7 @@ def _vertices(rows: list[Rows], where: str) -> Floats:
         raise AssetError("there are no vertices with x, y and z in this file", where=where)
     if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
         raise AssetError("its coordinates are lists, not numbers", where=where)
-    return np.column_stack([np.asarray(found.values[axis], dtype=np.float64) for axis in "xyz"]).reshape(-1, 3)
+    return np.column_stack([as_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
 def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, checked, is_number, remedy_for, text_of
+from meshforge.formats.meshfile.surface import RawSurface, as_doubles, checked, is_number, remedy_for, text_of
 from meshforge.geometry import Floats, Ints
 
 HEADER = 84  # bytes before the first triangle of a binary file: 80 of text, 4 of count
@@ -86,7 +86,7 @@ def _is_prose(head: bytes) -> bool:
 
 
 def _binary(data: bytes, count: int) -> StlText:
-    corners = np.frombuffer(data, RECORD, count, HEADER)["corners"].astype(np.float64)
+    corners = as_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
     return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
 
 

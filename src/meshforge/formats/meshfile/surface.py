@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.errors import AssetError
 from meshforge.geometry import Floats, Ints
@@ -62,6 +63,12 @@ def _refuse_far(used: Floats, where: str) -> None:
     if (largest := float(np.abs(used).max())) > FARTHEST:
         remedy = "No mesh is that large: mend or export it again."
         raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
+
+
+def as_doubles(values: npt.ArrayLike) -> Floats:
+    """Numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a warning."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(values).astype(np.float64)
 
 
 def fans(polygons: Iterable[Sequence[int]]) -> Ints:
