@@ -1,0 +1,114 @@
+"""The speed benchmark runs, and the answers that it compares agree; no time is asserted."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmark.speed import __main__ as bench
+from benchmark.speed import apply, contact, geometry, load, save
+from benchmark.speed.assets import multi_hull
+from benchmark.speed.clock import in_turns
+from benchmark.speed.contact import near_pairs, one_mesh
+from benchmark.speed.report import Goal, Result, Table, as_text
+from meshforge.geometry import Box, Pose
+from meshforge.samples import TABLES
+
+
+def silent(_: str) -> None:
+    """Takes no notice of progress."""
+
+
+def test_all_contestants_find_the_same_contacts_on_the_bundled_tables() -> None:
+    found = multi_hull(silent, 2, bundled_only=True)
+    assert len(found) == 2
+    for name, mesh in found.items():
+        row = one_mesh(name, mesh, 1)
+        assert row["contacts"] == len(mesh.contacts) > 10
+        assert row["near"] >= row["contacts"]
+        assert {who: differ for who, differ in row["differ"].items() if differ} == {}
+        assert all(seconds > 0 for seconds in row["seconds"].values())
+
+
+def test_a_difference_is_told_with_its_distance() -> None:
+    row = [Box(Pose.of_translation([2.2 * k, 0, 0]), np.ones(3)).tessellated() for k in range(3)]
+    mesh = contact._of(row)
+    (differ,) = contact._differences(row, mesh, frozenset({(0, 1)}))
+    assert differ["pair"] == [0, 1]
+    assert differ["theirs"] is True
+    assert differ["thresholds"] == pytest.approx(0.2 / mesh.contact_distance)
+
+
+def test_near_pairs_are_those_whose_boxes_are_near() -> None:
+    row = [Box(Pose.of_translation([k, 0, 0]), np.full(3, 0.4)).tessellated() for k in range(3)]
+    assert near_pairs(row, 0.21) == [(0, 1), (1, 2)]
+    assert near_pairs(row, 0.19) == []
+
+
+@pytest.mark.parametrize("part", [load, save, geometry])
+def test_a_part_runs_quickly_on_bundled_files(part: object) -> None:
+    result = part.measure(silent, True)  # type: ignore[attr-defined]
+    assert isinstance(result, Result)
+    assert all(table.rows for table in result.tables)
+    assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
+
+
+def test_the_same_boxes_are_read_by_both() -> None:
+    row = load.one_file(sorted(TABLES.glob("*.obj"))[0], 1)
+    assert row is not None
+    assert row["same"]
+    assert row["triangles"] > 100
+
+
+def test_apply_is_run_and_watched(tmp_path: Path) -> None:
+    assert bench.main(["apply", "--quick", "--out", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "speed-apply.json").read_text("utf-8"))
+    (row,) = data["details"]
+    assert row["outcomes"] == {"edited": 2}
+    assert row["main"] > 10 * 2**20
+    assert data["quick"] is True
+    page = (tmp_path / "speed.md").read_text("utf-8")
+    assert "A quick run" in page
+    assert "OBJ, bundled tables" in page
+    assert str(tmp_path.anchor + "tmp") not in page
+
+
+def test_a_part_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        bench.main(["contacts"])
+    assert stopped.value.code == 2
+    assert "there is no part 'contacts'" in capsys.readouterr().err
+
+
+def test_contestants_take_turns_and_the_first_round_does_not_count() -> None:
+    seen: list[str] = []
+    times = in_turns({who: lambda who=who: lambda: seen.append(who) for who in "ab"}, 2)  # type: ignore[misc]
+    assert "".join(seen) == "ababab"
+    assert {who: len(seconds) for who, seconds in times.items()} == {"a": 2, "b": 2}
+
+
+def test_a_page_says_what_was_reached_and_what_not() -> None:
+    goals = (Goal("quick", "at least", 10.0, 12.5), Goal("small", "at most", 2.0, 2.5))
+    text = as_text(
+        Result("x", "A part", (Table("Times", ("", "ms"), (("a|b", 1234.5), ("c", 0.01234))),), goals, ("so",))
+    )
+    assert "| quick  | at least 10 | 12.5     | reached         |" in text
+    assert "| small  | at most 2   | 2.5      | **not reached** |" in text
+    assert "| a/b | 1,234  |" in text or "| a/b | 1,234" in text
+    assert "0.0123" in text
+    assert text.endswith("- so\n")
+
+
+def test_labels_of_a_family_are_by_height(tmp_path: Path) -> None:
+    place = tmp_path / "a"
+    place.mkdir()
+    (family,) = apply._quick(place)
+    apply._label(family[1], tmp_path / "labels")
+    written = sorted((tmp_path / "labels").glob("*.json"))
+    assert [path.name for path in written] == ["table_01.obj.json", "table_02.obj.json"]
+    labels = set(json.loads(written[0].read_text("utf-8"))["hulls"].values())
+    assert labels <= {"low", "middle", "high"}
+    assert "high" in labels
