@@ -74,6 +74,8 @@ class Folder(Format):
         own = {name for member in document.members for name in member.names.values()}
         kept = {g.name for g in asset.geoms if g.parent is None} & own | {o.name for o in asset.opaque}
         tree = Tree(self.format_of)
+        if not kept and not asset.geoms:
+            raise AssetError("the edit leaves nothing in this folder", where=str(asset.path))
         for member in document.members:
             tree.keep(member, kept)
         suffix = self._usual_suffix(document)
