@@ -91,7 +91,7 @@ def _print(done: Prepared) -> None:
     for step in done.undone:
         typer.echo(f"    {step}")
     for entry in done.made:
-        typer.echo(f"    {entry.what}: {entry.told or counted(len(entry.made), 'hull')}")
+        typer.echo(f"    {entry.what}: {entry.told}")
     for note in done.notes:
         typer.echo(f"    note: {note}")
     for problem in done.problems:

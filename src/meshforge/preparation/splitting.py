@@ -35,7 +35,7 @@ def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: V
             where=name,
             remedy=f"It reaches from ({_shown(box.min)}) to ({_shown(box.max)}), in the frame that the asset comes in.",
         )
-    told = "" if geom.shape.kind in ("polytope", "box") else f"the {geom.shape.kind} became a polytope"
+    told = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
     settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
     return _then(asset, before, geom, Step("cut", settings, software(), ()), (below, above), told)
 
@@ -69,7 +69,7 @@ def split_hull(
     told = [f"{parting.lost:.0%} of its volume is in no part"]
     told += [f"{counted(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
     step = Step("split", settings_record(settings, hollow), software(settings), ())
-    return _then(asset, before, geom, step, parting.parts, "; ".join([*told, *notes]))
+    return _then(asset, before, geom, step, parting.parts, [*told, *notes])
 
 
 def _hull(asset: Asset, before: Preparation, name: str) -> Geom:
@@ -97,12 +97,13 @@ def _knife(asset: Asset, geom: Geom) -> Surface:
 
 
 def _then(
-    asset: Asset, before: Preparation, geom: Geom, step: Step, parts: Sequence[Polytope], told: str
+    asset: Asset, before: Preparation, geom: Geom, step: Step, parts: Sequence[Polytope], told: Sequence[str]
 ) -> Preparation:
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.made}
     names = free_names(geom.name, len(parts), taken)
     made = dict(zip(names, map(hull_digest, parts), strict=True))
-    entry = Replaced(geom.name, "hull", digest(geom.shape), made, told)
+    remarks = "; ".join([counted(len(parts), "hull"), *told])
+    entry = Replaced(geom.name, "hull", digest(geom.shape), made, remarks)
     return before.then(Step(step.do, step.settings, step.software, (entry,)), parts)
 
 

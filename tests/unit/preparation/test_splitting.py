@@ -48,7 +48,7 @@ def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path:
     saved = save(SymbolicMesh.of(prepared(asset, done)), tmp_path / "out/stand.urdf")
     back = {hull.name: hull.volume for hull in load(saved.path).hulls}
     assert back == {"frame/foot#0": pytest.approx(2.0), "frame/foot#1": pytest.approx(2.0)}
-    assert done.steps[0].replaced[0].told == ""
+    assert done.steps[0].replaced[0].told == "2 hulls"
 
 
 def test_hulls_of_a_decomposition_inherit_from_the_piece(tmp_path: Path) -> None:
@@ -87,7 +87,7 @@ def test_a_hull_is_split_by_what_its_body_shows(tmp_path: Path) -> None:
     parts = prepared(asset, done).geoms
     assert [geom.name for geom in parts] == ["a/geom0#0", "a/geom0#1"]
     assert sum(geom.shape.volume for geom in parts) == pytest.approx(5.0, rel=0.02)
-    assert done.steps[0].replaced[0].told == "44% of its volume is in no part"
+    assert done.steps[0].replaced[0].told == "2 hulls; 44% of its volume is in no part"
     box = asset.geoms[0].shape.aabb
     assert all((g.shape.aabb.min >= box.min - 1e-9).all() and (g.shape.aabb.max <= box.max + 1e-9).all() for g in parts)
 
