@@ -54,6 +54,13 @@ def test_without_any_mark_each_convex_piece_of_each_node_is_a_hull(tmp_path: Pat
     assert names(pickle.loads(pickle.dumps(asset))) == names(asset)
 
 
+def test_that_textured_meshes_are_taken_for_collision_is_told(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("chair", box())
+    scene.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    assert "edits change what is seen" in asset_of(scene, tmp_path).notes[0]
+
+
 def test_nodes_are_named_after_themselves_then_their_mesh_then_their_number(tmp_path: Path) -> None:
     scene = SceneFile()
     scene.node(None, box())

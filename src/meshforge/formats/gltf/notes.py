@@ -24,8 +24,10 @@ _PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body
 
 def scene_notes(scene: Scene, convention: Convention) -> Iterator[str]:
     """The notes on a scene, whose collision was read by a convention."""
-    if convention in _HOW:  # else all meshes are collision, as in any mesh file
+    if convention in _HOW:
         yield _HOW[convention]
+    elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
+        yield "no node is marked as collision: all meshes are taken for it, so that edits change what is seen"
     placements, tree = scene.placements, scene.tree
     outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
     if outside:
