@@ -38,8 +38,7 @@ class Report:
 def report(asset: Asset, source: Format | None, target: Format, output: Output, remarks: Iterable[str] = ()) -> Report:
     """The report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
     own = [*output.lost, *_renamed(output, target), *_faded(asset, target)]
-    gone = {what: {name for loss in own if loss.what is what for name in loss.names} for what in What}
-    told = [_without(feature, gone[feature.what]) for feature in (*features(asset), *_of_visuals(asset))]
+    told = [_without(feature, own) for feature in (*features(asset), *_of_visuals(asset))]
     # a creator sees the asset, not the document: what only that tells is never carried over
     beyond = [f for f in (source.features(asset) if source else ()) if f.count]
     lost = [f for f in told if f.count and f.what not in target.holds]
@@ -50,9 +49,12 @@ def report(asset: Asset, source: Format | None, target: Format, output: Output, 
     )
 
 
-def _without(feature: Feature, names: set[str]) -> Feature:
-    """A feature without the things that a creator has told about."""
-    return Feature(feature.what, tuple(n for n in feature.names if n not in names), feature.unnamed, feature.reason)
+def _without(feature: Feature, losses: Sequence[Loss]) -> Feature:
+    """A feature without the things that losses tell about."""
+    like = [loss for loss in losses if loss.what is feature.what]
+    names = {name for loss in like for name in loss.names}
+    unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
+    return Feature(feature.what, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
 
 
 def _lost(feature: Feature, target: Format) -> Loss:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import ClassVar, Literal
 
@@ -26,6 +26,7 @@ class MjcfFormat(Format):
     up: ClassVar[Literal["y", "z"] | None] = "z"
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
+    instead: ClassVar[Mapping[What, str]] = {What.OPAQUE: "written as surfaces that do not collide"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_mjcf(path)

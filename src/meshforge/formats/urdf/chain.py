@@ -129,15 +129,6 @@ class _Builder:
         if joint.kind != "ball":
             return [joint]
         name = joint.name or f"{joint.child}_ball"
-        self.chain.lost.append(
-            Loss(
-                What.BALL_JOINTS,
-                (joint.name,) * bool(joint.name),
-                "URDF has no ball joints",
-                "written as three joints that turn about one point",
-                not joint.name,
-            )
-        )
         axes = self.poses[joint.child].rotation.T
         turns = [replace(joint, kind="revolute", axis=axes[k], limits=None) for k in range(3)]
         return [replace(j, name=free_name(f"{name}_{'xyz'[k]}", self.joint_names)) for k, j in enumerate(turns)]

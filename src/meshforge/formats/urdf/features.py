@@ -27,6 +27,11 @@ HOLDS = frozenset(
     }
 )
 COULD = frozenset({What.MIMICS, What.CONTACT, What.COMMENTS, What.MATERIALS, What.TEXTURES})
+INSTEAD = {
+    What.CAPSULES: "written as triangles",
+    What.ELLIPSOIDS: "written as triangles",
+    What.BALL_JOINTS: "written as three joints that turn about one point",
+}
 MESHES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
 _KNOWN = ("link", "joint", "material")

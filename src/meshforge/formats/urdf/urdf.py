@@ -11,7 +11,7 @@ from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.urdf.create import create_urdf
 from meshforge.formats.urdf.document import UrdfDocument
-from meshforge.formats.urdf.features import COULD, HOLDS, MESHES, features_of
+from meshforge.formats.urdf.features import COULD, HOLDS, INSTEAD, MESHES, features_of
 from meshforge.formats.urdf.read import read_urdf
 from meshforge.formats.urdf.write import write_urdf
 
@@ -25,10 +25,7 @@ class UrdfFormat(Format):
     up: ClassVar[Literal["y", "z"] | None] = "z"
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
-    instead: ClassVar[Mapping[What, str]] = {
-        What.CAPSULES: "written as triangles",
-        What.ELLIPSOIDS: "written as triangles",
-    }
+    instead: ClassVar[Mapping[What, str]] = INSTEAD
     shown_files: ClassVar[tuple[str, ...]] = MESHES
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
