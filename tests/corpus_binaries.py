@@ -129,6 +129,7 @@ def ply_files() -> Mapping[str, bytes]:
         ),
         "little_endian_not_a_number.ply": with_bytes(little, body + 84, struct.pack("<f", float("nan"))),
         "little_endian_signalling_not_a_number.ply": with_bytes(little, body + 84, b"\1\0\x80\x7f"),
+        "little_endian_first_byte_is_a_line_end.ply": with_bytes(little, body, b"\n"),
         "little_endian_header_of_windows.ply": little[:body].replace(b"\n", b"\r\n") + little[body:],
         "little_endian_header_with_cr.ply": little[:body].replace(b"\n", b"\r") + little[body:],
         "little_endian_saved_as_text.ply": little.replace(b"\n", b"\r\n"),
