@@ -184,6 +184,15 @@ def test_a_hull_on_a_replicated_body_cannot_be_made(tmp_path: Path) -> None:
         write(replaced(asset, [], hull(asset, "b1/g1", BOX)), tmp_path / "out")
 
 
+def test_what_a_scaling_frame_holds_is_read_only(tmp_path: Path) -> None:
+    inside = '<frame scale="2"><body name="b"><geom name="g" size=".1"/></body></frame>'
+    asset = read(put(tmp_path / "in", {"main.xml": model(inside)}))
+    with pytest.raises(AssetError, match="'b/g' cannot be changed: it is inside a <frame> that scales"):
+        write(replaced(asset, ["b/g"]), tmp_path / "out")
+    with pytest.raises(AssetError, match="'b/g~1' is on body 'b', which is in a <frame> that scales it"):
+        write(replaced(asset, [], hull(asset, "b/g", BOX)), tmp_path / "out")
+
+
 def test_a_sub_model_stays_while_other_hulls_change(tmp_path: Path) -> None:
     files: dict[str, str | bytes] = {
         "main.xml": model(

@@ -16,7 +16,8 @@ from meshforge.formats.mjcf.kept_masses import (
     weighed,
 )
 from meshforge.formats.mjcf.model import Reading
-from meshforge.formats.mjcf.plan import Kept, Plan
+from meshforge.formats.mjcf.places import Kept
+from meshforge.formats.mjcf.plan import Plan
 from meshforge.formats.mjcf.sources import Node, Tree, gather
 from meshforge.formats.slots import Slot, at_end, lead_inside
 from meshforge.formats.xml import Splice, newline, spliced

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, field
 
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError, nearest
@@ -11,46 +10,11 @@ from meshforge.formats.mjcf.document import Authored, MjcfDocument
 from meshforge.formats.mjcf.made import Maker
 from meshforge.formats.mjcf.mentions import refuse_mentioned
 from meshforge.formats.mjcf.model import Reading
+from meshforge.formats.mjcf.places import Kept, Made, Place, kept_names, removed_names
 from meshforge.formats.mjcf.shapes import Shapes
 from meshforge.formats.mjcf.sources import Node
 from meshforge.formats.slots import Slot, at_end, in_place
 from meshforge.formats.xml import Splice
-
-
-@dataclass(slots=True, eq=False)
-class Place:
-    """A `<geom>` of the file: its element, None for one out of another model, and what is made of it.
-
-    own: itself, None where it goes; after: the new elements that follow it.
-    """
-
-    authored: Authored
-    node: Node | None
-    own: Slot | None
-    after: list[Slot] = field(default_factory=list)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Kept:
-    """A geom of the model as read: its number there, and the element that may get a name attribute, None if fixed."""
-
-    number: int
-    slot: Slot | None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Made:
-    """A new geom: its element, and its hull."""
-
-    slot: Slot
-    geom: Geom
-
-
-def is_edited(asset: Asset, document: MjcfDocument) -> bool:
-    """Whether any hull is made, or gone."""
-    kept, owned = kept_names(asset), {name for authored in document.authored for name in authored.names}
-    gone = any(_gone(authored, kept) for authored in document.authored)
-    return gone or any(geom.parent is not None or geom.name not in owned for geom in asset.geoms)
 
 
 class Plan:
@@ -131,7 +95,7 @@ class Plan:
 
     def _place(self, entry: Authored, kept: Container[str]) -> Place:
         node = self.nodes.get((entry.source, entry.start))
-        if _gone(entry, kept):
+        if removed_names(entry, kept):
             return Place(entry, node, None)
         element = node.element if node else None
         name = element.attributes.get("name") if element else None
@@ -143,7 +107,7 @@ class Plan:
         for place in self.places:
             if place.own is not None:
                 continue
-            hull = _gone(place.authored, kept)[0]
+            hull = removed_names(place.authored, kept)[0]
             if place.authored.fixed or place.node is None:
                 where = self.tree.where(place.node) if place.node else str(self.tree.main.path)
                 raise AssetError(f"hull {hull!r} cannot be changed: {place.authored.fixed}", where=where)
@@ -173,21 +137,17 @@ class Plan:
     def _body_of(self, geom: Geom) -> Node:
         """The element of a made hull's body."""
         body = self.body_node(geom.body)
-        several = body is not None and any(n.tag == "replicate" for n in (body, *self.maker.context.around(body)))
-        if body is not None and not several:
+        outer = (body, *self.maker.context.around(body)) if body is not None else ()
+        why = next((why for node in outer if (why := _changed_by(node))), "")
+        if body is not None and not why:
             return body
-        like = nearest(geom.body, self.body_poses)
-        why = (
-            "made by <replicate>"
-            if several
-            else "out of another model"
-            if geom.body in self.body_poses
-            else "not there"
-        )
+        known = geom.body in self.body_poses
+        place = "out of another model" if known else "not there"
+        like = None if known else nearest(geom.body, self.body_poses)
         raise AssetError(
-            f"hull {geom.name!r} is on body {geom.body!r}, which is {why}",
+            f"hull {geom.name!r} is on body {geom.body!r}, which is {why or place}",
             where=str(self.asset.path),
-            remedy=f"The nearest name of a body is {like!r}." if why == "not there" and like else None,
+            remedy=f"The nearest name of a body is {like!r}." if like else None,
         )
 
     def _volume(self, geom: Geom) -> float:
@@ -201,11 +161,8 @@ class Plan:
         return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)
 
 
-def kept_names(asset: Asset) -> set[str]:
-    """The names of the collision geoms that stay as they were."""
-    return {geom.name for geom in asset.geoms if geom.parent is None} | {opaque.name for opaque in asset.opaque}
-
-
-def _gone(authored: Authored, kept: Container[str]) -> list[str]:
-    """The hulls of an element that an edit takes away."""
-    return [name for name in authored.names if name not in kept] if authored.collides else []
+def _changed_by(node: Node) -> str:
+    """What an element makes of a body within it, that a hull cannot be written to; empty where it leaves it alone."""
+    if node.tag == "replicate":
+        return "made by <replicate>"
+    return "in a <frame> that scales it" if node.tag == "frame" and "scale" in node.attributes else ""

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from meshforge.formats.mjcf.model import Reading
-from meshforge.formats.mjcf.plan import Kept, Made
-from meshforge.formats.mjcf.shapes import Shapes
-from meshforge.geometry import Floats, Shape
+from meshforge.formats.mjcf.places import Kept, Made
+from meshforge.formats.mjcf.same_made import INHERITED, equal, made_amiss
 
 if TYPE_CHECKING:
     import mujoco
@@ -35,20 +34,11 @@ _APART = (
     *("cam_poscom0", "light_poscom0", "site_sameframe"),  # follow from masses, which are compared themselves
     "dof_length",  # how far geoms reach from a joint
 )
-_INHERITED = tuple(
-    f"geom_{name}"
-    for name in (
-        *("contype", "conaffinity", "condim", "priority", "group", "matid", "friction", "solmix", "solref", "solimp"),
-        *("margin", "gap", "user", "rgba", "surfacevel", "adhesion", "castshadow"),
-    )
-)
 _OF_GEOM = (
-    *_INHERITED,
+    *INHERITED,
     *(f"geom_{name}" for name in ("type", "size", "aabb", "rbound", "pos", "quat", "fluid", "plugin", "bodyid")),
 )
 _OF_MESH = ("mesh_pos", "mesh_quat", "mesh_scale", "mesh_vertnum", "mesh_facenum")
-_SINGLE = 3e-7  # relative: MuJoCo keeps vertices in single precision
-_POSE = 1e-9  # relative: a pose through quaternions and frames
 
 
 def difference(before: Reading, after: Reading, expected: Sequence[Kept | Made], masses: bool) -> str | None:
@@ -68,7 +58,7 @@ def _differences(before: Reading, after: Reading, expected: Sequence[Kept | Made
     number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, Kept)}
     yield from _kept(before, after, number)
     yield from _references(before.model, after.model, number)
-    yield from _made(before, after, {k: entry for k, entry in enumerate(expected) if isinstance(entry, Made)})
+    yield from made_amiss(before, after, {k: entry for k, entry in enumerate(expected) if isinstance(entry, Made)})
 
 
 def _fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterator[str]:
@@ -76,7 +66,7 @@ def _fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterato
     names = [n for n in dir(one) if n.startswith(_OTHERS) and not n.endswith("pathadr")]
     plain = [name for name in names if name not in _APART and name not in _OF_MASS]
     for name in [*_OF_BODY, *(_OF_MASS if masses else ()), *plain]:
-        if not _equal(one, other, name, slice(None), slice(None)):
+        if not equal(one, other, name, slice(None), slice(None)):
             yield name
 
 
@@ -88,7 +78,7 @@ def _meshes(one: mujoco.MjModel, other: mujoco.MjModel) -> Iterator[str]:
         vertices, now = (
             slice(n.mesh_vertadr[i], n.mesh_vertadr[i] + n.mesh_vertnum[i]) for n, i in ((one, k), (other, m))
         )
-        if not (all(_equal(one, other, f, k, m) for f in _OF_MESH) and _equal(one, other, "mesh_vert", vertices, now)):
+        if not (all(equal(one, other, f, k, m) for f in _OF_MESH) and equal(one, other, "mesh_vert", vertices, now)):
             yield f"mesh {name!r}"
 
 
@@ -101,7 +91,7 @@ def _kept(before: Reading, after: Reading, number: dict[int, int]) -> Iterator[s
     """The geoms that stay; number: what the number of each has become."""
     one, other = before.model, after.model
     for field in _OF_GEOM:
-        if not _equal(one, other, field, list(number), list(number.values())):
+        if not equal(one, other, field, list(number), list(number.values())):
             yield field
     for a, b in number.items():
         if before.spec_geoms[a].name not in ("", after.spec_geoms[b].name):
@@ -130,48 +120,6 @@ def _references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict[int, in
             yield field
 
 
-def _made(before: Reading, after: Reading, made: dict[int, Made]) -> Iterator[str]:
-    """The new geoms: their bodies and shapes, and what they inherit."""
-    shapes = Shapes(after.model)
-    origins = {name: pose.translation for name, pose in zip(after.body_names, after.body_poses, strict=True)}
-    for k, entry in made.items():
-        hull = entry.geom
-        shape = shapes.part(k, after.geom_poses[k]).shape
-        if after.body_of[k] != hull.body or not _is(shape, hull.shape, origins[hull.body]):
-            yield f"the geometry of hull {hull.name!r}"
-        if hull.parent in before.names:
-            parent = before.names.index(hull.parent)
-            wrong = [field for field in _INHERITED if not _equal(before.model, after.model, field, parent, k)]
-            yield from (f"{field} of hull {hull.name!r}" for field in wrong)
-
-
-def _is(found: Shape | None, wanted: Shape, origin: Floats) -> bool:
-    """Whether a shape is the wanted one, as far as MuJoCo's numbers reach; origin: of its body's frame."""
-    if found is None or found.kind != wanted.kind:
-        return False
-    size = float(np.linalg.norm(wanted.aabb.size))
-    away = float(np.linalg.norm(wanted.aabb.center - origin))
-    if not found.is_primitive:
-        return _farthest(found, wanted) <= _SINGLE * (size + min(away, 1000.0 * size)) + _POSE * away
-    corners, others = (shape.tessellated().vertices for shape in (found, wanted))  # each about its own axes
-    return bool(np.abs(corners - others).max() <= _POSE * (size + away))
-
-
-def _farthest(one: Shape, other: Shape) -> float:
-    """How far two polytopes reach differently, along the normals of their faces."""
-    normals = np.concatenate([_normals(shape) for shape in (one, other)])
-    reach, reach_of_other = ((shape.vertices @ normals.T).max(axis=0) for shape in (one, other))
-    return float(np.abs(reach - reach_of_other).max())
-
-
-def _normals(shape: Shape) -> Floats:
-    a, b, c = (shape.vertices[shape.faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    unit: Floats = normals[lengths > 0] / lengths[lengths > 0][:, None]
-    return unit
-
-
 def _data_name(model: mujoco.MjModel, geom: int) -> str:
     """The mesh of a geom, or that it has none."""
     import mujoco
@@ -179,17 +127,3 @@ def _data_name(model: mujoco.MjModel, geom: int) -> str:
     data = int(model.geom_dataid[geom])
     of_mesh = model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_HFIELD
     return "" if data < 0 else str(model.mesh(data).name if of_mesh else model.hfield(data).name)
-
-
-def _equal(
-    one: mujoco.MjModel,
-    other: mujoco.MjModel,
-    field: str,
-    rows: int | slice | list[int],
-    rows_of_other: int | slice | list[int],
-) -> bool:
-    """Whether rows of a field are the same in two models; a field that this MuJoCo has not is."""
-    if not hasattr(one, field):
-        return True
-    a, b = np.asarray(getattr(one, field)[rows]), np.asarray(getattr(other, field)[rows_of_other])
-    return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")

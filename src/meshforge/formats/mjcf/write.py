@@ -7,7 +7,7 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf.compiling import part, plain, whole
+from meshforge.formats.mjcf.compiling import again, part, plain, whole
 from meshforge.formats.mjcf.context import Context
 from meshforge.formats.mjcf.copies import copied, places
 from meshforge.formats.mjcf.document import MjcfDocument
@@ -16,7 +16,8 @@ from meshforge.formats.mjcf.hull_meshes import HullMeshes
 from meshforge.formats.mjcf.kept_masses import always_from_geoms
 from meshforge.formats.mjcf.made import Maker
 from meshforge.formats.mjcf.model import Reading
-from meshforge.formats.mjcf.plan import Plan, is_edited
+from meshforge.formats.mjcf.places import is_edited
+from meshforge.formats.mjcf.plan import Plan
 from meshforge.formats.mjcf.same import difference
 from meshforge.formats.mjcf.sources import Tree
 from meshforge.words import listed
@@ -33,7 +34,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     copies, notes = copied(asset, tree)
     if not is_edited(asset, document):
         return _output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
-    before = whole(tree)
+    before = whole(tree) if document.refusal else again(tree, is_whole=True)
     is_whole = before is not None
     before = before or part(tree)
     authored = plain(tree, before) if is_whole else before
