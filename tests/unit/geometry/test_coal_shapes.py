@@ -40,7 +40,7 @@ def plain_distance(a: Polytope, b: Polytope) -> float:
     return float(max(0.0, found * 8))
 
 
-@pytest.mark.parametrize("corners", [4, 12, 31, 32, 33, 34, 80, 300])
+@pytest.mark.parametrize("corners", [4, 12, 31, 32, 33, 48, 49, 80, 128, 129, 300])
 def test_shapes_of_few_and_of_many_corners_have_the_distances_of_shapes_made_plainly(corners: int) -> None:
     rng = np.random.default_rng(corners)
     for _ in range(20):
