@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Literal
 
 from meshforge.asset.mechanism import Mechanism
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
@@ -78,7 +79,7 @@ class Asset:
 
     files: every file that the document refers to, found, absolute, in order of mention.
     missing: references to visual files that are not there, as written in the document.
-    notes: what a user should know about how the file was read.
+    notes: what a user should know about how the file was read; up: the axis that its format says points up.
     mechanism: joints and masses, empty where the format has none.
     """
 
@@ -93,6 +94,7 @@ class Asset:
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
+    up: Literal["y", "z"] | None = None
 
     @property
     def body_poses(self) -> dict[str, Pose]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +32,7 @@ def compare(
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
     background: str | None = "light",
-    up: Up = "Z",
+    up: Up | None = None,
 ) -> tuple[Image, Image]:
     """The two pictures, without words, seen by one camera; a hull that stays keeps its colour."""
     first = color_hulls(before, color_by, vocabulary)
@@ -39,8 +40,8 @@ def compare(
     second = color_hulls(after, color_by, vocabulary, known)
     bounds = joint_bounds(before, after)
     return (
-        _bare(subject(before, first), bounds, view, up, size, background),
-        _bare(subject(after, second), bounds, view, up, size, background),
+        _bare(subject(before, first, up=up), bounds, view, size, background),
+        _bare(subject(after, second, up=up), bounds, view, size, background),
     )
 
 
@@ -52,7 +53,7 @@ def before_after(
     color_by: ColorBy = "label",
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
-    up: Up = "Z",
+    up: Up | None = None,
 ) -> Image:
     """Both pictures side by side, each of `size`, with the number of hulls below each."""
     pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
@@ -69,7 +70,7 @@ def difference(
     legend: bool = True,
     title: str | None = None,
     background: str | None = "light",
-    up: Up = "Z",
+    up: Up | None = None,
 ) -> Image:
     """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
     gone = [h for h in before.hulls if h.name not in after.index]
@@ -80,9 +81,9 @@ def difference(
     caption = f"{counted(len(before.hulls), 'hull')} before, {len(after.hulls)} after"
     canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else Coloring(colors))
     fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
-    what = _with_removed(subject(after, coloring), gone, fresh)
+    what = _with_removed(subject(after, coloring, up=up), gone, fresh)
     left, top, right, bottom = canvas.room
-    painted = draw(what, joint_bounds(before, after), view, up, (right - left, bottom - top))
+    painted = draw(what, joint_bounds(before, after), view, (right - left, bottom - top))
     canvas.lay(painted.pixels, (left, top))
     if not before.hulls and not after.hulls:
         canvas.say("no hulls", canvas.room)
@@ -100,14 +101,12 @@ def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) ->
         return what
     red, every = np.tile(rgb(REMOVED), (len(gone), 1)), frozenset(range(len(gone)))
     shells = Layer(skins_of(gone), red, before=0.55, behind=0.3, hatched=every, drawn_over=fresh)
-    return Subject((*what.layers, shells), what.points)
+    return replace(what, layers=(*what.layers, shells))
 
 
-def _bare(
-    what: Subject, bounds: Aabb | None, view: View, up: Up, size: tuple[int, int], background: str | None
-) -> Image:
+def _bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int], background: str | None) -> Image:
     canvas = Canvas(size, background, None, None, Coloring(what.layers[0].colors))
-    canvas.lay(draw(what, bounds, view, up, size).pixels, (0, 0))
+    canvas.lay(draw(what, bounds, view, size).pixels, (0, 0))
     if not what.layers[0].skins:
         canvas.say("no hulls", canvas.room)
     return canvas.image

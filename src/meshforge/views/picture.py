@@ -39,7 +39,7 @@ def render(
     labels: bool | Mapping[str, str] = False,
     bounds: Aabb | None = None,
     vocabulary: Sequence[str] = (),
-    up: Up = "Z",
+    up: Up | None = None,
 ) -> Image:
     """A picture of a mesh, of `size` (width, height); several views share it in a grid. Same input, same bytes.
 
@@ -50,19 +50,20 @@ def render(
     labels: the number of each hull on it, counted from 0, or other short texts by hull name; what would cover
     another, or a hull that is hardly seen, is left out.
     bounds: the box that the camera is framed on, to compare pictures; None frames the mesh.
-    vocabulary: the order in which labels take their colours. up: the axis that points up in the picture.
+    vocabulary: the order in which labels take their colours.
+    up: the axis that points up in the picture, by default that of the mesh's file, or Z.
     Raises UsageError for an unknown view or colouring, or an impossible size.
     """
     _check(views, color_by, size)
     coloring = color_hulls(mesh, color_by, vocabulary) if highlight is None else highlighted(mesh, highlight)
     opaque = tuple(o.surface for o in mesh.asset.opaque if o.surface) if mesh.asset else ()
-    what = subject(mesh, coloring, opaque if ghost is None else ghost, highlight or frozenset())
+    what = subject(mesh, coloring, opaque if ghost is None else ghost, highlight or frozenset(), up)
     if caption is None and legend:
         caption = _count(mesh, highlight)
     canvas = Canvas(size, background, title, caption, coloring if legend else Coloring(coloring.colors))
     names = _marks(mesh, labels)
     for view, box in zip(views, _boxes(canvas.room, len(views)), strict=True):
-        _place(canvas, what, bounds, view, up, box, names, named=len(views) > 1)
+        _place(canvas, what, bounds, view, box, names, named=len(views) > 1)
     return canvas.image
 
 
@@ -71,13 +72,12 @@ def _place(
     what: Subject,
     bounds: Aabb | None,
     view: View,
-    up: Up,
     box: tuple[int, int, int, int],
     marks: Mapping[int, str],
     named: bool,
 ) -> None:
     left, top, right, bottom = box
-    painted = draw(what, bounds, view, up, (right - left, bottom - top))
+    painted = draw(what, bounds, view, (right - left, bottom - top))
     canvas.lay(painted.pixels, (left, top))
     if len(what.layers[0].skins) == 0:
         canvas.say("no hulls", box)

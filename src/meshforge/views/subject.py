@@ -28,6 +28,7 @@ class Subject:
 
     layers: tuple[Layer, ...]
     points: Floats
+    up: Up
 
     @property
     def bounds(self) -> Aabb | None:
@@ -35,9 +36,16 @@ class Subject:
 
 
 def subject(
-    mesh: SymbolicMesh, coloring: Coloring, ghost: Sequence[Surface] = (), lifted: frozenset[str] = frozenset()
+    mesh: SymbolicMesh,
+    coloring: Coloring,
+    ghost: Sequence[Surface] = (),
+    lifted: frozenset[str] = frozenset(),
+    up: Up | None = None,
 ) -> Subject:
-    """A mesh in its colours; ghost: grey shells around it; lifted: hulls that shine through what hides them."""
+    """A mesh in its colours; ghost: grey shells around it; lifted: hulls that shine through what hides them.
+
+    up: as of `up_axis`.
+    """
     skins = skins_of(mesh.hulls)
     solid = Layer(skins, coloring.colors, hatched=coloring.hatched)
     layers, shells = [solid], [s for s in map(skin, ghost) if len(s.faces)]
@@ -46,7 +54,12 @@ def subject(
     picked = [k for k, h in enumerate(mesh.hulls) if h.name in lifted]
     if picked:
         layers.append(Layer([skins[k] for k in picked], coloring.colors[picked], before=0.0, behind=0.38))
-    return Subject(tuple(layers), _framed(skins, shells))
+    return Subject(tuple(layers), _framed(skins, shells), up_axis(mesh, up))
+
+
+def up_axis(mesh: SymbolicMesh, up: Up | None) -> Up:
+    """The axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
+    return up or ("Y" if mesh.asset and mesh.asset.up == "y" else "Z")
 
 
 def skins_of(hulls: Sequence[Hull]) -> list[Skin]:
@@ -62,13 +75,13 @@ def _framed(skins: Sequence[Skin], shells: Sequence[Skin]) -> Floats:
     return np.concatenate(points) if points else np.zeros((0, 3))
 
 
-def draw(what: Subject, bounds: Aabb | None, view: View, up: Up, size: tuple[int, int]) -> Painted:
+def draw(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int]) -> Painted:
     """The subject, framed on `bounds`, or on all of its points."""
     held = bounds or what.bounds
     if held is None:
         width, height = size
         return Painted(np.zeros((height, width, 4), np.float32), np.full((height, width), -1))
-    stage = Stage(held, upright(up))
+    stage = Stage(held, upright(what.up))
     points = stage.placed(what.points if bounds is None else bounds.corners)
     fine = 2 if size[0] * size[1] > 250_000 else 3
-    return paint(what.layers, stage, look(view, up, size, points), fine)
+    return paint(what.layers, stage, look(view, what.up, size, points), fine)

@@ -10,7 +10,7 @@ from meshforge.geometry import Aabb, Ints
 from meshforge.symbolic import SymbolicMesh
 from meshforge.views.camera import Up, View, look
 from meshforge.views.stage import Layer, Stage, cast, upright
-from meshforge.views.subject import skins_of
+from meshforge.views.subject import skins_of, up_axis
 
 
 def id_buffer(
@@ -19,7 +19,7 @@ def id_buffer(
     view: View = "iso",
     size: tuple[int, int] = (400, 300),
     bounds: Aabb | None = None,
-    up: Up = "Z",
+    up: Up | None = None,
 ) -> Ints:
     """The index of the hull that each pixel (height, width) shows, -1 for none; framed as `render` frames a picture
     without words."""
@@ -27,13 +27,14 @@ def id_buffer(
     if held is None or not mesh.hulls:
         return np.full((size[1], size[0]), -1, dtype=np.int64)
     layer = Layer(skins_of(mesh.hulls), np.zeros((len(mesh.hulls), 3)))
-    stage = Stage(held, upright(up))
+    axis = up_axis(mesh, up)
+    stage = Stage(held, upright(axis))
     points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.skins])
-    return cast(layer, stage, look(view, up, size, stage.placed(points))).item
+    return cast(layer, stage, look(view, axis, size, stage.placed(points))).item
 
 
 def visible_hulls(
-    mesh: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (400, 300), up: Up = "Z"
+    mesh: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (400, 300), up: Up | None = None
 ) -> Mapping[str, int]:
     """How many pixels of a picture show each hull, by name; hulls that are hidden have 0."""
     items = id_buffer(mesh, view=view, size=size, up=up)

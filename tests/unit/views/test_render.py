@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from meshforge.asset import Surface
+from meshforge.asset import Asset, Document, Surface
 from meshforge.errors import UsageError
 from meshforge.geometry import Aabb, Pose
 from meshforge.symbolic import SymbolicMesh
@@ -183,6 +184,15 @@ def test_up_can_be_y() -> None:
     for view in VIEWS:
         upright, turned = id_buffer(mesh, view=view, size=SMALL), id_buffer(lying, view=view, size=SMALL, up="Y")
         assert (upright != turned).mean() < 0.01
+
+
+def test_a_mesh_of_a_y_up_file_stands_upright() -> None:
+    mesh = table()
+    file = Asset(Path("table.glb"), "gltf", (), (), Document(), up="y")
+    of_file = SymbolicMesh(mesh.hulls, file)
+    assert (id_buffer(of_file, size=SMALL) == id_buffer(mesh, size=SMALL, up="Y")).all()
+    assert (id_buffer(of_file, size=SMALL, up="Z") == id_buffer(mesh, size=SMALL)).all()
+    assert (pixels(bare(of_file)) == pixels(bare(mesh, up="Y"))).all()
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from meshforge.batch.report.program_panel import program_panel
 from meshforge.batch.report.tools import tools
 from meshforge.files import write_atomically
 from meshforge.language import Program
-from meshforge.views import UNLABELLED, Up, label_colors
+from meshforge.views import UNLABELLED, label_colors
 
 PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
@@ -30,21 +30,20 @@ def write_report(
     assets: Sequence[ReportAsset],
     seconds: float | None = None,
     about: str | None = None,
-    up: Up = "Z",
     pictured: int = PICTURED,
     progress: Callable[[], None] | None = None,
 ) -> None:
     """Write the report of a batch: figures, the program, and every asset before and after, with what each rule did.
 
-    about: a line below the title; up: the axis that points up in pictures; pictured: how many assets get pictures,
-    demonstrated and failed ones first; progress: called for each asset done. The page refers to no other file.
+    about: a line below the title; pictured: how many assets get pictures, demonstrated and failed ones first;
+    progress: called for each asset done. The page refers to no other file.
     """
     vocabulary = _vocabulary(program, assets)
     colors = label_colors(vocabulary)
     chosen = _pictured(assets, pictured)
     cards = []
     for k, asset in enumerate(assets):
-        cards.append(card(asset, program, pictures(asset, vocabulary, up) if k in chosen else None, colors))
+        cards.append(card(asset, program, pictures(asset, vocabulary) if k in chosen else None, colors))
         if progress:
             progress()
     main = tag(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from meshforge.batch.report.asset import ReportAsset
-from meshforge.views import ColorBy, Up, compare, difference, render, webp
+from meshforge.views import ColorBy, compare, difference, render, webp
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -25,7 +25,7 @@ class Pictures:
     changes: str | None = None
 
 
-def pictures(asset: ReportAsset, vocabulary: Sequence[str], up: Up) -> Pictures | None:
+def pictures(asset: ReportAsset, vocabulary: Sequence[str]) -> Pictures | None:
     """The pictures of an asset, on transparent ground; None where there is no mesh to be seen."""
     before, after = asset.before, asset.after
     if before is None:
@@ -33,12 +33,10 @@ def pictures(asset: ReportAsset, vocabulary: Sequence[str], up: Up) -> Pictures 
     labelled = any(h.label for mesh in (before, after) if mesh for h in mesh.hulls)
     color_by: ColorBy = "label" if labelled else "hull"
     if after is None or after is before or asset.status == "unchanged":
-        image = render(
-            before, color_by=color_by, size=SIZE, vocabulary=vocabulary, up=up, background=None, legend=False
-        )
+        image = render(before, color_by=color_by, size=SIZE, vocabulary=vocabulary, background=None, legend=False)
         return Pictures(_data(image))
-    pair = compare(before, after, color_by=color_by, size=SIZE, vocabulary=vocabulary, up=up, background=None)
-    changes = difference(before, after, size=SIZE, up=up, background=None, legend=False)
+    pair = compare(before, after, color_by=color_by, size=SIZE, vocabulary=vocabulary, background=None)
+    changes = difference(before, after, size=SIZE, background=None, legend=False)
     return Pictures(_data(pair[0]), _data(pair[1]), _data(changes))
 
 

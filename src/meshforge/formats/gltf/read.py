@@ -54,6 +54,7 @@ def read_gltf(path: Path) -> Asset:
         missing=missing,
         notes=tuple(notes),
         mechanism=Mechanism(inertials=masses),
+        up="y",
     )
 
 
