@@ -84,7 +84,7 @@ class Fcl:
 
 
 class Bullet:
-    """PyBullet's getClosestPoints on pairs whose boxes are near, which it is given.
+    """PyBullet's getClosestPoints on the bodies that it finds in the grown box of each.
 
     Bullet rounds hulls by a margin of a millimetre; in coordinates where all hulls together are 1 km long, that is a
     thousandth of the distance asked for.
@@ -97,7 +97,7 @@ class Bullet:
 
         vertices = np.concatenate([shape.vertices for shape in shapes])
         self.scale = 1000.0 / float(np.linalg.norm(np.ptp(vertices, axis=0)))
-        self.near, self.pairs = near * self.scale, pairs
+        self.near = near * self.scale
         self.points = [(shape.vertices * self.scale).tolist() for shape in shapes]
         self.world = pybullet.connect(pybullet.DIRECT)
 
@@ -113,11 +113,18 @@ class Bullet:
     def query(self, bodies: Any) -> Pairs:
         import pybullet
 
-        return frozenset(
-            (i, j)
-            for i, j in self.pairs
-            if pybullet.getClosestPoints(bodies[i], bodies[j], self.near, physicsClientId=self.world)
-        )
+        number = {body: k for k, body in enumerate(bodies)}
+        found: list[tuple[int, int]] = []
+        for i, body in enumerate(bodies):
+            low, high = pybullet.getAABB(body, physicsClientId=self.world)
+            grown = [x - self.near for x in low], [x + self.near for x in high]
+            near = pybullet.getOverlappingObjects(*grown, physicsClientId=self.world) or ()
+            found += [
+                (i, j)
+                for j in {number[other] for other, _ in near if number[other] > i}
+                if pybullet.getClosestPoints(body, bodies[j], self.near, physicsClientId=self.world)
+            ]
+        return frozenset(found)
 
     def reset(self) -> None:
         import pybullet

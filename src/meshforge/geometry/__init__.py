@@ -1,6 +1,6 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
-from meshforge.geometry.aabb import Aabb
+from meshforge.geometry.aabb import Aabb, bounds
 from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
 from meshforge.geometry.common import Parting, common, parted
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
@@ -43,6 +43,7 @@ __all__ = [
     "aabb_capsule",
     "aabb_cylinder",
     "aabb_sphere",
+    "bounds",
     "close_pairs",
     "common",
     "convex_hull",

@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import dist
 
 from meshforge.asset import Asset, Geom
 from meshforge.errors import MeshForgeError
-from meshforge.geometry import Aabb
+from meshforge.geometry import Aabb, bounds
 from meshforge.symbolic.contact import NEAR_MISS, ContactGraph, contact_graph
 from meshforge.symbolic.hull import Hull
 from meshforge.symbolic.labels import Label
@@ -47,7 +48,10 @@ class SymbolicMesh:
     @cached_property
     def diagonal(self) -> float:
         """The diagonal of the AABB of all hulls [m], 0 where there is none."""
-        return self.aabb.diagonal if self.aabb else 0.0
+        if not self.hulls:
+            return 0.0
+        low, high = bounds([hull.shape.aabb for hull in self.hulls])
+        return dist(low.min(axis=0).tolist(), high.max(axis=0).tolist())
 
     @property
     def contact_distance(self) -> float:
