@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -277,8 +278,10 @@ def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> Non
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path, out: Path) -> None:
-    os.mkfifo(assets / "endless.obj")  # whoever reads it waits for a writer that never comes
-    work = [AssetJob("endless.obj", assets / "endless.obj", assets), *jobs(expand([assets]))]
+    first, *others = jobs(expand([assets]))
+    endless = out.with_name("endless.json")
+    os.mkfifo(endless)  # whoever reads it waits for a writer that never comes
+    work = [replace(first, labels=endless), *others]
     outcomes = list(apply(Program.parse(PROGRAM), work, out, workers=1, timeout=2.0))
-    assert words(outcomes) == ["failed", "edited", "edited", "edited"]
+    assert words(outcomes) == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed) and "longer than 2 seconds" in outcomes[0].error

@@ -272,7 +272,7 @@ def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> 
     with pytest.raises(ProgramError, match=r'"bar\.obj" is not there'):
         project.templates(["bar.obj"])
     (project.folder / "templates/bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
-    with pytest.raises(ProgramError, match=r'"bar\.obj" is not convex'):
+    with pytest.raises(ProgramError, match=r'"bar\.obj" is no convex hull'):
         project.templates(["bar.obj"])
 
 

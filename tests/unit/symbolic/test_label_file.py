@@ -75,7 +75,7 @@ def test_a_labels_file_pickles(tmp_path: Path) -> None:
         ("{", r"x\.json:1:2: the labels are no JSON"),
         ([], "this is no labels file"),
         ({"hulls": []}, "this is no labels file"),
-        ({"hulls": {}, "more": 1}, "this is no labels file"),
+        ({"hulls": {}, "more": 1}, "is not one of a labels file"),
         ({"vocabulary": "leg", "hulls": {}}, "vocabulary is not a list"),
         ({"hulls": {"a": 1}}, "hull 'a' has no label"),
         ({"hulls": {"a": {"confidence": 1}}}, "hull 'a' has no label"),
