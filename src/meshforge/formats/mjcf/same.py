@@ -41,20 +41,25 @@ _OF_GEOM = (
 _OF_MESH = ("mesh_pos", "mesh_quat", "mesh_scale", "mesh_vertnum", "mesh_facenum")
 
 
-def difference(before: Reading, after: Reading, expected: Sequence[Kept | Made], masses: bool) -> str | None:
+def difference(
+    before: Reading, after: Reading, expected: Sequence[Kept | Made], masses: bool, is_whole: bool = True
+) -> str | None:
     """The first thing that an edited file says otherwise than it should, None where all is right.
 
-    expected: the geoms of the edited model; masses: whether masses are to be as before.
+    expected: the geoms of the edited model; masses: whether masses are to be as before; is_whole: whether both are
+    of all that the file says, so that meshes stay which no geom uses any more.
     """
-    return next(_differences(before, after, expected, masses), None)
+    return next(_differences(before, after, expected, masses, is_whole), None)
 
 
-def _differences(before: Reading, after: Reading, expected: Sequence[Kept | Made], masses: bool) -> Iterator[str]:
+def _differences(
+    before: Reading, after: Reading, expected: Sequence[Kept | Made], masses: bool, is_whole: bool
+) -> Iterator[str]:
     if after.model.ngeom != len(expected):
         yield f"{after.model.ngeom} geoms where {len(expected)} were expected"
         return
     yield from _fields(before.model, after.model, masses)
-    yield from _meshes(before.model, after.model)
+    yield from _meshes(before.model, after.model, is_whole)
     number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, Kept)}
     yield from _kept(before, after, number)
     yield from _references(before.model, after.model, number)
@@ -70,10 +75,15 @@ def _fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterato
             yield name
 
 
-def _meshes(one: mujoco.MjModel, other: mujoco.MjModel) -> Iterator[str]:
+def _meshes(one: mujoco.MjModel, other: mujoco.MjModel, is_whole: bool) -> Iterator[str]:
     """The authored meshes, by name."""
+    there = {other.mesh(k).name for k in range(other.nmesh)}
     for k in range(one.nmesh):
         name = one.mesh(k).name
+        if name and name not in there:
+            if is_whole:
+                yield f"mesh {name!r}"
+            continue
         m = other.mesh(name).id if name else k
         vertices, now = (
             slice(n.mesh_vertadr[i], n.mesh_vertadr[i] + n.mesh_vertnum[i]) for n, i in ((one, k), (other, m))

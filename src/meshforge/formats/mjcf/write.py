@@ -65,7 +65,7 @@ def _checked(edit: Edit, before: Reading, mass: Mass) -> dict[str, str]:
         raise AssetError(
             f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
         ) from None
-    wrong = difference(before, after, edit.expected, masses=mass == "keep")
+    wrong = difference(before, after, edit.expected, masses=mass == "keep", is_whole=edit.is_whole)
     if wrong is not None:
         raise AssetError(
             f"the edited file would differ from the authored one in more than the edit says: {wrong}",
