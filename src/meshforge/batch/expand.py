@@ -11,7 +11,7 @@ from pathlib import Path
 from meshforge.batch.folder import assets_in, is_own
 from meshforge.errors import UsageError
 from meshforge.files import plain_path, relative_name
-from meshforge.formats import SUFFIXES
+from meshforge.formats import SUFFIXES, is_asset
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,9 @@ class Found:
 def expand(patterns: Iterable[str | Path], root: Path | None = None) -> Found:
     """The assets that files, folders and globs (`**` too) name; relative ones count from `root`, or from here.
 
-    A folder stands for all assets in it, at any depth: its URDF and other structured files, or where there are none
-    its mesh files. A folder of nothing but mesh files of one hull each is one asset of pieces.
+    A folder stands for all assets in it, at any depth: its URDF and MJCF, or where there are none its glTF and mesh
+    files. A folder of nothing but mesh files of one hull each is one asset of pieces.
+    Neither a folder nor a glob means files that are no assets by themselves, such as included parts of an MJCF.
     What MeshForge itself wrote (projects, outputs of `apply`) is passed over, unless named outright.
     Raises UsageError naming the argument that matches nothing.
     """
@@ -86,7 +87,7 @@ def _globbed(pattern: str, root: Path) -> list[Path]:
     names = glob.glob(pattern, root_dir=root, recursive=True)  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
     hits = [plain_path(root / name) for name in names]
     hits = [hit for hit in hits if not is_own(hit, start)]
-    found = [hit for hit in hits if hit.is_file() and hit.suffix.lower() in SUFFIXES]
+    found = [hit for hit in hits if is_asset(hit)]
     if "**" not in pattern:
         found += [asset for hit in hits if hit.is_dir() for asset in assets_in(hit)]
     return found

@@ -1,4 +1,4 @@
-"""Which assets a folder holds: structured files where there are any, else mesh files or one asset of pieces."""
+"""Which assets a folder holds: descriptions where there are any, else scenes, mesh files, or one asset of pieces."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.errors import MeshForgeError
-from meshforge.formats import MESH_SUFFIXES, SUFFIXES, read
+from meshforge.formats import DESCRIPTION_SUFFIXES, MESH_SUFFIXES, is_asset, read
 
 STATE = ".meshforge"
 """The folder in an output of `apply` or in a project that holds what MeshForge needs to know about it."""
@@ -19,20 +19,21 @@ OWN_FOLDERS = ("templates", "labels", "demonstrations", "corrections", "prepared
 def assets_in(folder: Path) -> list[Path]:
     """The assets in a folder, at any depth, sorted.
 
-    A tree with structured files (URDF and the like) has these as its assets, its mesh files being their parts.
-    Otherwise every mesh file is an asset, except that a folder of several mesh files of one hull each is one asset of
+    A tree with descriptions (URDF, MJCF) has these as its assets, its mesh files being their parts.
+    Otherwise every file is an asset, except that a folder of several mesh files of one hull each is one asset of
     pieces. Folders that MeshForge wrote are passed over.
     """
     files = sorted(_files(folder, folder))
-    structured = [path for path in files if path.suffix.lower() not in MESH_SUFFIXES]
-    if structured:
-        return structured
+    described = [path for path in files if path.suffix.lower() in DESCRIPTION_SUFFIXES]
+    if described:
+        return described
+    scenes = [path for path in files if path.suffix.lower() not in MESH_SUFFIXES]
     by_folder: dict[Path, list[Path]] = {}
     for path in files:
-        by_folder.setdefault(path.parent, []).append(path)
-    return sorted(
-        asset for parent, members in by_folder.items() for asset in ([parent] if _are_pieces(members) else members)
-    )
+        if path.suffix.lower() in MESH_SUFFIXES:
+            by_folder.setdefault(path.parent, []).append(path)
+    meshes = [asset for parent, own in by_folder.items() for asset in ([parent] if _are_pieces(own) else own)]
+    return sorted([*scenes, *meshes])
 
 
 def is_own(path: Path, root: Path) -> bool:
@@ -51,7 +52,7 @@ def _files(folder: Path, root: Path) -> Iterator[Path]:
             own = (folder / SETTINGS).is_file() and entry.name in OWN_FOLDERS
             if not own and not _is_written(entry, root):
                 yield from _files(entry, root)
-        elif entry.suffix.lower() in SUFFIXES and entry.is_file():
+        elif is_asset(entry):
             yield entry
 
 

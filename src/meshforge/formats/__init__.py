@@ -7,12 +7,20 @@ from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.obj_text import parts_text as obj_parts
 from meshforge.formats.parts import Part
 from meshforge.formats.placing import placed
-from meshforge.formats.registry import FORMATS, MESH_SUFFIXES, SUFFIXES, format_of
+from meshforge.formats.registry import (
+    DESCRIPTION_SUFFIXES,
+    FORMATS,
+    MESH_SUFFIXES,
+    SUFFIXES,
+    format_of,
+    is_asset,
+)
 from meshforge.formats.reporting import Report
 from meshforge.formats.saving import Saved, save
 from meshforge.formats.triangles import pieces_of, read_triangles
 
 __all__ = [
+    "DESCRIPTION_SUFFIXES",
     "FORMATS",
     "MESH_SUFFIXES",
     "SUFFIXES",
@@ -26,6 +34,7 @@ __all__ = [
     "Report",
     "Saved",
     "format_of",
+    "is_asset",
     "labels_beside",
     "load",
     "load_many",

@@ -51,6 +51,7 @@ class Output:
 class Format(ABC):
     """One file format: reads an asset with its source document, writes it back with edited geoms.
 
+    is_description: its files name mesh files, which are parts of it then and no assets of their own.
     is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
     title: its name for people; up: the axis that points up in its files, None where the format does not say.
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
@@ -60,6 +61,7 @@ class Format(ABC):
 
     name: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
+    is_description: ClassVar[bool] = False
     is_folder: ClassVar[bool] = False
     title: ClassVar[str]
     up: ClassVar[Literal["y", "z"] | None] = None
@@ -99,6 +101,6 @@ class Format(ABC):
         """The highest folder that the references of an asset name on their way, from that of its file upwards."""
         return asset.path.parent
 
-    def sniffs(self, path: Path, head: bytes) -> bool:
-        """Whether a file of one of the suffixes is of this format; head: its first kilobytes."""
+    def sniffs(self, head: bytes) -> bool:
+        """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True

@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import ReadOptions
-from meshforge.formats.registry import SUFFIXES, format_of
+from meshforge.formats.registry import SUFFIXES, format_of, is_asset
 from meshforge.formats.units import refuse_beyond, unit_note
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
@@ -67,7 +67,7 @@ def _matches(pattern: str) -> list[Path]:
     if Path(pattern).exists():
         return [Path(pattern)]
     found = [Path(p) for p in glob.glob(pattern, recursive=True)]  # noqa: PTH207  absolute patterns too
-    known = [p for p in found if p.is_file() and p.suffix.lower() in SUFFIXES]
+    known = [p for p in found if is_asset(p)]
     if not known:
         problem = "no file matches" if not found else "none of the files it matches is an asset"
         raise AssetError(problem, where=pattern, remedy=f"Known suffixes: {', '.join(SUFFIXES)}.")

@@ -15,7 +15,7 @@ from meshforge.formats.stl import Stl
 from meshforge.formats.urdf import UrdfFormat
 from meshforge.formats.wrl import Wrl
 
-_HEAD = 4096  # bytes shown to a format that shares its suffix with another
+_HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
 FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
@@ -23,7 +23,9 @@ FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), GltfFormat(), *FOLDER
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
-"""Those of plain mesh files, which may be parts of other assets, or pieces of a folder."""
+"""Those of plain mesh files, which may be pieces of a folder."""
+DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
+"""Those of files that name mesh files as their parts."""
 
 
 def format_of(path: Path) -> Format:
@@ -37,10 +39,18 @@ def format_of(path: Path) -> Format:
         raise AssetError("there is no such file", where=str(path))
     if not path.is_file():  # reading a pipe would wait, a device may never end
         raise AssetError("cannot be read: it is a pipe or a device", where=str(path))
-    for known in _of_suffix(path):
-        if known.sniffs(path, _head(path)):
-            return known
-    raise _unknown(path)
+    found = _of_suffix(path)
+    if not found:
+        raise _unknown(path)
+    return found[0]
+
+
+def is_asset(path: Path) -> bool:
+    """Whether a file that a folder or a glob holds is an asset: of a known suffix, and no part of another one.
+
+    `package.xml` of ROS is none, nor an MJCF that other ones include; named outright, they say what they are.
+    """
+    return path.is_file() and any(known.sniffs(_head(path)) for known in _of_suffix(path))
 
 
 def format_for(path: Path, own: str) -> Format:
@@ -65,11 +75,12 @@ def _of_suffix(path: Path) -> list[Format]:
 
 
 def _head(path: Path) -> bytes:
+    """The start of a file; nothing of one that cannot be read, which its reader will say."""
     try:
         with path.open("rb") as stream:
             return stream.read(_HEAD)
-    except OSError as error:
-        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    except OSError:
+        return b""
 
 
 def _unknown(path: Path) -> AssetError:

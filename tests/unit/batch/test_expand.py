@@ -42,6 +42,29 @@ def test_mesh_files_are_parts_where_structured_files_are_about(tmp_path: Path) -
     assert ids(tmp_path) == ["robots/urdf/table.urdf"]
 
 
+def test_parts_of_models_and_other_xml_are_no_assets_unless_named(tmp_path: Path) -> None:
+    model = '<?xml version="1.0"?><!-- <a> -- b --><!DOCTYPE x>\n<mujoco><include file="part.xml"/></mujoco>'
+    texts = {"model.xml": model, "part.xml": "<mujocoinclude/>", "package.xml": "<package/>", "odd.xml": "no element"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    one_box(tmp_path / "mesh.obj")
+    assert ids(tmp_path) == ids(tmp_path / "*.xml") == ["model.xml", "odd.xml"]
+    assert ids(tmp_path / "part.xml") == ["part.xml"]
+
+
+def test_comments_without_a_root_are_looked_through_at_once(tmp_path: Path) -> None:
+    (tmp_path / "long.xml").write_text("<!---->" * 1000)
+    assert ids(tmp_path) == ["long.xml"]
+
+
+def test_scenes_are_assets_beside_mesh_files_and_parts_of_descriptions(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(b"glTF")
+    one_box(tmp_path / "b.obj")
+    assert ids(tmp_path) == ["a.glb", "b.obj"]
+    write_urdf_table(tmp_path / "robots" / "urdf", mesh="../meshes/crumb.obj")
+    assert ids(tmp_path) == ["robots/urdf/table.urdf"]
+
+
 def test_mesh_files_of_one_hull_each_are_the_pieces_of_one_asset(tmp_path: Path) -> None:
     for name in ("a/1.obj", "a/2.obj", "b/1.obj", "b/2.obj"):
         one_box(tmp_path / name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -16,17 +17,25 @@ from meshforge.formats.mjcf.features import COULD, HOLDS, features_of
 from meshforge.formats.mjcf.read import read_mjcf
 from meshforge.formats.mjcf.write import write_mjcf
 
+_ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
+"""An XML text up to the tag of its first element."""
+
 
 class MjcfFormat(Format):
     """MuJoCo's own format for models."""
 
     name: ClassVar[str] = "mjcf"
     suffixes: ClassVar[tuple[str, ...]] = (".xml", ".mjcf")
+    is_description: ClassVar[bool] = True
     title: ClassVar[str] = "MJCF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
     instead: ClassVar[Mapping[What, str]] = {What.OPAQUE: "written as surfaces that do not collide"}
+
+    def sniffs(self, head: bytes) -> bool:
+        root = _ROOT.match(head.decode("utf-8", "replace").replace("\0", ""))
+        return root is None or root[1].lower() == "mujoco"
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_mjcf(path)

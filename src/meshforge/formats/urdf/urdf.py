@@ -21,6 +21,7 @@ class UrdfFormat(Format):
 
     name: ClassVar[str] = "urdf"
     suffixes: ClassVar[tuple[str, ...]] = (".urdf",)
+    is_description: ClassVar[bool] = True
     title: ClassVar[str] = "URDF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
     holds: ClassVar[frozenset[What]] = HOLDS
