@@ -67,7 +67,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             for workers in (1,) if quick else _WORKERS:
                 tell(f"apply: {family}, {workers} workers")
                 runs = [_run(assets, folder, workers) for _ in range(1 if quick else _ROUNDS)]
-                rows.append(_row(family, workers, runs))
+                rows.append(_row(family, workers, runs, name))
     return Result(
         "apply",
         "Running a program over a family",
@@ -141,7 +141,7 @@ def _run(assets: list[Path], folder: Path, workers: int) -> Watched:
     return watched(["apply", str(program), *paths, *options])
 
 
-def _row(family: str, workers: int, runs: list[Watched]) -> dict[str, object]:
+def _row(family: str, workers: int, runs: list[Watched], base: str) -> dict[str, object]:
     outcomes = [json.loads(line) for line in runs[0].output.splitlines() if line.startswith("{")]
     return {
         "family": family,
@@ -151,7 +151,7 @@ def _row(family: str, workers: int, runs: list[Watched]) -> dict[str, object]:
         "main": max(run.main for run in runs),
         "worker": max(run.worker for run in runs),
         "outcomes": dict(sorted(Counter(outcome["status"] for outcome in outcomes).items())),
-        "errors": sorted({str(outcome["error"]).splitlines()[0] for outcome in outcomes if outcome.get("error")})[:5],
+        "errors": [str(outcome["error"]).replace(base, "") for outcome in outcomes if outcome.get("error")],
         "work": sum(float(outcome.get("seconds") or 0.0) for outcome in outcomes),
     }
 

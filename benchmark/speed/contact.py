@@ -127,7 +127,7 @@ def _result(rows: list[dict[str, Any]]) -> Result:
             "*Known hulls*: shapes whose distances were asked for before, as in all meshes after an edit.",
             "MeshForge also measures pairs up to three thresholds apart, to show near misses; the others do not.",
             "trimesh and PyBullet find the pairs whose boxes are near; python-fcl and bare coal are given them.",
-            f"Medians of {_ROUNDS} rounds; in a round, each runs {_REPEATS} times in a row, of which the quickest counts.",
+            f"Medians of {_ROUNDS} rounds; in a round, each runs {_REPEATS} times in a row, the quickest counting.",
             "Bare coal is called with the request that MeshForge uses.",
         ),
         tuple(rows),
