@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from benchmark.speed.assets import multi_hull
-from benchmark.speed.clock import Run, in_turns, medians
+from benchmark.speed.clock import Run, in_turns, medians, once
 from benchmark.speed.report import Goal, Result, Table, Tell
 from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.errors import AssetError
 from meshforge.formats import save
 from meshforge.formats.gltf import GltfFormat
-from meshforge.formats.obj import Obj
-from meshforge.formats.parts import as_parts
-from meshforge.formats.stl import Stl
+from meshforge.formats.plain.obj import Obj
+from meshforge.formats.plain.parts import as_parts
+from meshforge.formats.plain.stl import Stl
 from meshforge.geometry import Pose
 from meshforge.symbolic import SymbolicMesh
 
@@ -47,7 +47,7 @@ def one_file(name: str, mesh: SymbolicMesh, suffix: str, folder: Path, rounds: i
     checked = partial(save, asset, folder / f"saved{suffix}", overwrite=True)
     seconds = medians(in_turns(turns, rounds))
     with suppress(AssetError):  # an STL cannot tell hulls apart that share a corner
-        seconds |= medians(in_turns({CHECKED: lambda: checked}, 1))
+        seconds[CHECKED] = once(checked)
     size = {OURS: len(ours()), THEIRS: len(_trimesh(asset, suffix)())}
     return {"asset": name, "kind": suffix, "seconds": seconds, "bytes": size}
 

@@ -4,9 +4,9 @@ from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.loading import labels_beside, load, load_many, read
 from meshforge.formats.losses import Loss
 from meshforge.formats.meshfile import RawSurface
-from meshforge.formats.obj_text import parts_text as obj_parts
-from meshforge.formats.parts import Part
 from meshforge.formats.placing import placed
+from meshforge.formats.plain.obj_text import parts_text as obj_parts
+from meshforge.formats.plain.parts import Part
 from meshforge.formats.registry import (
     DESCRIPTION_SUFFIXES,
     FORMATS,

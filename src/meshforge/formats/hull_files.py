@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.formats.obj_text import rows_text
+from meshforge.formats.plain.obj_text import rows_text
 from meshforge.formats.references import Resolver, placement
 from meshforge.geometry import Floats, Ints
 

@@ -6,14 +6,10 @@ from pathlib import Path
 
 from meshforge.errors import AssetError, nearest
 from meshforge.formats.base import Format
-from meshforge.formats.folder import Folder
 from meshforge.formats.gltf import GltfFormat
 from meshforge.formats.mjcf import MjcfFormat
-from meshforge.formats.obj import Obj
-from meshforge.formats.ply import Ply
-from meshforge.formats.stl import Stl
+from meshforge.formats.plain import Folder, Obj, Ply, Stl, Wrl
 from meshforge.formats.urdf import UrdfFormat
-from meshforge.formats.wrl import Wrl
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}

@@ -144,7 +144,8 @@ def test_convert_to_another_format_keeps_the_hulls_and_their_labels(run: Run, ou
 def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
     Path("t.urdf").write_text(
         '<robot name="t"><link name="a"><collision name="pin"><geometry><sphere radius="1"/></geometry></collision>'
-        '</link><link name="b"/><joint name="hinge" type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
+        '</link><link name="b"/>'
+        '<joint name="hinge" type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
     )
     told = run("convert", "t.urdf", "t.obj", "--json")
     assert told.code == 0

@@ -351,7 +351,9 @@ def test_a_mesh_that_two_geoms_share_is_placed_for_each(tmp_path: Path) -> None:
 
 
 def test_geoms_tell_how_they_collide_with_defaults_and_classes(tmp_path: Path) -> None:
-    before = '<default><geom friction=".5"/><default class="stiff"><geom solref=".01 1" condim="4"/></default></default>'
+    before = (
+        '<default><geom friction=".5"/><default class="stiff"><geom solref=".01 1" condim="4"/></default></default>'
+    )
     found = asset(tmp_path, '<geom size="1"/><geom size="2" class="stiff" contype="3"/>', before)
     plain, stiff = (dict(geom.contact) for geom in found.geoms)
     assert plain["friction"] == stiff["friction"] == "0.5 0.005 0.0001"

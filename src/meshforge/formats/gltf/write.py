@@ -22,7 +22,7 @@ from meshforge.formats.gltf.plain_style import PlainStyle
 from meshforge.formats.gltf.styles import Style
 from meshforge.formats.gltf.unreal_style import UnrealStyle
 from meshforge.formats.meshfile.gltf import Scene, damage_at
-from meshforge.formats.parts import renaming
+from meshforge.formats.plain.parts import renaming
 from meshforge.formats.urdf.document import digest_of
 from meshforge.words import counted
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import blake2b
 
 import numpy as np
 
@@ -10,6 +12,8 @@ from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.pieces.reader import Part, Reader
 from meshforge.geometry.shapes.polytope import Polytope
+
+_SMALL = 10_000  # triangles of a soup whose pieces are remembered: 64 such soups are less than 100 MB
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,12 +48,43 @@ def pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = No
     if not np.isfinite(vertices[faces]).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
-    found = Reader(vertices, faces, of_face, name).read()
-    return [_piece(vertices, faces, part, of_face) for part in sorted(found, key=lambda part: int(part.faces[0]))]
+    soup = _Soup(vertices, faces, of_face)
+    return list(_read_before(soup) if len(faces) <= _SMALL else _read(soup))
+
+
+class _Soup:
+    """Triangles with groups, equal to others of the same numbers."""
+
+    def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
+        self.vertices, self.faces, self.group = vertices, faces, group
+        arrays = (np.ascontiguousarray(array) for array in (faces, group, vertices))
+        self.digest = b"".join(blake2b(array.data, digest_size=16).digest() for array in arrays)
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Soup) and self.digest == other.digest
+
+
+@lru_cache(maxsize=64)
+def _read_before(soup: _Soup) -> tuple[Piece, ...]:
+    """The pieces, remembered: an asset's meshes are read when it is opened, when it is written, and to check that."""
+    soup.vertices, soup.faces, soup.group = soup.vertices.copy(), soup.faces.copy(), soup.group.copy()
+    return _read(soup)
+
+
+def _read(soup: _Soup) -> tuple[Piece, ...]:
+    found = Reader(soup.vertices, soup.faces, soup.group).read()
+    ordered = sorted(found, key=lambda part: int(part.faces[0]))
+    return tuple(_piece(soup.vertices, soup.faces, part, soup.group) for part in ordered)
 
 
 def _piece(vertices: Floats, faces: Ints, part: Part, group: Ints) -> Piece:
     used, local = np.unique(faces[part.faces], return_inverse=True)
     first = int(part.faces[0])
     found = part.verdict
-    return Piece(found.shape, found.reason, vertices[used], local.reshape(-1, 3), part.faces, int(group[first]))
+    arrays = (vertices[used], local.reshape(-1, 3), part.faces)
+    for array in arrays:
+        array.setflags(write=False)
+    return Piece(found.shape, found.reason, *arrays, int(group[first]))

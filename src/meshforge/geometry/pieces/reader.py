@@ -51,9 +51,8 @@ class Indexed:
 class Reader:
     """Reads components from coarse (all that touches) to fine (solids that meet in an edge)."""
 
-    def __init__(self, vertices: Floats, faces: Ints, group: Ints, name: str) -> None:
+    def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
         self.vertices = vertices
-        self.name = name
         self.placed = welded(vertices)[faces]  # corners by place
         self.of_place = by_vertices(self.placed)  # the component of each face, by what holds it together
         self.of_group = by_vertices(_in_groups(self.placed, group))
@@ -157,7 +156,7 @@ class Reader:
         proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
         if len(proper) < 2:
             return Part(faces, Verdict(None, "flat"))
-        return Part(faces, verdict(self.points, corners[proper], self.name))
+        return Part(faces, verdict(self.points, corners[proper]))
 
     def _better(self, parts: list[Part], faces: Ints) -> list[Part]:
         """The parts, or the whole, whichever accounts for more by valid hulls."""

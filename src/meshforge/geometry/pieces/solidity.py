@@ -35,11 +35,11 @@ class Verdict:
     closed: bool = False
 
 
-def verdict(points: Floats, corners: Ints, name: str) -> Verdict:
+def verdict(points: Floats, corners: Ints) -> Verdict:
     """What a piece of points (n, 3) and distinct triangles (m, 3) is; the winding may be inverted or mixed."""
     used, local = np.unique(corners, return_inverse=True)
     points, corners = points[used], local.reshape(-1, 3)
-    hull = _hull(points, name)
+    hull = _hull(points)
     if hull is None:
         return Verdict(None, "flat")
     result = _filled(points, corners, hull)
@@ -51,11 +51,11 @@ def verdict(points: Floats, corners: Ints, name: str) -> Verdict:
     return result
 
 
-def _hull(points: Floats, name: str) -> Polytope | None:
+def _hull(points: Floats) -> Polytope | None:
     """The convex hull, None where it is flat."""
     size = float(np.ptp(points, axis=0).max(initial=0.0))
     try:
-        hull = convex_hull(points, name=name)
+        hull = convex_hull(points)
     except GeometryError:
         return None
     return hull if _thickness(hull) > _FLAT * size else None

@@ -10,8 +10,8 @@ from meshforge.errors import AssetError
 from meshforge.formats.base import Output
 from meshforge.formats.meshfile import Soup, joined
 from meshforge.formats.meshfile.vrml import parse_vrml
-from meshforge.formats.parts import Part
-from meshforge.formats.plain import Edit, PlainFormat
+from meshforge.formats.plain.parts import Part
+from meshforge.formats.plain.plain import Edit, PlainFormat
 
 
 class Wrl(PlainFormat):

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
-from meshforge.formats.parts import Part
-from meshforge.formats.plain import Edit, PlainFormat
+from meshforge.formats.plain.parts import Part
+from meshforge.formats.plain.plain import Edit, PlainFormat
 from meshforge.geometry import Floats
 
 _TITLE = b"MeshForge".ljust(80, b" ")  # must not begin with "solid", the mark of ASCII files

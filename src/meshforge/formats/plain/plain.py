@@ -20,7 +20,7 @@ from meshforge.errors import AssetError, GeometryError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.meshfile import Soup
-from meshforge.formats.parts import Part, PlainDocument, all_parts, as_parts, piece_names, read_back, renaming
+from meshforge.formats.plain.parts import Part, PlainDocument, all_parts, as_parts, piece_names, read_back, renaming
 from meshforge.formats.triangles import contents
 from meshforge.geometry import Piece, Pose, pieces
 

@@ -10,8 +10,8 @@ import numpy as np
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.obj import Group, ObjText, arguments, name_in
 from meshforge.formats.meshfile.obj_rows import keywords
-from meshforge.formats.obj_text import line_end, named, parts_text
-from meshforge.formats.plain import Edit
+from meshforge.formats.plain.obj_text import line_end, named, parts_text
+from meshforge.formats.plain.plain import Edit
 
 _NUMBER = re.compile(rb"(\s)([+-]?\d+)")
 _FACES = (b"f", b"fo")

@@ -9,10 +9,10 @@ from pathlib import Path
 from meshforge.asset import Asset, Feature, What
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.obj import parse_obj
-from meshforge.formats.obj_edit import edited_obj
-from meshforge.formats.obj_text import parts_text
-from meshforge.formats.parts import Part, PlainDocument
-from meshforge.formats.plain import Edit, PlainFormat
+from meshforge.formats.plain.obj_edit import edited_obj
+from meshforge.formats.plain.obj_text import parts_text
+from meshforge.formats.plain.parts import Part, PlainDocument
+from meshforge.formats.plain.plain import Edit, PlainFormat
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)

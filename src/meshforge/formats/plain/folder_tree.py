@@ -10,8 +10,8 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.formats.base import Output
 from meshforge.formats.companions import companions
-from meshforge.formats.parts import Part, PlainDocument, member_names, natural
-from meshforge.formats.plain import PlainFormat
+from meshforge.formats.plain.parts import Part, PlainDocument, member_names, natural
+from meshforge.formats.plain.plain import PlainFormat
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
 

@@ -10,9 +10,9 @@ from pathlib import Path
 from meshforge.asset import Asset, Body, Document, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
-from meshforge.formats.folder_tree import Member, Tree
-from meshforge.formats.parts import all_parts, as_parts, member_names, natural, renaming
-from meshforge.formats.plain import AS_HULLS, BODY, PlainFormat
+from meshforge.formats.plain.folder_tree import Member, Tree
+from meshforge.formats.plain.parts import all_parts, as_parts, member_names, natural, renaming
+from meshforge.formats.plain.plain import AS_HULLS, BODY, PlainFormat
 from meshforge.geometry import Pose
 
 

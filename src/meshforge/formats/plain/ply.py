@@ -12,9 +12,9 @@ from meshforge.asset import Asset, Feature, What
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile import Soup, joined
 from meshforge.formats.meshfile.ply import INDICES, PlyText, Rows, parse_ply
-from meshforge.formats.parts import Part, PlainDocument
-from meshforge.formats.plain import Edit, PlainFormat
-from meshforge.formats.ply_rows import ended, made_row, renumbered
+from meshforge.formats.plain.parts import Part, PlainDocument
+from meshforge.formats.plain.plain import Edit, PlainFormat
+from meshforge.formats.plain.ply_rows import ended, made_row, renumbered
 from meshforge.geometry import Floats, Ints
 
 _HEADER = """ply

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from meshforge.formats.parts import Part
+from meshforge.formats.plain.parts import Part
 from meshforge.geometry import Floats, Ints
 
 
