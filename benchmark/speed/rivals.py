@@ -98,14 +98,14 @@ class Bullet:
         vertices = np.concatenate([shape.vertices for shape in shapes])
         self.scale = 1000.0 / float(np.linalg.norm(np.ptp(vertices, axis=0)))
         self.near = near * self.scale
-        self.points = [(shape.vertices * self.scale).tolist() for shape in shapes]
+        self.shapes = shapes
         self.world = pybullet.connect(pybullet.DIRECT)
 
     def build(self) -> Any:
         import pybullet
 
         bodies = []
-        for points in self.points:
+        for points in [(shape.vertices * self.scale).tolist() for shape in self.shapes]:
             shape = pybullet.createCollisionShape(pybullet.GEOM_MESH, vertices=points, physicsClientId=self.world)
             bodies.append(pybullet.createMultiBody(0, shape, physicsClientId=self.world))
         return bodies
@@ -144,18 +144,17 @@ class Coal:
 
     def __init__(self, shapes: Sequence[Polytope], near: float, pairs: Sequence[tuple[int, int]]) -> None:
         vertices = np.concatenate([shape.vertices for shape in shapes])
-        size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
-        self.near, self.pairs = near / size, pairs
-        self.arrays = [((s.vertices - vertices.mean(axis=0)) / size, s.faces) for s in shapes]
+        self.size, self.middle = float(np.linalg.norm(np.ptp(vertices, axis=0))), vertices.mean(axis=0)
+        self.shapes, self.near, self.pairs = shapes, near / self.size, pairs
 
     def build(self) -> Any:
         import coal
 
         shapes = []
-        for vertices, faces in self.arrays:
+        for shape in self.shapes:
             points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-            points.extend(list(vertices))
-            triangles.extend([coal.Triangle(a, b, c) for a, b, c in faces.tolist()])
+            points.extend(list((shape.vertices - self.middle) / self.size))
+            triangles.extend([coal.Triangle(a, b, c) for a, b, c in shape.faces.tolist()])
             shapes.append(coal.Convex(points, triangles))
         return shapes
 

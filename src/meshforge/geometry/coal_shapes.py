@@ -1,68 +1,80 @@
 """Shapes as coal has them, in coordinates where all that is measured together is about one long.
 
-coal errs on other coordinates. The frame's origin and unit are rounded, so that shapes which stay through an edit
-mostly keep their frame, and with it what coal was given.
+coal errs on other coordinates. What takes coal's time is making a polytope and its edges; so polytopes of up to 192
+vertices are poured into vessels: polytopes of coal's with an edge between any two vertices, made once, used again and
+again. coal looks at every vertex of them, or climbs in one step to the best, and finds the same points.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import lru_cache
 from math import dist, frexp
-from struct import pack
-from typing import Any
-from weakref import WeakKeyDictionary
+from typing import Any, NamedTuple
 
 import coal
 import numpy as np
 
+from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.cut import cut
 from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
 
 Placed = tuple[Any, Any]
 """coal's geometry, and its transform."""
 
-_SMALL = 32  # coal looks at every point of a shape that has no more; on larger ones it climbs along the edges
-_SIZES = (48, 64, 96, 128)  # of shapes with an edge between any two points; beyond, climbing is worth its price
-_IDENTITY = coal.Transform3s()
-_NONE = (b"", None)
-_known: WeakKeyDictionary[Polytope, tuple[bytes, Any]] = WeakKeyDictionary()
+_SIZES = (8, 16, 24, 32, 48, 64, 96, 128, 192)  # of vessels; on more vertices climbing is worth the price of edges
+_LOOKED_AT = 32  # coal looks at every vertex of a polytope that has no more, and needs no edges
+_IDLE = 64  # vessels of a size that are kept
+_EDGES = 254  # at a vertex; coal counts them in a byte
+_STILL = coal.Transform3s()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Frame:
-    """x -> (x - origin) / unit; origin: (3,) [m]; unit: a power of two [m]; key: equal for equal frames."""
+    """x -> (x - origin) / unit; origin: (3,) [m]; unit: a power of two [m]."""
 
     origin: Floats
     unit: float
-    key: bytes
 
     @staticmethod
     def around(low: Floats, high: Floats) -> Frame:
-        """The frame of all that is between two corners (3,)."""
-        unit = 2.0 ** frexp(dist(low.tolist(), high.tolist()))[1]
-        origin: Floats = np.round((low + high) / unit) * (unit / 2)
-        return Frame(origin, unit, origin.tobytes() + pack("d", unit))
+        """The frame of all that is between two corners (3,); rounded, so that small edits mostly keep it."""
+        bottom, top = low.tolist(), high.tolist()
+        unit = 2.0 ** frexp(dist(bottom, top))[1]
+        return Frame(np.array([round((a + b) / unit) * (unit / 2) for a, b in zip(bottom, top, strict=True)]), unit)
 
-    def all_placed(self, shapes: Sequence[Shape]) -> list[Placed]:
-        """Shapes in this frame."""
-        convex = self._convex({id(shape): shape for shape in shapes if isinstance(shape, Polytope)})
-        return [(convex[id(s)], _IDENTITY) if isinstance(s, Polytope) else self._primitive(s) for s in shapes]
+    @contextmanager
+    def placed(self, shapes: Sequence[Shape]) -> Iterator[list[Placed]]:
+        """Shapes in this frame, as long as the context lasts."""
+        filled: list[_Vessel] = []
+        try:
+            yield self._placed(shapes, filled)
+        finally:
+            for vessel in filled:
+                if len(idle := _idle[vessel.size]) < _IDLE:
+                    idle.append(vessel)
 
-    def _convex(self, polytopes: Mapping[int, Polytope]) -> dict[int, Any]:
-        """coal's shapes of polytopes, under the same keys; those made before in an equal frame are taken again."""
-        found = {k: _known.get(polytope, _NONE) for k, polytope in polytopes.items()}
-        convex = {k: made for k, (frame, made) in found.items() if frame == self.key}
-        new = [(k, polytope) for k, polytope in polytopes.items() if k not in convex]
-        if new:
-            points = (np.concatenate([polytope.vertices for _, polytope in new]) - self.origin) / self.unit
+    def _placed(self, shapes: Sequence[Shape], filled: list[_Vessel]) -> list[Placed]:
+        polytopes = [shape.vertices for shape in shapes if isinstance(shape, Polytope)]
+        points = (np.concatenate(polytopes) - self.origin) / self.unit if polytopes else None
+        placed: list[Placed] = []
         stop = 0
-        for k, polytope in new:
-            start, stop = stop, stop + len(polytope.vertices)
-            convex[k] = _made(points[start:stop], polytope.faces)
-            _known[polytope] = self.key, convex[k]
-        return convex
+        for shape in shapes:
+            if not isinstance(shape, Polytope):
+                placed.append(self._primitive(shape))
+                continue
+            assert points is not None
+            start, stop = stop, stop + len(shape.vertices)
+            if stop - start > _SIZES[-1]:
+                placed.append((_by_arrays(points[start:stop], shape.faces), _STILL))
+                continue
+            vessel = _filled(points[start:stop])
+            filled.append(vessel)
+            placed.append((vessel.shape, _STILL))
+        return placed
 
     def _primitive(self, shape: Shape) -> Placed:
         match shape:
@@ -81,29 +93,61 @@ class Frame:
         return made, coal.Transform3s(shape.pose.rotation, (shape.pose.translation - self.origin) / self.unit)
 
 
-def _made(points: Floats, faces: Ints) -> Any:
-    count = len(points)
-    if count > _SIZES[-1]:
-        return _by_arrays(points, faces)
-    made = _blank(count if count <= _SMALL else next(size for size in _SIZES if size >= count)).clone()
-    places = made.points()
-    places[:count] = points
-    places[count:] = points[0]
-    return made
+def parts(shape: Shape) -> list[Shape]:
+    """Shapes that coal can have, which are the shape together: mostly itself, else what it is cut into.
 
-
-@lru_cache(maxsize=_SMALL + len(_SIZES))
-def _blank(count: int) -> Any:
-    """A shape to be copied and given its points, ten times as fast as making one of its own edges.
-
-    coal looks at every point: there are few, or each has an edge to each.
+    Raises GeometryError where no cut makes the shape simpler.
     """
-    pairs = np.column_stack(np.triu_indices(count, 1)) if count > _SMALL else np.array([[0, 1]])
-    return _by_arrays(np.zeros((count, 3)), np.column_stack([pairs, pairs[:, 1]]))
+    if not isinstance(shape, Polytope) or len(shape.vertices) <= _EDGES:
+        return [shape]
+    edges = np.bincount(shape.faces.ravel())
+    if edges.max() <= _EDGES:
+        return [shape]
+    hub = int(edges.argmax())
+    around = np.unique(shape.faces[(shape.faces == hub).any(axis=1)])
+    ways = shape.vertices[around[around != hub]] - shape.vertices[hub]
+    across = np.linalg.svd(ways - ways.mean(axis=0))[2][0]  # the plane halves what is around
+    along = ways.mean(axis=0)
+    normal = across - along * (across @ along) / (along @ along)
+    halves = [half for half in cut(shape, shape.vertices[hub], normal) if half is not None]
+    if any(len(half.vertices) >= len(shape.vertices) for half in halves):
+        raise GeometryError(f"a vertex of a hull has {edges.max()} edges, more than can be measured")
+    return [part for half in halves for part in parts(half)]
+
+
+class _Vessel(NamedTuple):
+    """A polytope of coal's and the array (size, 3) of its points, which can be written."""
+
+    size: int
+    shape: Any
+    points: Floats
+
+
+_idle: dict[int, list[_Vessel]] = {size: [] for size in _SIZES}
+
+
+def _filled(points: Floats) -> _Vessel:
+    """A vessel that holds points (n, 3), n at most the largest size; what it has too many is the first of them."""
+    count = len(points)
+    size = _SIZES[bisect_left(_SIZES, count)]
+    try:
+        vessel = _idle[size].pop()
+    except IndexError:
+        vessel = _vessel(size)
+    vessel.points[:count] = points
+    if count < size:
+        vessel.points[count:] = points[0]
+    return vessel
+
+
+def _vessel(size: int) -> _Vessel:
+    pairs = np.column_stack(np.triu_indices(size, 1)) if size > _LOOKED_AT else np.array([[0, 1]])
+    shape = _by_arrays(np.zeros((size, 3)), np.column_stack([pairs, pairs[:, 1]]))
+    return _Vessel(size, shape, shape.points())
 
 
 def _by_arrays(points: Floats, faces: Ints) -> Any:
-    """coal's convex shape by way of its triangle meshes, which take whole arrays."""
+    """coal's polytope by way of its triangle meshes, which take whole arrays."""
     mesh = coal.BVHModelOBBRSS()
     mesh.beginModel(len(faces), len(points))
     mesh.addVertices(points)

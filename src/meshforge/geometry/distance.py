@@ -8,13 +8,14 @@ axes; where two curved surfaces touch, up to 1e-6.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
 
 import coal
 import numpy as np
 
 from meshforge.geometry.aabb import bounds
 from meshforge.geometry.arrays import Floats
-from meshforge.geometry.coal_shapes import Frame, Placed
+from meshforge.geometry.coal_shapes import Frame, Placed, parts
 from meshforge.geometry.shapes import Shape
 
 _TOLERANCE = 1e-10  # coal's default, 1e-6, is its error on curved shapes; below 1e-11 its iteration begins to stray
@@ -24,10 +25,7 @@ _BLOCK = 512  # rows of the broad phase at once, to bound its memory
 
 def distance(a: Shape, b: Shape) -> float:
     """The smallest distance [m] between two convex shapes, 0 where they touch or overlap."""
-    low, high = bounds([a.aabb, b.aabb])
-    frame = Frame.around(low.min(axis=0), high.max(axis=0))
-    one, other = frame.all_placed([a, b])
-    return _gaps([(one, other)])[0] * frame.unit
+    return close_pairs([a, b], inf)[0, 1]
 
 
 def close_pairs(
@@ -39,15 +37,32 @@ def close_pairs(
     """
     if len(shapes) < 2:
         return {}
+    owned = [(k, part) for k, shape in enumerate(shapes) for part in parts(shape)]
+    if len(owned) > len(shapes):
+        return _by_owners(owned, reach, settled)
     low, high = bounds([shape.aabb for shape in shapes])
     near = near_boxes(low, high, reach)
     if settled:
         near = [(i, j) for i, j in near if i not in settled or j not in settled]
     frame = Frame.around(low.min(axis=0), high.max(axis=0))
     used = list(dict.fromkeys(k for pair in near for k in pair))
-    placed = dict(zip(used, frame.all_placed([shapes[k] for k in used]), strict=True))
-    gaps = _gaps([(placed[i], placed[j]) for i, j in near])
+    with frame.placed([shapes[k] for k in used]) as found:
+        placed = dict(zip(used, found, strict=True))
+        gaps = _gaps([(placed[i], placed[j]) for i, j in near])
     return {pair: gap * frame.unit for pair, gap in zip(near, gaps, strict=True) if gap * frame.unit <= reach}
+
+
+def _by_owners(
+    owned: Sequence[tuple[int, Shape]], reach: float, settled: frozenset[int]
+) -> dict[tuple[int, int], float]:
+    """Close pairs of shapes from their parts, each with the index of the shape it belongs to."""
+    done = frozenset(part for part, (owner, _) in enumerate(owned) if owner in settled)
+    found: dict[tuple[int, int], float] = {}
+    for (i, j), gap in close_pairs([part for _, part in owned], reach, done).items():
+        pair = owned[i][0], owned[j][0]
+        if pair[0] != pair[1]:
+            found[pair] = min(gap, found.get(pair, inf))
+    return dict(sorted(found.items()))
 
 
 def near_boxes(low: Floats, high: Floats, reach: float) -> list[tuple[int, int]]:

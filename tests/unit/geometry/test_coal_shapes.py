@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import gc
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import coal
 import numpy as np
 import pytest
 
-from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
+from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, coal_shapes, convex_hull, distance
 from meshforge.geometry.aabb import bounds
-from meshforge.geometry.coal_shapes import Frame, _known
+from meshforge.geometry.coal_shapes import Frame, parts
 from meshforge.geometry.distance import near_boxes
 
 
@@ -23,6 +23,12 @@ def ball(corners: int, center: Floats) -> Polytope:
     made = convex_hull(np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height]) + center)
     assert len(made.vertices) == corners
     return made
+
+
+class Odd:
+    """A shape of a kind that nobody knows."""
+
+    kind = "odd"
 
 
 def plainly(shape: Polytope) -> Any:
@@ -49,25 +55,56 @@ def test_shapes_of_few_and_of_many_corners_have_the_distances_of_shapes_made_pla
         assert distance(a, b) == pytest.approx(plain_distance(a, b), abs=1e-8)
 
 
-def test_a_shape_is_given_to_coal_once_while_the_frame_stays() -> None:
-    row = [convex_hull(Box(Pose.of_translation([k, 0, 0]), np.array([0.6, 1, 1])).vertices) for k in range(4)]
-    close_pairs(row, 0.1)
-    first = _known[row[1]]
-    close_pairs([*row, ball(20, np.array([1.0, 0, 0]))], 0.1)
-    assert _known[row[1]] is first
-    far = ball(20, np.array([100.0, 0, 0]))
-    assert distance(row[1], far) == pytest.approx(distance(far, row[1]), abs=1e-9)
-    assert _known[row[1]] is not first
+def test_a_vessel_holds_nothing_of_what_was_in_it_before() -> None:
+    rng = np.random.default_rng(1)
+    shapes = [ball(int(corners), rng.normal(size=3) * 3) for corners in rng.permutation(np.arange(4, 200, 7))]
+    pairs = [(a, b) for a in shapes for b in shapes if a is not b]
+    first = [distance(a, b) for a, b in pairs]
+    assert [distance(a, b) for a, b in reversed(pairs)] == first[::-1]
 
 
-def test_what_coal_was_given_goes_with_the_shape() -> None:
-    gone = ball(10, np.zeros(3))
-    distance(gone, ball(10, np.ones(3)))
-    gc.collect()
-    before = len(_known)
-    del gone
-    gc.collect()
-    assert len(_known) < before
+def test_vessels_are_used_again_and_not_too_many_are_kept() -> None:
+    crowd = [ball(30, np.array([3.0 * k, 0, 0])) for k in range(100)]
+    assert len(close_pairs(crowd, 1.5)) == 99
+    assert len(coal_shapes._idle[32]) == coal_shapes._IDLE
+    kept = {id(vessel.shape) for vessel in coal_shapes._idle[32]}
+    close_pairs(crowd[:5], 1.5)
+    assert {id(vessel.shape) for vessel in coal_shapes._idle[32]} == kept
+
+
+def test_vessels_come_back_when_a_shape_has_no_place() -> None:
+    shapes = [ball(30, np.zeros(3)), ball(30, np.ones(3))]
+    distance(*shapes)
+    kept = len(coal_shapes._idle[32])
+    with pytest.raises(TypeError, match="no distance for shapes of kind odd"):
+        Frame.around(np.zeros(3), np.ones(3)).placed([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
+    assert len(coal_shapes._idle[32]) == kept
+
+
+def test_threads_do_not_pour_into_each_others_vessels() -> None:
+    rng = np.random.default_rng(2)
+    crowds = [[ball(40, rng.normal(size=3) * 2) for _ in range(12)] for _ in range(8)]
+    wanted = [close_pairs(crowd, 1.0) for crowd in crowds]
+    with ThreadPoolExecutor(8) as pool:
+        for _ in range(5):
+            assert list(pool.map(lambda crowd: close_pairs(crowd, 1.0), crowds)) == wanted
+
+
+@pytest.mark.parametrize("rim", [254, 255, 300, 700])
+def test_a_vertex_may_have_more_edges_than_coal_can_count(rim: int) -> None:
+    turn = np.arange(rim) / rim * 2 * np.pi
+    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(rim)])
+    cone = convex_hull(np.vstack([circle, [[0, 0, 1]]]))
+    assert np.bincount(cone.faces.ravel()).max() == rim
+    cut = parts(cone)
+    assert (len(cut) > 1) == (rim > 254)
+    assert sum(part.volume for part in cut) == pytest.approx(cone.volume, rel=1e-12)
+    small = Box(Pose.of_translation([0, 0, 1.75]), np.array([0.25, 0.25, 0.25]))
+    assert distance(cone, small) == pytest.approx(0.5, abs=1e-9)
+    beside = Box(Pose.of_translation([2.5, 0, 0]), np.array([0.5, 0.5, 0.5]))
+    others = [small, beside, cone, Box(Pose.of_translation([9, 0, 0]), np.ones(3))]
+    assert close_pairs(others, 1.05) == pytest.approx({(0, 2): 0.5, (1, 2): 1.0}, abs=1e-9)
+    assert close_pairs(others, 1.05, frozenset({1, 2})) == pytest.approx({(0, 2): 0.5}, abs=1e-9)
 
 
 def test_a_frame_makes_what_lies_in_it_about_one_long() -> None:
