@@ -148,9 +148,7 @@ def _goals(rows: list[dict[str, Any]]) -> tuple[Goal, ...]:
     return (
         Goal("times as fast as trimesh's collision manager", "at least", 10.0, against(Trimesh, *whole)),
         Goal("times as fast as PyBullet's closest points", "at least", 10.0, against(Bullet, *whole)),
-        Goal(
-            "times bare coal's time, its shapes made from the arrays", "at most", 2.0, 1 / against(Coal, *whole)
-        ),
+        Goal("times bare coal's time, its shapes made from the arrays", "at most", 2.0, 1 / against(Coal, *whole)),
         Goal("times bare coal's time, its shapes made beforehand", "at most", 2.0, 1 / against(Coal, "ask")),
     )
 

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from benchmark.speed.clock import in_turns, medians
-from benchmark.speed.report import Goal, Result, Table, Tell
+from benchmark.speed.report import Result, Table, Tell
 from meshforge.geometry import Floats, Ints, convex_hull, pieces
 
 _ROUNDS = 3
@@ -28,7 +28,8 @@ def measure(tell: Tell, quick: bool) -> Result:
         seconds = medians(
             in_turns({"ours": _run(partial(convex_hull, points)), "qhull": _run(partial(_qhull, points))}, _ROUNDS)
         )
-        hulls.append((name, len(convex_hull(points).vertices), seconds["ours"], seconds["qhull"]))
+        corners, ratio = len(convex_hull(points).vertices), seconds["ours"] / seconds["qhull"]
+        hulls.append((name, corners, seconds["ours"], seconds["qhull"], ratio))
     many = size * 5 // 2
     for name, (vertices, faces) in {
         "a torus": torus(many // 2),
@@ -41,10 +42,9 @@ def measure(tell: Tell, quick: bool) -> Result:
         "geometry",
         "Large inputs",
         (
-            Table("Convex hulls, s", ("", "corners", "MeshForge, verified", "Qhull (scipy)"), tuple(hulls)),
+            Table("Convex hulls, s", ("", "corners", "MeshForge, verified", "Qhull (scipy)", "ratio"), tuple(hulls)),
             Table("Pieces of a surface, s", ("", "triangles", "MeshForge"), tuple(parts)),
         ),
-        (Goal(f"seconds for the hull of {size} points, the slowest", "at most", 0.5, max(row[2] for row in hulls)),),
     )
 
 
