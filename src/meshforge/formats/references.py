@@ -14,7 +14,7 @@ from meshforge.errors import nearest
 
 _PACKAGE = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = re.compile(r"file:(?://[^/]*(?=/)|//)?(.*)", re.S)
-_LONG = 300  # characters of a path in a message
+_LONG = 100  # characters of a name in a message
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
@@ -83,9 +83,8 @@ class Resolver:
 
 
 def _shown(path: Path) -> str:
-    """A path as messages show it, of a long one the beginning."""
-    text = str(path)
-    return text if len(text) <= _LONG else f"{text[:_LONG]}..."
+    """A path as messages show it, of long names the beginning."""
+    return str(Path(*(name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts)))
 
 
 def _is_file(path: Path) -> bool:

@@ -168,4 +168,4 @@ def _told(message: str, tree: Tree, flat: Flat) -> AssetError:
 def _plain(message: str) -> str:
     """A message of MuJoCo in one line, without the line numbers of our text."""
     text = _NAMELESS.sub("", _PARSER.sub("", _HEAD.sub("", message.strip())))
-    return " ".join(_NAMED.sub(r"(element '\1')", text).split())
+    return " ".join(_NAMED.sub(r"(element '\1') ", text).split())
