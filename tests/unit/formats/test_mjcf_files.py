@@ -13,8 +13,8 @@ from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats import read as read_any
 from meshforge.formats.mjcf.document import MjcfDocument
-from meshforge.formats.mjcf.engine import compiled
-from meshforge.formats.mjcf.sources import gather
+from meshforge.formats.mjcf.files.sources import gather
+from meshforge.formats.mjcf.reading.engine import compiled
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, model, put, read
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"

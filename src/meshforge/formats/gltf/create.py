@@ -12,16 +12,16 @@ import numpy as np
 from meshforge.asset import Asset, Geom, Opaque, Surface, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Output
-from meshforge.formats.gltf.colors import GAMMA
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
-from meshforge.formats.gltf.draft import Draft
-from meshforge.formats.gltf.motions import motion_of
-from meshforge.formats.gltf.names import godot_kind, unreal_kind
-from meshforge.formats.gltf.naming import settle
-from meshforge.formats.gltf.physics import KHR
-from meshforge.formats.gltf.physics_style import PhysicsStyle
-from meshforge.formats.gltf.plain_style import PlainStyle
-from meshforge.formats.gltf.shape_entries import place_keys
+from meshforge.formats.gltf.reading.colors import GAMMA
+from meshforge.formats.gltf.reading.motions import motion_of
+from meshforge.formats.gltf.reading.names import godot_kind, unreal_kind
+from meshforge.formats.gltf.reading.physics import KHR
+from meshforge.formats.gltf.writing.draft import Draft
+from meshforge.formats.gltf.writing.naming import settle
+from meshforge.formats.gltf.writing.physics_style import PhysicsStyle
+from meshforge.formats.gltf.writing.plain_style import PlainStyle
+from meshforge.formats.gltf.writing.shape_entries import place_keys
 from meshforge.formats.losses import Loss
 from meshforge.formats.meshfile.gltf import Container, Json, Scene
 from meshforge.formats.visual_files import visuals_of

@@ -12,8 +12,8 @@ from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.gltf.create import COULD, HOLDS, create_gltf
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.gltf.features import features_of
-from meshforge.formats.gltf.read import read_gltf
-from meshforge.formats.gltf.write import write_gltf
+from meshforge.formats.gltf.reading.read import read_gltf
+from meshforge.formats.gltf.writing.write import write_gltf
 
 
 class GltfFormat(Format):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from meshforge.asset import Document, unique_names
-from meshforge.formats.mjcf.sources import Source, Tree, gather
+from meshforge.formats.mjcf.files.sources import Source, Tree, gather
 from meshforge.geometry import Floats, Pose
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from meshforge.asset import Feature, What
 from meshforge.formats.mjcf.document import MjcfDocument
-from meshforge.formats.mjcf.sources import Node
+from meshforge.formats.mjcf.files.sources import Node
 
 HOLDS = frozenset(
     {

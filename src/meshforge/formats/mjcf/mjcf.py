@@ -10,12 +10,12 @@ from typing import ClassVar, Literal
 from meshforge.asset import Asset, Feature, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
-from meshforge.formats.mjcf.copies import top
-from meshforge.formats.mjcf.create import create_mjcf
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.formats.mjcf.features import COULD, HOLDS, features_of
-from meshforge.formats.mjcf.read import read_mjcf
-from meshforge.formats.mjcf.write import write_mjcf
+from meshforge.formats.mjcf.making.create import create_mjcf
+from meshforge.formats.mjcf.reading.read import read_mjcf
+from meshforge.formats.mjcf.writing.copies import top
+from meshforge.formats.mjcf.writing.write import write_mjcf
 
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
 """An XML text up to the tag of its first element."""

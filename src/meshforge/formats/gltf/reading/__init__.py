@@ -1,0 +1,1 @@
+"""From a glTF scene to an asset: conventions of collision, shapes, bodies, visuals."""

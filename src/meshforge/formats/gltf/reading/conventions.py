@@ -1,0 +1,34 @@
+"""By which convention a scene tells its collision."""
+
+from __future__ import annotations
+
+from meshforge.formats.gltf.document import Convention
+from meshforge.formats.gltf.reading.names import godot_kind, unreal_kind
+from meshforge.formats.gltf.reading.physics import physics_of
+from meshforge.formats.meshfile.gltf import Placement, Scene
+from meshforge.formats.meshfile.gltf.items import entry
+
+
+def convention_of(scene: Scene) -> Convention:
+    """The first convention of collision that a node of the scene keeps to."""
+    physics = physics_of(scene)
+    if physics is not None:
+        return physics
+    shown = [placement.node for placement in scene.placements.values() if "mesh" in placement.node]
+    names = [node.get("name") for node in shown]
+    names += [entry(scene.tree, "meshes", node["mesh"]).get("name") for node in shown]
+    if any(unreal_kind(name) for name in names):
+        return "unreal"
+    return "godot" if any(godot_kind(name) for name in names) else "plain"
+
+
+def source_name(scene: Scene, placement: Placement, convention: Convention) -> str | None:
+    """The name of a node that is collision by a convention: its own, or that of its mesh where that one counts."""
+    own = placement.node.get("name")
+    if convention not in ("unreal", "godot", "plain"):
+        return own if isinstance(own, str) else None
+    if "mesh" not in placement.node:
+        return None
+    names = [own, entry(scene.tree, "meshes", placement.node["mesh"]).get("name")]
+    counts = {"unreal": unreal_kind, "godot": godot_kind}.get(convention, bool)
+    return next((name for name in names if isinstance(name, str) and counts(name)), None)

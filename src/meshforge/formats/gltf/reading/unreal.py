@@ -1,0 +1,51 @@
+"""Unreal's primitives, which files hold as meshes: what they are where the mesh really is one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshforge.formats.gltf.reading.names import Unreal
+from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, tight_box, tight_capsule
+
+_NEAR = 0.01  # share of its size by which a mesh may differ from the primitive
+_ROUND = 0.5  # share of a ball or capsule that its inscribed mesh fills at least; a cube in a ball fills 0.37
+
+
+def unreal_shape(kind: Unreal, hull: Shape) -> Shape | None:
+    """The primitive of a prefix that a hull is, None where it is another shape."""
+    match kind:
+        case "UBX":
+            return _box(hull)
+        case "USP":
+            return _sphere(hull)
+        case "UCP":
+            return _sphere(hull) or _capsule(hull)
+    return None
+
+
+def _box(hull: Shape) -> Box | None:
+    box = tight_box(hull.vertices)
+    return box if hull.volume >= (1 - _NEAR) * box.volume else None
+
+
+def _sphere(hull: Shape) -> Sphere | None:
+    points = hull.vertices
+    # the centre to which all vertices are equally far, by least squares
+    centre = np.linalg.lstsq(
+        2 * (points[1:] - points[0]), (points[1:] ** 2).sum(1) - (points[0] ** 2).sum(), rcond=None
+    )
+    distances = np.linalg.norm(points - centre[0], axis=1)
+    sphere = Sphere(Pose.of_translation(centre[0]), float(distances.mean()))
+    round_ = np.ptp(distances) <= _NEAR * sphere.radius and hull.volume >= _ROUND * sphere.volume
+    return sphere if round_ else None
+
+
+def _capsule(hull: Shape) -> Capsule | None:
+    capsule = tight_capsule(hull.vertices)
+    if not isinstance(capsule, Capsule):
+        return None
+    local = capsule.pose.inverse().apply(np.asarray(hull.vertices))
+    local[:, 2] -= np.clip(local[:, 2], -capsule.half_length, capsule.half_length)
+    depth = capsule.radius - np.linalg.norm(local, axis=1)
+    round_ = depth.max() <= _NEAR * capsule.radius and hull.volume >= _ROUND * capsule.volume
+    return capsule if round_ else None

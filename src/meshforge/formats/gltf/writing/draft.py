@@ -1,0 +1,197 @@
+"""A scene being edited: nodes emptied and added, meshes parted and made, while no index of the file changes."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.formats.gltf.reading.bodies import body_nodes
+from meshforge.formats.gltf.writing.geometry_out import NewGeometry
+from meshforge.formats.gltf.writing.referred import Referred
+from meshforge.formats.meshfile.gltf import Json, Scene
+from meshforge.formats.meshfile.gltf.items import entries, entry
+from meshforge.geometry import Floats, Ints, Shape
+
+
+class Draft:
+    """The tree of a scene, to be edited; before: the chunk that new geometry follows, None for a buffer of its own.
+
+    expected: for each node with collision, the names that its pieces should read back as.
+    """
+
+    def __init__(self, scene: Scene, tree: Json, before: bytes | None) -> None:
+        self.scene, self.tree = scene, tree
+        self.geometry = NewGeometry(tree, before)
+        self.referred = Referred(scene.tree)
+        self.expected: dict[int, tuple[str, ...]] = {}
+        self._bodies = body_nodes(scene)
+
+    def node(self, index: int) -> Json:
+        """A node of the edited tree."""
+        return entry(self.tree, "nodes", index)
+
+    def empty(self, index: int) -> None:
+        """Take the mesh from a node, and the node from the tree where nothing else hangs on it.
+
+        It stays in the list of nodes, so that no other gets its number.
+        """
+        self.without_mesh(index)
+        node = self.node(index)
+        needed = node.get("children") or node.get("extensions") or "camera" in node or index in self.referred.nodes
+        if not needed:
+            self._take_out(index)
+
+    def without_mesh(self, index: int) -> Json:
+        """Take the mesh from a node; what belonged to it is returned. Raises AssetError: an animation morphs it."""
+        node = self.node(index)
+        if index in self.referred.morphed:
+            raise AssetError(
+                f"an animation drives the morph weights of node {node.get('name') or index!r}, whose mesh would go",
+                where=str(self.scene.path),
+                remedy="Leave the hull as it is, or take the animation out of the file.",
+            )
+        return {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
+
+    def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
+        """A new node below another one, or at the root of the scene; at: before which child, None for the last."""
+        nodes: list[Any] = self.tree.setdefault("nodes", [])
+        nodes.append(node)
+        index = len(nodes) - 1
+        if holder is not None:
+            children: list[Any] = self.node(holder).setdefault("children", [])
+            children.insert(len(children) if at is None else at, index)
+        elif entries(self.tree, "scenes"):
+            self._scene().setdefault("nodes", []).append(index)
+        return index
+
+    def uses(self, extension: str) -> None:
+        """Say that the file uses an extension."""
+        used: list[Any] = self.tree.setdefault("extensionsUsed", [])
+        if extension not in used:
+            used.append(extension)
+
+    def add_mesh(self, mesh: Json, instead_of: int | None = None) -> int:
+        """A new mesh; in the place of another one where that one stood in a single node only."""
+        meshes: list[Any] = self.tree.setdefault("meshes", [])
+        if instead_of is not None and self.referred.users.get(instead_of, 0) == 1:
+            self.referred.users[instead_of] = 0
+            meshes[instead_of] = mesh
+            return instead_of
+        meshes.append(mesh)
+        return len(meshes) - 1
+
+    def made_mesh(self, shape: Shape, name: str, material: int | None = None) -> tuple[int, Floats]:
+        """A new mesh of a shape, about the middle of its box, so that single precision is fine; and that middle."""
+        polytope = shape.tessellated()
+        return self.surface_mesh(polytope.vertices, polytope.faces, name, material)
+
+    def surface_mesh(self, points: Floats, faces: Ints, name: str, material: int | None = None) -> tuple[int, Floats]:
+        """The same of vertices (n, 3) and faces (m, 3)."""
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        part: Json = {"attributes": {"POSITION": self.geometry.points(points - middle)}}
+        part["indices"] = self.geometry.triangles(faces)
+        if material is not None:
+            part["material"] = material
+        return self.add_mesh({"name": name, "primitives": [part]}), middle
+
+    def parted(self, index: int, owner: Ints, kept: Iterable[int]) -> Json:
+        """A mesh of some pieces only: with the vertices, attributes and materials of the whole."""
+        mesh = copy.deepcopy(entry(self.scene.tree, "meshes", index))
+        stays = np.isin(owner, list(kept))
+        starts = np.cumsum([0, *(len(patch.faces) for patch in self.scene.mesh(index).patches)])
+        whole = {
+            patch.index: (patch, start) for patch, start in zip(self.scene.mesh(index).patches, starts, strict=False)
+        }
+        parts = []
+        for k, part in enumerate(mesh["primitives"]):
+            if k not in whole:
+                continue  # points and lines are no part of a piece
+            patch, start = whole[k]
+            own = stays[start : start + len(patch.faces)]
+            if own.any():
+                parts.append(part if own.all() else self._fewer(part, patch.faces[own], patch.decoded))
+        return {**mesh, "primitives": parts}
+
+    def _fewer(self, part: Json, faces: Ints, decoded: Any) -> Json:
+        """A primitive with some of its triangles; one that Draco compressed is written plainly."""
+        part = {**part, "indices": self.geometry.triangles(faces)}
+        part.pop("mode", None)
+        if decoded is not None:
+            unpacked(part, decoded.attributes, self.tree, self.geometry)
+        return part
+
+    def holder_of(self, body: int | None, source: int | None) -> int | None:
+        """The node below which a made hull goes, None for the root of the scene.
+
+        body: the node that is its body; source: the node of the hull that it comes after, beside which it goes, or
+        below which where that one is a body or is moved by an animation.
+        """
+        holder = body
+        if source is not None:
+            below = source == body or source in self.referred.animated
+            holder = source if below else self.scene.placements[source].parent
+        if holder is not None and (self._bodies.get(holder) != body or self.flattened(holder)):
+            return body
+        return holder if holder is not None else body
+
+    def flattened(self, index: int) -> bool:
+        """Whether a node leaves no volume to what is below it."""
+        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
+        return bool(stretch[-1] <= 1e-9 * stretch[0])
+
+    def in_holder(self, shape: Shape, holder: int | None) -> Shape:
+        """A shape of the root frame in the space of a node."""
+        if holder is None:
+            return shape
+        inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
+        return shape.mapped(inverse[:3, :3], inverse[:3, 3])
+
+    def points_in(self, points: Floats, holder: int | None) -> Floats:
+        """Points (n, 3) of the root frame in the space of a node."""
+        if holder is None:
+            return points
+        inverse = np.linalg.inv(self.scene.placements[holder].world)
+        return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
+
+    def _scene(self) -> Json:
+        return entry(self.tree, "scenes", self.tree.get("scene", 0))
+
+    def _take_out(self, index: int) -> None:
+        parent = self.scene.placements[index].parent
+        holders = [(self.node(parent), "children")] if parent is not None else []
+        holders += [(scene, "nodes") for scene in entries(self.tree, "scenes")]
+        for holder, key in holders:
+            if index in holder.get(key, ()):
+                left = [child for child in holder[key] if child != index]
+                holder[key] = left
+                if not left:
+                    del holder[key]  # an empty list is not allowed
+
+
+def unpacked(part: Json, attributes: dict[str, Any], tree: Json, geometry: NewGeometry) -> None:
+    """Give a primitive that Draco compressed plain attributes, of the types that its accessors have."""
+    part["attributes"] = dict(part["attributes"])
+    for name, values in attributes.items():
+        accessor = entry(tree, "accessors", part["attributes"][name])
+        kind = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]]
+        rows = values.astype(kind)
+        part["attributes"][name] = geometry.vertex_data(
+            rows, bounds=name == "POSITION", normalized=bool(accessor.get("normalized"))
+        )
+    extensions = {key: value for key, value in part["extensions"].items() if key != "KHR_draco_mesh_compression"}
+    part.pop("extensions")
+    if extensions:
+        part["extensions"] = extensions
+
+
+def plain_material(tree: Json, mesh: int) -> int | None:
+    """The material of a mesh, for a hull in its stead; None for one that needs texture coordinates."""
+    parts: Sequence[Json] = entries(entry(tree, "meshes", mesh), "primitives")
+    found = next((part["material"] for part in parts if "material" in part), None)
+    if found is None or "Texture" in str(entry(tree, "materials", found)):
+        return None
+    return int(found)

@@ -1,0 +1,48 @@
+"""Edits of files where all meshes are collision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from meshforge.asset import Geom, Opaque, Surface
+from meshforge.formats.gltf.document import Authored
+from meshforge.formats.gltf.writing.draft import plain_material
+from meshforge.formats.gltf.writing.styles import Style
+
+
+class PlainStyle(Style):
+    """A hull is a node with a mesh, and is seen."""
+
+    renames = True
+
+    def remove(self, element: Authored) -> None:
+        self.draft.empty(element.node)
+
+    def part(self, element: Authored, kept: Sequence[int]) -> None:
+        """The pieces stay in the node where they keep their names; else each goes to a node of its own below it."""
+        draft, mesh = self.draft, self.draft.node(element.node)["mesh"]
+        names = tuple(element.names[k] for k in kept)
+        if len(kept) > 1 and list(kept) == list(range(len(kept))):
+            assert element.owner is not None  # only meshes have several pieces
+            draft.node(element.node)["mesh"] = draft.add_mesh(draft.parted(mesh, element.owner, kept), mesh)
+            draft.expected[element.node] = names
+        else:
+            self.split(element, kept, mesh, names)
+
+    def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
+        draft = self.draft
+        holder = draft.holder_of(body, parent.node if parent else None)
+        source = draft.scene.placements[parent.node].node if parent else {}
+        material = plain_material(draft.scene.tree, source["mesh"]) if "mesh" in source else None
+        mesh, middle = draft.made_mesh(draft.in_holder(geom.shape, holder), own, material)
+        node = draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, holder)
+        draft.expected[node] = (geom.name,)
+
+    def make_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
+        """Add a surface that is no hull."""
+        points = self.draft.points_in(np.asarray(surface.vertices), body)
+        mesh, middle = self.draft.surface_mesh(points, surface.faces, own)
+        node = self.draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, body)
+        self.draft.expected[node] = (piece.name,)

@@ -1,0 +1,1 @@
+"""An MJCF made of an asset that comes from another format."""

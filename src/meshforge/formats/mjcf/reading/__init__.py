@@ -1,0 +1,1 @@
+"""From files to an asset: what MuJoCo compiles of them, in MeshForge's words."""

@@ -1,0 +1,174 @@
+"""Files that MuJoCo refuses, read for their collision geometry: what that does not need is left out of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from meshforge.errors import AssetError
+from meshforge.formats.mjcf.files.assets import Folders
+from meshforge.formats.mjcf.files.flat import Flat, flatten
+from meshforge.formats.mjcf.files.sources import Node, Tree
+from meshforge.formats.mjcf.reading.engine import Compiled, compile_spec, geoms_of, parse_flat
+from meshforge.formats.references import Resolver
+from meshforge.formats.triangles import contents
+
+if TYPE_CHECKING:
+    import mujoco
+
+_ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
+_KEPT = {
+    "mujoco": "model",
+    "compiler": "angle eulerseq coordinate meshdir assetdir strippath fitaabb autolimits inertiafromgeom"
+    " inertiagrouprange",
+    "default": "class",
+    "asset": "",
+    "mesh": "name class file content_type vertex face normal texcoord refpos refquat scale maxhullvert inertia builtin"
+    " params smoothnormal",
+    "hfield": "name file content_type nrow ncol size elevation",
+    "model": "name file content_type",
+    "worldbody": "",
+    "body": f"name childclass mocap {_ORIENTATION}",
+    "frame": f"name childclass {_ORIENTATION}",
+    "replicate": "count sep offset euler childclass",
+    "attach": "model body frame prefix",
+    "inertial": f"mass diaginertia fullinertia {_ORIENTATION}",
+    "joint": "name class type pos axis ref range limited damping frictionloss",
+    "freejoint": "name",
+    "geom": f"name class type size fromto mesh hfield fitscale contype conaffinity group mass density shellinertia rgba"
+    f" {_ORIENTATION}",
+    "contact": "",
+    "pair": "geom1 geom2",
+}
+"""The elements that collision geometry, masses and joints need, and their attributes."""
+_WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
+_LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reduced:
+    """What was read of a refused file; stand_ins: geoms in the place of visual ones that cannot be had."""
+
+    flat: Flat
+    made: Compiled
+    stand_ins: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class _Attempt:
+    """How much is left out: all visual meshes or only missing ones, and the authored masses."""
+
+    all_visuals: bool
+    masses: bool
+
+    def keep(self, node: Node) -> Mapping[str, str] | None:
+        """The attributes of an element that are needed, None where the element is not."""
+        if node.tag in _WHOLE:
+            return node.attributes
+        if node.tag not in _KEPT or (node.tag == "inertial" and not self.masses):
+            return None
+        kept = _KEPT[node.tag].split()
+        return {name: value for name, value in node.attributes.items() if name in kept}
+
+
+_ATTEMPTS = (_Attempt(False, True), _Attempt(True, True), _Attempt(True, False))
+
+
+def reduced(tree: Tree, refusal: AssetError) -> Reduced:
+    """The collision geometry of a tree that MuJoCo refuses as a whole.
+
+    Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
+    """
+    last = refusal
+    for attempt in _ATTEMPTS:
+        flat = flatten(tree, attempt.keep)
+        try:
+            spec = parse_flat(tree, flat)
+        except AssetError as error:
+            last = error
+            continue
+        _refuse_missing(tree, flat, spec)
+        _refuse_lookalikes(tree, flat, spec)
+        infos = _stood_in(tree, flat, spec, attempt.all_visuals)
+        spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
+        spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
+        spec.compiler.balanceinertia = True
+        try:
+            made = compile_spec(tree, flat, spec)
+        except AssetError as error:
+            last = error
+            continue
+        return Reduced(flat, made, frozenset(geom.id for geom in made.geoms if geom.info in infos))
+    if last.message != refusal.message:
+        refusal = AssetError(refusal.problem, where=refusal.where, remedy=f"Mended, it would meet: {last.message}")
+    raise refusal
+
+
+def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom is not there."""
+    lost = _lost(tree, flat, spec)
+    geoms = [
+        geom
+        for geom in geoms_of(spec.bodies)
+        if geom.meshname in lost and flat.node(geom.info) and _collides(geom, spec)
+    ]
+    if geoms:
+        first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
+        mesh = lost[first.meshname]
+        told = f"collision geom {first.name!r}" if first.name else "a collision geom"
+        others = f" (and {len(meshes) - 1} more like it)" if len(meshes) > 1 else ""
+        raise AssetError(
+            f"the mesh {mesh.attributes['file']!r} of {told} of body {first.parent.name!r} is not there{others}",
+            where=tree.where(mesh),
+            remedy=Resolver(tree.main.path.parent).advice(str(Folders.of(tree).find(tree, mesh))),
+        )
+
+
+def _refuse_lookalikes(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
+    folders = Folders.of(tree)
+    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _collides(geom, spec)):
+        node = nodes.get(name)
+        path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
+        if path is not None and path.is_file():
+            contents(path)
+
+
+def _lost(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> dict[str, Node]:
+    """The meshes whose files are not there, by name."""
+    folders = Folders.of(tree)
+    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    return {
+        name: node
+        for name, node in nodes.items()
+        if node is not None and node.attributes.get("file") and not tree.has(folders.find(tree, node))
+    }
+
+
+def _stood_in(tree: Tree, flat: Flat, spec: mujoco.MjSpec, all_visuals: bool) -> set[str]:
+    """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
+
+    Returns the lines of these geoms. Meshes that no geom is left to use go.
+    """
+    import mujoco
+
+    lost = _lost(tree, flat, spec)
+    infos = set()
+    geoms = geoms_of(spec.bodies)
+    for geom in geoms:
+        if geom.meshname and not _collides(geom, spec) and (all_visuals or geom.meshname in lost):
+            infos.add(geom.info)
+            geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
+    used = {geom.meshname for geom in geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name not in used:
+            spec.delete(mesh)
+    return infos
+
+
+def _collides(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
+    if geom.contype or geom.conaffinity:
+        return True
+    return bool(geom.name) and any(geom.name in (pair.geomname1, pair.geomname2) for pair in spec.pairs)

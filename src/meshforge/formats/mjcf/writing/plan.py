@@ -1,0 +1,168 @@
+"""What an edit makes of each geom element: left alone, removed, followed by new ones."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping
+
+from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError, nearest
+from meshforge.formats.mjcf.document import Authored, MjcfDocument
+from meshforge.formats.mjcf.files.mentions import refuse_mentioned
+from meshforge.formats.mjcf.files.sources import Node
+from meshforge.formats.mjcf.reading.model import Reading
+from meshforge.formats.mjcf.reading.shapes import Shapes
+from meshforge.formats.mjcf.writing.made import Maker
+from meshforge.formats.mjcf.writing.places import Kept, Made, Place, kept_names, removed_names
+from meshforge.formats.slots import Slot, at_end, in_place
+from meshforge.formats.xml import Splice
+
+
+class Plan:
+    """The geom elements of the output, and the geoms that MuJoCo shall make of them.
+
+    reading: of the unedited document; body_poses: root_T_body of the bodies as authored.
+    Raises AssetError: a geom that cannot be removed, a hull that cannot be placed.
+    """
+
+    def __init__(self, asset: Asset, document: MjcfDocument, reading: Reading, authored: Reading, maker: Maker) -> None:
+        self.asset, self.document, self.reading, self.maker = asset, document, reading, maker
+        self.tree = reading.tree
+        self.nodes = {(n.source, n.element.start): n for n in self.tree.root.walk()}
+        self.body_poses = dict(zip(authored.body_names, authored.body_poses, strict=True))
+        kept = kept_names(asset)
+        self.places = [self._place(entry, kept) for entry in document.authored]
+        self.owner = {name: place for place in self.places for name in place.authored.names}
+        self.ends: dict[str, list[Slot]] = {}
+        self.made: dict[int, Geom] = {}
+        self._shapes = Shapes(reading.model)
+        self._refuse_fixed(kept)
+        for geom in asset.geoms:
+            if geom.parent is not None or geom.name not in self.owner:
+                self._place_made(geom)
+
+    @property
+    def touched(self) -> list[str]:
+        """The bodies whose geoms change."""
+        gone = [place.authored.body for place in self.places if place.own is None]
+        return list(dict.fromkeys([*gone, *(geom.body for geom in self.made.values())]))
+
+    def expected(self) -> list[Kept | Made]:
+        """The geoms that MuJoCo shall make of the output, in its order."""
+        copies: dict[tuple[str, int], list[int]] = {}
+        for k, name in enumerate(self.reading.names):
+            copies.setdefault((self.reading.body_of[k], id(self.owner[name])), []).append(k)
+        found: list[Kept | Made] = []
+        of_body: dict[str, list[int]] = {name: [] for name in self.reading.body_names}
+        for k, body in enumerate(self.reading.body_of):
+            of_body[body].append(k)
+        for body, numbers in of_body.items():
+            for k in numbers:
+                place = self.owner[self.reading.names[k]]
+                if place.own is not None:
+                    found.append(Kept(k, None if place.authored.fixed else place.own))
+                if k == copies[body, id(place)][-1]:
+                    found += [Made(slot, self.made[id(slot)]) for slot in place.after]
+            found += [Made(slot, self.made[id(slot)]) for slot in self.ends.get(body, [])]
+        return found
+
+    def made_slots(self) -> list[Slot]:
+        """The new elements."""
+        return [entry.slot for entry in self.expected() if isinstance(entry, Made)]
+
+    def splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
+        """The edits of one of the files; masses: the `<inertial>` of bodies whose elements hold nothing yet."""
+        data = self.tree.sources[source].text.data
+        found = []
+        for place in self.places:
+            slots = [*([place.own] if place.own else []), *place.after]
+            untouched = len(slots) == 1 and slots[0].untouched
+            if place.node is not None and place.node.source == source and not untouched:
+                found.append(in_place(data, place.node.element, slots))
+        for body, slots in self.ends.items():
+            node = self.body_node(body)
+            if node is not None and node.source == source:
+                first = [Slot(body, (), text=masses[body])] if body in masses else []
+                found.append(at_end(data, node.element, [*first, *slots]))
+        return found
+
+    def body_node(self, body: str) -> Node | None:
+        """The element of a body; of the world, the last one, in which its last geoms stand. None without one."""
+        if body == self.reading.body_names[0]:
+            worlds = list(self.tree.root.each("worldbody"))
+            return worlds[-1] if worlds else None
+        entry = next((entry for entry in self.document.bodies if entry.name == body), None)
+        return self.nodes.get((entry.source, entry.start)) if entry else None
+
+    def _place(self, entry: Authored, kept: Container[str]) -> Place:
+        node = self.nodes.get((entry.source, entry.start))
+        if removed_names(entry, kept):
+            return Place(entry, node, None)
+        element = node.element if node else None
+        name = element.attributes.get("name") if element else None
+        return Place(entry, node, Slot(entry.body, entry.names, name, element))
+
+    def _refuse_fixed(self, kept: Container[str]) -> None:
+        """Raise AssetError where what is removed is not one element of the files, or is referred to."""
+        removed = []
+        for place in self.places:
+            if place.own is not None:
+                continue
+            hull = removed_names(place.authored, kept)[0]
+            if place.authored.fixed or place.node is None:
+                where = self.tree.where(place.node) if place.node else str(self.tree.main.path)
+                raise AssetError(f"hull {hull!r} cannot be changed: {place.authored.fixed}", where=where)
+            if name := place.node.attributes.get("name"):
+                removed.append((name, hull))
+        refuse_mentioned(self.tree, removed)
+
+    def _place_made(self, geom: Geom) -> None:
+        """A new element after that of its parent, or else at the end of its body."""
+        body = self._body_of(geom)
+        parent = self.owner.get(geom.parent or "")
+        pose, volume = self.body_poses[geom.body], self._volume(geom)
+        node = parent.node if parent else None
+        if parent is not None and node is None:
+            raise AssetError(
+                f"hull {geom.name!r} takes after {geom.parent!r}, of which {parent.authored.fixed}",
+                where=str(self.asset.path),
+            )
+        if parent is not None and node is not None and parent.authored.body == geom.body and not parent.authored.fixed:
+            slot = self.maker.beside(geom, pose, node, volume)
+            parent.after.append(slot)
+        else:
+            slot = self.maker.apart(geom, pose, body, node, volume)
+            self.ends.setdefault(geom.body, []).append(slot)
+        self.made[id(slot)] = geom
+
+    def _body_of(self, geom: Geom) -> Node:
+        """The element of a made hull's body."""
+        body = self.body_node(geom.body)
+        outer = (body, *self.maker.context.around(body)) if body is not None else ()
+        why = next((why for node in outer if (why := _changed_by(node))), "")
+        if body is not None and not why:
+            return body
+        known = geom.body in self.body_poses
+        place = "out of another model" if known else "not there"
+        like = None if known else nearest(geom.body, self.body_poses)
+        raise AssetError(
+            f"hull {geom.name!r} is on body {geom.body!r}, which is {why or place}",
+            where=str(self.asset.path),
+            remedy=f"The nearest name of a body is {like!r}." if like else None,
+        )
+
+    def _volume(self, geom: Geom) -> float:
+        """The volume that has the mass of a hull's parent: its own, or that of all hulls in its place."""
+        if geom.parent not in self.owner:
+            return 0.0
+        number = self.reading.names.index(geom.parent)
+        shape = self._shapes.part(number, self.reading.geom_poses[number]).shape
+        if shape is not None:
+            return shape.volume
+        return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)
+
+
+def _changed_by(node: Node) -> str:
+    """What an element makes of a body within it, that a hull cannot be written to; empty where it leaves it alone."""
+    if node.tag == "replicate":
+        return "made by <replicate>"
+    return "in a <frame> that scales it" if node.tag == "frame" and "scale" in node.attributes else ""
