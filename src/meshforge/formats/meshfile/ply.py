@@ -194,13 +194,10 @@ def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
     if found is None or key is None:
         return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
     read = found.values[key]
-    if (
-        isinstance(read, np.ndarray)
-        and read.dtype.kind in "iu"
-        and read.min(initial=0) >= 0
-        and read.max(initial=-1) < count
-    ):
-        return read.astype(np.int64), np.arange(len(read))
+    if isinstance(read, np.ndarray) and read.dtype.kind in "iu":
+        table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
+        if table.min(initial=0) >= 0 and table.max(initial=-1) < count:
+            return table, np.arange(len(table))
     at: list[int] = []
     triangles: list[tuple[int, int, int]] = []
     for k, corners in enumerate(read):
