@@ -22,7 +22,7 @@ Rows = list[int]
 # what follows from the set of geoms, or counts geoms, meshes, names and bounding volumes
 _OF_GEOMS = (
     *("body_geomnum", "body_geomadr", "body_bvhadr", "body_bvhnum", "body_contype", "body_conaffinity", "body_margin"),
-    *("site_dataid", "dof_length", "geom_dataid", "geom_sameframe"),
+    *("flex_bvhadr", "site_dataid", "dof_length", "geom_dataid", "geom_sameframe"),
     *("sensor_objid", "sensor_refid", "tuple_objid", "wrap_objid", "pair_geom1", "pair_geom2"),  # compared by name
 )
 _COUNTS = ("ngeom", "nmesh", "nbvh", "nbvhstatic", "nnames", "nnames_map", "npaths", "noct")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError
 from meshforge.formats.base import Mass
 from meshforge.geometry import Box, convex_hull
 from tests.corpus_path import corpus
@@ -96,8 +97,11 @@ def test_models_that_mujoco_refuses_are_edited_all_the_same(assets: dict[str, As
     refused = {key: asset for key, asset in assets.items() if any("refuses" in note for note in asset.notes)}
     edited = {key: boxed(asset, 0) for key, asset in refused.items() if asset.geoms}
     assert len(edited) >= 5
+    unweighed = "weird/15_unknown_element_region.xml"  # its visuals weigh, and are not there
+    with pytest.raises(AssetError, match=r"mass of body 'base' cannot be kept[^$]*--mass recompute"):
+        write(edited[unweighed][0], home(unweighed, tmp_path))
     for key, (asset, made) in edited.items():
-        path, _ = write(asset, home(key, tmp_path))
+        path, _ = write(asset, home(key, tmp_path), "recompute" if key == unweighed else "keep")
         again = read(path)
         assert made[0].name in [geom.name for geom in again.geoms]
         assert {geom.name for geom in again.geoms} == {geom.name for geom in asset.geoms}

@@ -191,3 +191,60 @@ def test_recomputed_masses_may_move_the_frame_of_a_free_body(setting: str, tmp_p
     for geom in edited(asset).geoms:
         np.testing.assert_allclose(shapes[geom.name].aabb.min, geom.shape.aabb.min, atol=1e-12)
         np.testing.assert_allclose(shapes[geom.name].aabb.max, geom.shape.aabb.max, atol=1e-12)
+
+
+DERIVED = {
+    "springs by time and damping": '<body name="b"><joint name="j" springdamper="1 .5"/>{}</body>',
+    "damping ratios": '<body name="b"><joint name="j"/>{}</body>|<position joint="j" kp="10" dampratio="1"/>',
+    "muscles": '<body name="b"><joint name="j" range="-1 1" limited="true"/>{}</body>|<muscle joint="j"/>',
+}
+
+
+@pytest.mark.parametrize("kind", DERIVED)
+def test_what_follows_from_masses_follows_from_those_of_the_edited_hulls(kind: str, tmp_path: Path) -> None:
+    body, _, actuator = DERIVED[kind].partition("|")
+    geoms = '<geom name="g" type="box" size=".1 .1 .1"/><geom name="h" size=".2" pos="1 0 0"/>'
+    text = model(body.format(geoms)).replace("</mujoco>", f"<actuator>{actuator}</actuator></mujoco>")
+    asset = read(put(tmp_path / "in", {"main.xml": text}))
+    path, _ = write(replaced(asset, ["b/g"], hull(asset, "b/g", BOX)), tmp_path / "out", "recompute")
+    one, other = compiled(asset.path), compiled(path)
+    assert one.body_mass[1] != other.body_mass[1]
+    assert one.nu == other.nu
+    kept, _ = write(replaced(asset, ["b/g"], hull(asset, "b/g", BOX)), tmp_path / "kept")
+    Pair(one, compiled(kept)).assert_same(removed=["b/g"], made=[hull(asset, "b/g", BOX)])
+
+
+LOST = '<mesh name="lost" file="lost.obj"/>'
+SEEN = '<geom type="mesh" mesh="lost" group="1" contype="0" conaffinity="0" {}/>'
+
+
+def test_a_mass_of_which_a_part_is_not_known_is_not_written(tmp_path: Path) -> None:
+    text = model(TWO.format(FREE + SEEN.format('density="300"'), ""), f"<asset>{LOST}</asset>")
+    asset = read(put(tmp_path / "in", {"main.xml": text}))
+    assert "lost.obj" in asset.notes[0]
+    with pytest.raises(AssetError, match="the mass of body 'b' cannot be kept: a visual mesh that weighs could not be"):
+        write(edited(asset), tmp_path / "out")
+    path, _ = write(edited(asset), tmp_path / "out", "recompute")
+    assert b"<inertial" not in path.read_bytes()
+    made = hull(asset, "static/s", BOX)
+    path, _ = write(replaced(asset, ["static/s"], made), tmp_path / "other")  # a body that is known weighs what it did
+    assert path.read_bytes().count(b"<inertial") == 1
+
+
+@pytest.mark.parametrize("weightless", ['mass="0"', 'density="0"', 'density="300" group="5"'])
+def test_missing_visuals_that_weigh_nothing_are_no_matter(weightless: str, tmp_path: Path) -> None:
+    seen = SEEN.format(weightless).replace('group="1" ', "") if "group" in weightless else SEEN.format(weightless)
+    text = model(TWO.format(FREE + seen, ""), f'<compiler inertiagrouprange="0 4"/><asset>{LOST}</asset>')
+    asset = read(put(tmp_path / "in", {"main.xml": text}))
+    path, _ = write(edited(asset), tmp_path / "out")
+    assert path.read_bytes().count(b"<inertial") == 1
+
+
+def test_an_authored_mass_stays_where_another_one_is_refused(tmp_path: Path) -> None:
+    wrong = '<inertial pos="0 0 0" mass="1" fullinertia="1 1 1 9 9 9"/>'
+    text = model(TWO.format(FREE + GIVEN, wrong))
+    asset = read(put(tmp_path / "in", {"main.xml": text}))
+    assert "refuses" in asset.notes[0]
+    path, _ = write(edited(asset), tmp_path / "out")
+    assert GIVEN.encode() in path.read_bytes()
+    assert path.read_bytes().count(b"<inertial") == 2

@@ -12,29 +12,28 @@ from meshforge.files import relative_name
 from meshforge.formats.mjcf.files.sources import Node, Tree
 
 _OF_TEXTURE = tuple(f"file{side}" for side in ("", "right", "left", "up", "down", "front", "back"))
-_REFERRING = {"mesh": "mesh", "hfield": "mesh", "skin": "asset", "flexcomp": "mesh", "model": "", "texture": "texture"}
+_REFERRING = {"mesh": "mesh", "hfield": "mesh", "skin": "mesh", "flexcomp": "mesh", "model": "", "texture": "texture"}
 """The elements with a `file`, and the folder in which it is looked for."""
 
 
 @dataclass(frozen=True, slots=True)
 class Folders:
-    """What the `<compiler>` says about where files are; the last one counts."""
+    """What the `<compiler>` says about where files are; of several, each counts in its turn."""
 
     main: Path
     mesh: str
     texture: str
-    asset: str
     strip: bool
 
     @staticmethod
     def of(tree: Tree) -> Folders:
-        said: dict[str, str] = {}
-        for node in tree.root.children:
-            if node.tag == "compiler":
-                said |= node.attributes
-        asset = said.get("assetdir", "")
-        mesh, texture = said.get("meshdir", asset), said.get("texturedir", asset)
-        return Folders(tree.main.path.parent, mesh, texture, asset, said.get("strippath") == "true")
+        mesh = texture = strip = ""
+        for compiler in tree.root.each("compiler"):
+            said = compiler.attributes
+            mesh, texture = said.get("assetdir", mesh), said.get("assetdir", texture)
+            mesh, texture = said.get("meshdir", mesh), said.get("texturedir", texture)
+            strip = said.get("strippath", strip)
+        return Folders(tree.main.path.parent, mesh, texture, strip == "true")
 
     def find(self, tree: Tree, node: Node, attribute: str = "file") -> Path:
         """Where the file of an attribute is, or would be."""
@@ -64,7 +63,7 @@ class Folders:
         return Path(os.path.normpath(tree.sources[node.source].path.parent / reference))
 
     def _folder(self, node: Node) -> str:
-        return {"mesh": self.mesh, "texture": self.texture, "asset": self.asset, "": ""}[_REFERRING.get(node.tag, "")]
+        return {"mesh": self.mesh, "texture": self.texture, "": ""}[_REFERRING.get(node.tag, "")]
 
     def _joined(self, folder: str, reference: str) -> Path:
         return Path(os.path.normpath(self.main / folder / reference))

@@ -25,11 +25,11 @@ class Reading:
     """The compiled model and the elements it was made of.
 
     elements: of each geom, None for one out of another model. collides: whether each geom takes part in collisions, by
-    its contact bits or by a `<pair>`.
+    its contact bits or by a `<pair>`. unweighed: the numbers of bodies of which some mass is not known.
     """
 
-    def __init__(self, tree: Tree, flat: Flat, made: Compiled) -> None:
-        self.tree, self.flat, self.model = tree, flat, made.model
+    def __init__(self, tree: Tree, flat: Flat, made: Compiled, unweighed: frozenset[int] = frozenset()) -> None:
+        self.tree, self.flat, self.model, self.unweighed = tree, flat, made.model, unweighed
         self.spec_bodies, self.spec_geoms = made.bodies, made.geoms
         self.body_names = body_names([body.name for body in made.bodies])
         self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]

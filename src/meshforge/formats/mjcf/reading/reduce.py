@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from math import isnan
+from typing import TYPE_CHECKING, Literal
 
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.files.assets import Folders
@@ -43,45 +44,54 @@ _KEPT = {
 }
 """The elements that collision geometry, masses and joints need, and their attributes."""
 _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
+_FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
 _LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Reduced:
-    """What was read of a refused file; stand_ins: geoms in the place of visual ones that cannot be had."""
+    """What was read of a refused file.
+
+    stand_ins: geoms in the place of visual ones that cannot be had; unweighed: bodies, by number, that have some of
+    their mass from one of those.
+    """
 
     flat: Flat
     made: Compiled
     stand_ins: frozenset[int]
+    unweighed: frozenset[int]
 
 
 @dataclass(frozen=True, slots=True)
 class _Attempt:
-    """How much is left out: all visual meshes or only missing ones, and the authored masses."""
+    """How much is left out: all visual meshes or only missing ones; what stands for the authored masses."""
 
     all_visuals: bool
-    masses: bool
+    masses: Literal["said", "fixed", "none"]
 
     def keep(self, node: Node) -> Mapping[str, str] | None:
         """The attributes of an element that are needed, None where the element is not."""
         if node.tag in _WHOLE:
             return node.attributes
-        if node.tag not in _KEPT or (node.tag == "inertial" and not self.masses):
+        if node.tag == "inertial" and self.masses != "said":
+            return _FIXED if self.masses == "fixed" else None
+        if node.tag not in _KEPT:
             return None
         kept = _KEPT[node.tag].split()
         return {name: value for name, value in node.attributes.items() if name in kept}
 
 
-_ATTEMPTS = (_Attempt(False, True), _Attempt(True, True), _Attempt(True, False))
+_ATTEMPTS = (_Attempt(False, "said"), _Attempt(True, "said"))
 
 
-def reduced(tree: Tree, refusal: AssetError) -> Reduced:
+def reduced(tree: Tree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> Reduced:
     """The collision geometry of a tree that MuJoCo refuses as a whole.
 
+    masses: what stands for authored masses that are refused: ones that no geom changes, or those of the geoms.
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
     """
     last = refusal
-    for attempt in _ATTEMPTS:
+    for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
         flat = flatten(tree, attempt.keep)
         try:
             spec = parse_flat(tree, flat)
@@ -90,6 +100,7 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
             continue
         _refuse_missing(tree, flat, spec)
         _refuse_lookalikes(tree, flat, spec)
+        _drop_loose_pairs(spec)
         infos = _stood_in(tree, flat, spec, attempt.all_visuals)
         spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
@@ -99,7 +110,9 @@ def reduced(tree: Tree, refusal: AssetError) -> Reduced:
         except AssetError as error:
             last = error
             continue
-        return Reduced(flat, made, frozenset(geom.id for geom in made.geoms if geom.info in infos))
+        stand_ins = frozenset(geom.id for geom in made.geoms if geom.info in infos)
+        weighing = [geom.id for geom in made.geoms if infos.get(geom.info)]
+        return Reduced(flat, made, stand_ins, frozenset(made.model.geom_bodyid[weighing].tolist()))
     if last.message != refusal.message:
         refusal = AssetError(refusal.problem, where=refusal.where, remedy=f"Mended, it would meet: {last.message}")
     raise refusal
@@ -147,25 +160,39 @@ def _lost(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> dict[str, Node]:
     }
 
 
-def _stood_in(tree: Tree, flat: Flat, spec: mujoco.MjSpec, all_visuals: bool) -> set[str]:
+def _drop_loose_pairs(spec: mujoco.MjSpec) -> None:
+    """Take away the pairs of geoms that are not there."""
+    names = {geom.name for geom in geoms_of(spec.bodies)}
+    for pair in list(spec.pairs):
+        if not names >= {pair.geomname1, pair.geomname2}:
+            spec.delete(pair)
+
+
+def _stood_in(tree: Tree, flat: Flat, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
     """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
 
-    Returns the lines of these geoms. Meshes that no geom is left to use go.
+    Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
     import mujoco
 
     lost = _lost(tree, flat, spec)
-    infos = set()
+    infos = {}
     geoms = geoms_of(spec.bodies)
     for geom in geoms:
         if geom.meshname and not _collides(geom, spec) and (all_visuals or geom.meshname in lost):
-            infos.add(geom.info)
+            infos[geom.info] = _weighs(geom, spec)
             geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
     used = {geom.meshname for geom in geoms}
     for mesh in list(spec.meshes):
         if mesh.name not in used:
             spec.delete(mesh)
     return infos
+
+
+def _weighs(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
+    """Whether a geom adds to the mass that its body has from its geoms."""
+    first, last = spec.compiler.inertiagrouprange
+    return bool(first <= geom.group <= last and (geom.density > 0 if isnan(geom.mass) else geom.mass > 0))
 
 
 def _collides(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:

@@ -23,8 +23,9 @@ def whole(tree: Tree) -> Reading | None:
 
 def part(tree: Tree) -> Reading:
     """The model of the collision geometry of a tree that MuJoCo refuses. Raises AssetError."""
-    found = reduced(tree, AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path)))
-    return Reading(tree, found.flat, found.made)
+    refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
+    found = reduced(tree, refusal, masses="fixed")
+    return Reading(tree, found.flat, found.made, found.unweighed)
 
 
 def again(tree: Tree, is_whole: bool) -> Reading:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from meshforge.errors import AssetError
 from meshforge.formats.mjcf.files.sources import Node, Tree, gather
@@ -14,13 +14,14 @@ from meshforge.formats.mjcf.writing.kept_masses import (
     changed,
     inertial,
     no_longer_always,
-    refuse_weightless,
+    refuse_weighing,
+    says_mass,
     weighed,
 )
 from meshforge.formats.mjcf.writing.places import Kept
 from meshforge.formats.mjcf.writing.plan import Plan
 from meshforge.formats.slots import Slot, at_end, lead_inside
-from meshforge.formats.xml import Splice, newline, spliced
+from meshforge.formats.xml import Splice, Text, newline, parsed, spliced
 
 _ROUNDS = 4  # what one body or geom says may change what another has to say
 
@@ -53,8 +54,7 @@ class Edit:
                     where=str(source.path),
                     remedy="Include it by a path relative to the main file.",
                 )
-            text = source.text
-            out.append(text.encoded(spliced(text.data, splices)) if splices else source.raw)
+            out.append(_file(source.text, splices, k > 0) if splices else source.raw)
         return out
 
     def reading(self) -> Reading:
@@ -92,7 +92,10 @@ class Edit:
     def _edited(self) -> Tree:
         main = self.tree.main.path
         files = dict(zip((source.path for source in self.tree.sources), self.texts(), strict=True))
-        return gather(main, files | {main.parent / place: data for place, data in self.meshes.files.made.items()})
+        tree = gather(main, files | {main.parent / place: data for place, data in self.meshes.files.made.items()})
+        if amiss := [fault for fault in tree.faults if fault not in self.tree.faults]:
+            raise AssetError(amiss[0], where=str(main))
+        return tree
 
     def _reweighed(self) -> list[int]:
         """The bodies that have to say their masses, besides those that do."""
@@ -102,7 +105,8 @@ class Edit:
             names = self.authored.body_names
             found = [names.index(body) for body in self.plan.touched]
             found = [body for body in found if self.authored.model.body_mass[body] > 0]
-        return [body for body in found if body not in self.weighs]
+        nodes = {body: self.plan.body_node(self.authored.body_names[body]) for body in found}
+        return [body for body in found if body not in self.weighs and not says_mass(nodes[body], self.tree)]
 
     def _masses(self) -> Iterator[tuple[int, Splice]]:
         if self.weighs and always_from_geoms(self.tree):
@@ -118,7 +122,9 @@ class Edit:
             name = self.authored.body_names[body]
             node = self.plan.body_node(name)
             if node is None:
-                raise refuse_weightless(name, self.tree)
+                raise refuse_weighing(name, "it has no element of its own", self.tree)
+            if body in self.authored.unweighed:
+                raise refuse_weighing(name, "a visual mesh that weighs could not be read", self.tree)
             found.setdefault(id(node), (name, node, inertial(self.authored, body)))
         return {name: (node, text) for name, node, text in found.values()}
 
@@ -149,6 +155,17 @@ class Edit:
                 wanted, slot = entry.geom.name, entry.slot
             if wanted != read:
                 yield slot, wanted, read
+
+
+def _file(text: Text, splices: Sequence[Splice], is_included: bool) -> bytes:
+    """The bytes of an edited file; of an included one that nothing is left in, with an element that says nothing.
+
+    MuJoCo refuses to include an empty file. What it held were geoms or masses, so a frame may stand there.
+    """
+    data = spliced(text.data, splices)
+    if is_included and not (root := parsed(data, "an edited file")).children:
+        data = spliced(data, [Splice(root.inside, root.inside, b"<frame/>")])
+    return text.encoded(data)
 
 
 def _name(slot: Slot, wanted: str, taken: set[str]) -> bool:

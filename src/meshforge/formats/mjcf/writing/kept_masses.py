@@ -54,25 +54,30 @@ def weighed(tree: Tree, node: Node, text: bytes) -> list[tuple[int, Splice]]:
     One that was ignored so far gives way.
     """
     data = tree.sources[node.source].text.data
-    gone = [(old.source, removed(tree.sources[old.source].text.data, old.element)) for old in _ignored(node)]
+    gone = [(old.source, removed(tree.sources[old.source].text.data, old.element)) for old in _inertials(node)]
     at = node.element.inside
     lead = indent(data, node.element.children[0].start)
     return [*gone, (node.source, Splice(at, at, (b"" if lead is None else newline(data) + lead) + text))]
 
 
-def refuse_weightless(body: str, tree: Tree) -> AssetError:
-    """The error about a body that cannot say its mass, since no element of the files is its own."""
+def says_mass(node: Node | None, tree: Tree) -> bool:
+    """Whether a body's element has an `<inertial>` that counts."""
+    return node is not None and any(True for _ in _inertials(node)) and not always_from_geoms(tree)
+
+
+def refuse_weighing(body: str, why: str, tree: Tree) -> AssetError:
+    """The error about a body that cannot say its mass."""
     return AssetError(
-        f"the mass of body {body!r} cannot be kept: it has no element of its own",
+        f"the mass of body {body!r} cannot be kept: {why}",
         where=str(tree.main.path),
         remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
     )
 
 
-def _ignored(node: Node) -> Iterable[Node]:
+def _inertials(node: Node) -> Iterable[Node]:
     """The `<inertial>` of a body, which may stand in a frame."""
     for child in node.children:
         if child.tag == "inertial":
             yield child
         elif child.tag == "frame":
-            yield from _ignored(child)
+            yield from _inertials(child)

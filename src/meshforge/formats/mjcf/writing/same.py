@@ -24,6 +24,7 @@ _OF_BODY = tuple(
 _OF_MASS = (
     *("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_subtreemass", "body_invweight0"),
     *("dof_M0", "dof_invweight0", "dof_simplenum", "tendon_invweight0", "actuator_acc0"),
+    *("dof_damping", "jnt_stiffness", "actuator_gainprm", "actuator_biasprm", "actuator_lengthrange"),
 )
 _OTHERS = (
     *("jnt_", "dof_", "site_", "cam_", "light_", "mat_", "eq_", "tendon_", "actuator_", "sensor_", "exclude_"),
@@ -33,6 +34,7 @@ _APART = (
     *("sensor_objid", "sensor_refid", "site_dataid"),  # numbers of geoms and meshes, which shift
     *("cam_poscom0", "light_poscom0", "site_sameframe"),  # follow from masses, which are compared themselves
     "dof_length",  # how far geoms reach from a joint
+    "flex_bvhadr",  # a place behind the bounding volumes of all geoms
 )
 _OF_GEOM = (
     *INHERITED,
