@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import os
 import posixpath
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 from urllib.parse import unquote
+
+from meshforge.errors import AssetError
+from meshforge.formats.meshfile.gltf import Container, damage_at, parsed
+from meshforge.formats.meshfile.gltf.items import entries
 
 _LIBRARY = re.compile(rb"mtllib[ \t]+([^\r\n]+)")  # at the start of a line; asking for that here takes 50 times as long
 _MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.M | re.I)
 _IMAGE = re.compile(rb"<init_from[^>]*>\s*(?:<ref>)?\s*([^<]+?)\s*<")
-_GLB_HEADER = 20  # bytes: magic, version, length; length and type of the chunk of JSON
 
 
 def companions(mesh: Path) -> dict[str, Path]:
@@ -54,14 +55,12 @@ def _matches(pattern: re.Pattern[bytes], data: bytes) -> Iterator[str]:
 
 
 def _uris(mesh: Path) -> Iterator[str]:
-    data = _bytes(mesh)
-    if data[:4] == b"glTF":
-        data = data[_GLB_HEADER : _GLB_HEADER + int.from_bytes(data[12:16], "little")]
     try:
-        scene: Any = json.loads(data)
-        entries = [entry for kind in ("buffers", "images") for entry in scene.get(kind, [])]
-        uris = [entry["uri"] for entry in entries if "uri" in entry]
-    except (ValueError, AttributeError, TypeError):
+        with damage_at(str(mesh)):
+            scene = parsed(Container.of(_bytes(mesh)).text)
+            things = [thing for kind in ("buffers", "images") for thing in entries(scene, kind)]
+            uris = [thing["uri"] for thing in things if "uri" in thing]
+    except AssetError:
         return
     yield from (uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:"))
 

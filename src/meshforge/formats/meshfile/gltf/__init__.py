@@ -3,7 +3,7 @@
 from meshforge.formats.meshfile.gltf.container import Container
 from meshforge.formats.meshfile.gltf.items import Json
 from meshforge.formats.meshfile.gltf.meshes import Patch, Triangles
-from meshforge.formats.meshfile.gltf.scene import Placement, Scene, damage_at
+from meshforge.formats.meshfile.gltf.scene import Placement, Scene, damage_at, parsed
 from meshforge.formats.meshfile.gltf.surfaces import parse_gltf
 
-__all__ = ["Container", "Json", "Patch", "Placement", "Scene", "Triangles", "damage_at", "parse_gltf"]
+__all__ = ["Container", "Json", "Patch", "Placement", "Scene", "Triangles", "damage_at", "parse_gltf", "parsed"]

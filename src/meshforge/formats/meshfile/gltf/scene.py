@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ from meshforge.formats.meshfile.gltf.meshes import Triangles, triangles
 from meshforge.geometry import Floats
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, RecursionError, OverflowError, MemoryError)
+_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")  # an escape that is half a character, unless another one follows
 _ALIKE = 1e-12  # how far a quaternion's length may be from one, squared, to be taken as it is
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
@@ -57,7 +59,7 @@ class Scene:
     def of(data: bytes, path: Path) -> Scene:
         """The scene in the bytes of the file at a path."""
         container = Container.of(data)
-        return Scene(_parsed(container.text), container.binary, path)
+        return Scene(parsed(container.text), container.binary, path)
 
     @cached_property
     def roots(self) -> list[int]:
@@ -155,9 +157,12 @@ def _ancestors(found: dict[int, Placement], index: int | None) -> set[int]:
     return above
 
 
-def _parsed(text: bytes) -> Json:
-    """The JSON of a file. Raises ValueError: it is none, or that of another version."""
-    tree = json.loads(text.decode("utf-8-sig").rstrip("\0"), parse_constant=_refused)
+def parsed(text: bytes) -> Json:
+    """The JSON of a file, `?` for each half of a character in it. Raises ValueError: none, or another version."""
+    plain = text.decode("utf-8-sig").rstrip("\0")
+    tree = json.loads(plain, parse_constant=_refused)
+    if _SURROGATE.search(plain):
+        tree = json.loads(json.dumps(tree, ensure_ascii=False).encode("utf-8", "replace"))
     if not isinstance(tree, dict):
         raise ValueError("its JSON is no object")
     asset = tree.get("asset", {})
