@@ -13,6 +13,7 @@ import pytest
 from meshforge.asset import Asset, Geom, Opaque, Surface
 from meshforge.errors import AssetError
 from meshforge.formats import read, save
+from meshforge.formats.plain import Stl
 from meshforge.geometry import Capsule, Pose, convex_hull
 from tests.mesh_files import KINDS, ply, stl_ascii, stl_binary, wrl
 from tests.soups import Soup, box, together
@@ -132,6 +133,19 @@ def test_hulls_that_an_stl_cannot_hold_apart_are_refused_not_fused(tmp_path: Pat
         save(without(asset, add=[twin]), tmp_path / "b.stl")
     assert "Write an OBJ" in str(error.value)
     assert not (tmp_path / "b.stl").exists()
+
+
+@pytest.mark.parametrize(("old", "new"), [("6.0", "6.5"), ("0.25", "0.375")], ids=["stays", "made"])
+def test_corners_that_a_writer_moves_are_noticed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
+) -> None:
+    edited = Stl.edited
+    moved = (f"vertex {old} ".encode(), f"vertex {new} ".encode())
+    monkeypatch.setattr(Stl, "edited", lambda *given: edited(*given).replace(*moved))
+    asset = read(put(tmp_path, ".stl", stl_ascii(LEGS)))
+    made = Geom("geom0#0~1", "body", convex_hull(box((0.25, 5, 0))[0]), "geom0#0")
+    with pytest.raises(AssetError, match=rf"would have the vertex {float(old):g} .* elsewhere"):
+        save(without(asset, "geom0#1", add=[made]), tmp_path / "b.stl")
 
 
 def test_vrml_is_read_only_and_says_what_to_write(tmp_path: Path) -> None:

@@ -7,9 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.formats import read
+from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError
+from meshforge.formats import read, save
 from meshforge.formats.meshfile.ply import parse_ply
 from meshforge.formats.meshfile.ply_header import TYPES
+from meshforge.geometry import convex_hull
 from tests.soups import Soup, box, together
 
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
@@ -53,3 +56,51 @@ def test_polygons_with_lengths_of_every_type_are_read(order: str, count: str) ->
 @pytest.mark.parametrize("order", ORDERS)
 def test_coordinates_of_every_type_are_read(order: str, axis: str) -> None:
     assert np.array_equal(parse_ply(typed(PAIR, order, axis=axis), "a.ply").vertices, PAIR[0])
+
+
+def with_a_hull(folder: Path, data: bytes, at: float) -> Asset:
+    """The asset of a PLY, with a made hull whose lowest corner has y = `at`."""
+    (folder / "a.ply").write_bytes(data)
+    asset = read(folder / "a.ply")
+    made = Geom("geom0#0~1", "body", convex_hull(box((0, at, 0))[0]), "geom0#0")
+    return asset.with_geoms([*asset.geoms, made])
+
+
+@pytest.mark.parametrize(
+    ("axis", "at"),
+    [
+        *[(axis, 5.25) for axis, kind in TYPES.items() if kind[0] in "iu"],
+        *[("uchar", 255), ("char", 127), ("ushort", -1), ("int", 2**31)],
+    ],
+)
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_made_hull_that_the_coordinates_cannot_hold_is_refused(
+    tmp_path: Path, order: str, axis: str, at: float
+) -> None:
+    asset = with_a_hull(tmp_path, typed(PAIR, order, axis=axis), at)
+    with pytest.raises(AssetError, match=r"a\.ply: a made hull needs \S+ in the property y, whose type cannot hold it"):
+        save(asset, tmp_path / "b.ply")
+    assert not (tmp_path / "b.ply").exists()
+    assert len(read(save(asset, tmp_path / "b.obj").path).geoms) == 3
+
+
+@pytest.mark.parametrize("axis", TYPES)
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_made_hull_that_the_coordinates_hold_is_written(tmp_path: Path, order: str, axis: str) -> None:
+    saved = save(with_a_hull(tmp_path, typed(PAIR, order, axis=axis), 5), tmp_path / "b.ply")
+    wanted = together(PAIR, box((0, 5, 0)))
+    assert np.array_equal(
+        np.unique(parse_ply(saved.path.read_bytes(), "b.ply").vertices, axis=0), np.unique(wanted[0], axis=0)
+    )
+
+
+@pytest.mark.parametrize(("index", "boxes"), [("char", 16), ("uchar", 32), ("int8", 16)])
+@pytest.mark.parametrize("order", ORDERS)
+def test_vertex_numbers_that_their_type_cannot_hold_are_refused(
+    tmp_path: Path, order: str, index: str, boxes: int
+) -> None:
+    full = together(*(box((3 * k, 0, 0)) for k in range(boxes)))
+    asset = with_a_hull(tmp_path, typed(full, order, index=index), 5)
+    with pytest.raises(AssetError, match=r"a made hull needs \d+ in the property vertex_indices, whose type"):
+        save(asset, tmp_path / "b.ply")
+    assert len(read(save(asset.with_geoms(asset.geoms[1:]), tmp_path / "c.ply").path).geoms) == boxes

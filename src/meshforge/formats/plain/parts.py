@@ -8,9 +8,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from meshforge.asset import Asset, Document, Geom, Surface, unique_names
 from meshforge.errors import AssetError
-from meshforge.geometry import Box, Ints, Piece, Polytope
+from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.words import listed
 
 
@@ -33,6 +35,29 @@ class Part:
 
     name: str
     surface: Surface
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Wanted:
+    """The triangles that a written file should hold: the owner of each, and the corners (m, 3, 3).
+
+    kept: how many of them, the first, stay as they were; the others are made.
+    """
+
+    owners: Sequence[str]
+    corners: Floats
+    kept: int = 0
+
+
+def owners(parts: Sequence[Part]) -> list[str]:
+    """Whose each triangle of a file of these parts should be."""
+    return [part.name for part in parts for _ in part.surface.faces]
+
+
+def corners_of(parts: Sequence[Part]) -> Floats:
+    """The corners (m, 3, 3) of the triangles of parts."""
+    corners = [part.surface.vertices[part.surface.faces] for part in parts]
+    return np.concatenate([np.zeros((0, 3, 3)), *corners]) + 0.0
 
 
 def piece_names(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
@@ -99,23 +124,25 @@ def all_parts(asset: Asset) -> tuple[Part, ...]:
 
 
 def read_back(
-    names: Sequence[str], owner: Ints, wanted: Sequence[str], hulls: Collection[str], found: Collection[str], where: str
+    document: PlainDocument, found: Sequence[Piece], wanted: Wanted, hulls: Collection[str], where: str
 ) -> dict[str, str]:
     """The hulls that read back under another name, with that name.
 
-    names, owner (m,): the pieces of the written file and whose each triangle is; wanted (m,): whose it should be;
-    hulls: those of `wanted` that are hulls; found: the pieces that read back as hulls.
-    Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as something else.
+    document, found: the written file and its pieces; wanted: what it should hold; hulls: those of its owners that are
+    hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as something else or elsewhere.
     """
-    if len(owner) != len(wanted):
+    names, owner = document.names, document.owner
+    if len(owner) != len(wanted.owners):
         raise AssetError("the written file would lose triangles", where=where)
+    _refuse_moved(found, wanted, where)
+    convex = {name for name, piece in zip(names, found, strict=True) if piece.shape}
     back: dict[str, set[int]] = {}
-    for name, piece in zip(wanted, owner.tolist(), strict=True):
+    for name, piece in zip(wanted.owners, owner.tolist(), strict=True):
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
     for name in hulls:
         held = back.get(name, set())
-        if len(held) != 1 or any(shared[k] > 1 or names[k] not in found for k in held):
+        if len(held) != 1 or any(shared[k] > 1 or names[k] not in convex for k in held):
             raise AssetError(
                 f"the hull {name} cannot be told apart from others in this file",
                 where=where,
@@ -123,6 +150,18 @@ def read_back(
             )
     read = {name: names[min(back[name])] for name in back if name in hulls}
     return {name: now for name, now in read.items() if now != name}
+
+
+def _refuse_moved(found: Sequence[Piece], wanted: Wanted, where: str) -> None:
+    """Raise AssetError where a corner is not where it should be; those of made triangles may be single precision."""
+    corners = np.empty_like(wanted.corners)
+    for piece in found:
+        corners[piece.face_indices] = piece.vertices[piece.faces]
+    there = corners == wanted.corners
+    there[wanted.kept :] |= corners[wanted.kept :] == wanted.corners[wanted.kept :].astype(np.float32)
+    if not there.all():
+        x, y, z = wanted.corners[~there.all(axis=2)][0]
+        raise AssetError(f"the written file would have the vertex {x:.6g} {y:.6g} {z:.6g} elsewhere", where=where)
 
 
 def renaming(names: Mapping[str, str]) -> tuple[str, ...]:

@@ -20,7 +20,18 @@ from meshforge.errors import AssetError, GeometryError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.meshfile import Soup
-from meshforge.formats.plain.parts import Part, PlainDocument, all_parts, as_parts, piece_names, read_back, renaming
+from meshforge.formats.plain.parts import (
+    Part,
+    PlainDocument,
+    Wanted,
+    all_parts,
+    as_parts,
+    corners_of,
+    owners,
+    piece_names,
+    read_back,
+    renaming,
+)
 from meshforge.formats.triangles import contents
 from meshforge.geometry import Piece, Pose, pieces
 
@@ -54,11 +65,6 @@ class Edit:
         """Whose each triangle of the edited file should be."""
         kept = [self.document.names[k] for k in self.document.owner[self.stays]]
         return kept + owners(self.parts)
-
-
-def owners(parts: Sequence[Part]) -> list[str]:
-    """Whose each triangle of a file of these parts should be."""
-    return [part.name for part in parts for _ in part.surface.faces]
 
 
 class PlainFormat(Format):
@@ -129,23 +135,28 @@ class PlainFormat(Format):
         parts = all_parts(asset)
         data = self.made(parts)
         hulls = {geom.name for geom in asset.geoms}
-        return Output(data, names=self._checked(data, Path(name), owners(parts), hulls, asset.path))
+        wanted = Wanted(owners(parts), corners_of(parts))
+        return Output(data, names=self._checked(data, Path(name), wanted, hulls, asset.path))
 
     def _settled(self, edit: Edit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
         """The edited file, and the names that read back otherwise; with explicit names where that mends them."""
         if not edit.owners:
             raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
         data = self.edited(edit)
-        names = self._checked(data, edit.path, edit.owners, hulls, edit.path)
+        wanted = self._wanted(edit)
+        names = self._checked(data, edit.path, wanted, hulls, edit.path)
         if names:
             data = self.edited(replace(edit, explicit=True))
-            names = self._checked(data, edit.path, edit.owners, hulls, edit.path)
+            names = self._checked(data, edit.path, wanted, hulls, edit.path)
         return data, names
 
-    def _checked(
-        self, data: bytes, path: Path, wanted: Sequence[str], hulls: Collection[str], where: Path
-    ) -> dict[str, str]:
+    def _wanted(self, edit: Edit) -> Wanted:
+        """What the edited file should hold."""
+        soup = self.soup(edit.document.data, edit.path)
+        kept = soup.vertices[soup.faces[edit.stays]]
+        return Wanted(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
+
+    def _checked(self, data: bytes, path: Path, wanted: Wanted, hulls: Collection[str], where: Path) -> dict[str, str]:
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
         document, found = self.taken_apart(data, path)
-        back = {name for name, piece in zip(document.names, found, strict=True) if piece.shape}
-        return read_back(document.names, document.owner, wanted, hulls, back, str(where))
+        return read_back(document, found, wanted, hulls, str(where))

@@ -14,7 +14,7 @@ from meshforge.formats.meshfile import Soup, joined
 from meshforge.formats.meshfile.ply import INDICES, PlyText, Rows, parse_ply
 from meshforge.formats.plain.parts import Part, PlainDocument
 from meshforge.formats.plain.plain import Edit, PlainFormat
-from meshforge.formats.plain.ply_rows import ended, made_row, renumbered
+from meshforge.formats.plain.ply_rows import ended, made_row, misfits, renumbered
 from meshforge.geometry import Floats, Ints
 
 _HEADER = """ply
@@ -86,6 +86,7 @@ class _Editor:
         self.number = np.cumsum(self.kept) - 1
         self.gone = set(text.face_at[~edit.stays].tolist())
         self.vertices, self.faces = _stacked(edit.parts, int(self.kept.sum()))
+        self._refuse_misfits()
 
     def written(self) -> bytes:
         head = self.edit.document.data[: self.text.header.size]
@@ -96,6 +97,16 @@ class _Editor:
             head = re.sub(rb"(?m)^element\s+%s\s+\d+" % rows.element.name.encode(), count, head, count=1)
             body += b"".join(written)
         return head + body
+
+    def _refuse_misfits(self) -> None:
+        """Raise AssetError where a new row has a number that the type of its property cannot hold."""
+        made = {"vertex": dict(zip("xyz", self.vertices.T, strict=True)), "face": dict.fromkeys(INDICES, self.faces)}
+        for element in (rows.element for rows in self.text.rows):
+            columns = made.get(element.name, {})
+            for kind in (p for p in element.properties if p.name in columns):
+                if (wrong := misfits(kind, columns[kind.name])).size:
+                    problem = f"a made hull needs {wrong[0]:.6g} in the property {kind.name}, whose type cannot hold it"
+                    raise AssetError(problem, where=str(self.edit.path), remedy="Convert it to OBJ first.")
 
     def _rows(self, rows: Rows) -> Iterator[bytes]:
         data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.formats.meshfile.ply import INDICES
 from meshforge.formats.meshfile.ply_header import Property
@@ -50,6 +51,15 @@ def _renumbered_bytes(row: bytes, properties: Sequence[Property], order: str, nu
             out = out[:at] + number[corners].astype(order + kind.type).tobytes() + out[stop:]
         at = stop
     return out
+
+
+def misfits(kind: Property, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Those of new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
+    if kind.type[0] == "f" and not kind.count:
+        return values[:0]
+    with np.errstate(invalid="ignore"):
+        wrong: npt.NDArray[np.bool_] = values.astype(kind.type) != values
+    return values[wrong]
 
 
 def made_row(values: Mapping[str, Any], properties: Sequence[Property], order: str) -> bytes:

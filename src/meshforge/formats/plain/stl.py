@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
-from meshforge.formats.plain.parts import Part
+from meshforge.formats.plain.parts import Part, corners_of
 from meshforge.formats.plain.plain import Edit, PlainFormat
 from meshforge.geometry import Floats
 
@@ -49,11 +49,6 @@ def _binary(title: bytes, records: Sequence[npt.NDArray[np.void]]) -> bytes:
     return title + count.to_bytes(4, "little") + b"".join(r.tobytes() for r in records)
 
 
-def _corners(part: Part) -> Floats:
-    corners: Floats = part.surface.vertices[part.surface.faces] + 0.0
-    return corners
-
-
 def _normals(corners: Floats) -> Floats:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -61,7 +56,7 @@ def _normals(corners: Floats) -> Floats:
 
 
 def _records(parts: Sequence[Part]) -> npt.NDArray[np.void]:
-    corners = np.concatenate([np.zeros((0, 3, 3)), *(p.surface.vertices[p.surface.faces] for p in parts)]) + 0.0
+    corners = corners_of(parts)
     records = np.zeros(len(corners), RECORD)
     records["normal"] = _normals(corners)
     records["corners"] = corners
@@ -88,7 +83,7 @@ def _word(name: str) -> bytes:
 
 
 def _facets(part: Part) -> bytes:
-    corners = _corners(part)
+    corners = corners_of([part])
     lines = []
     for normal, triangle in zip(_normals(corners).tolist(), corners.tolist(), strict=True):
         lines.append("facet normal {!r} {!r} {!r}\n  outer loop".format(*normal))
