@@ -74,6 +74,7 @@ class Edit:
             if not bodies:
                 break
             self.weighs += bodies
+        self._inertials()
 
     def name_geoms(self) -> tuple[Reading, dict[str, str]]:
         """Name the geoms that would else read back under other names.

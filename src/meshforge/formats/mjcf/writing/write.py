@@ -61,7 +61,7 @@ def _checked(edit: Edit, before: Reading, mass: Mass) -> dict[str, str]:
         if mass == "recompute":  # a free body may stand on its centre of mass
             before, after = edit.authored, edit.plain_reading()
     except AssetError as error:
-        remedy = "Keep the masses (--mass keep)." if mass == "recompute" else None
+        remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
         raise AssetError(
             f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
         ) from None
