@@ -66,13 +66,17 @@ def _uris(mesh: Path) -> Iterator[str]:
 
 
 def _add(found: dict[str, Path], folder: Path, inside: str, reference: str) -> None:
-    """Add a referenced file; options may stand before a name, and names may hold blanks: the whole is tried first."""
-    for text in (reference, reference.split()[-1] if reference.split() else ""):
+    """Add what a reference names: a file whose name may hold blanks, else those of its words that are files.
+
+    A line of an OBJ may name several libraries; options may stand before the name of a texture.
+    """
+    for text in (reference, *reference.split()):
         key = posixpath.normpath(posixpath.join(inside, text.replace("\\", "/")))
         path = Path(os.path.normpath(folder / key))
         if text and not posixpath.isabs(key) and "\0" not in key and path.is_file():
             found.setdefault(key, path)
-            return
+            if text == reference:
+                return
 
 
 def _bytes(path: Path) -> bytes:

@@ -228,6 +228,28 @@ def test_a_new_file_reads_back_the_names_it_is_given_or_says_so(tmp_path: Path, 
     assert bool(saved.names) == (name.strip() != name or "\n" in name or "\\" in name)
 
 
+@pytest.mark.parametrize(
+    ("libraries", "expected"),
+    [
+        ("a.mtl b.mtl", ["a.mtl", "b.mtl"]),
+        ("gone.mtl b.mtl  more/c.mtl", ["b.mtl", "more/c.mtl"]),
+        ("a.mtl gone.mtl", ["a.mtl"]),
+        ("two words.mtl", ["two words.mtl"]),
+        ("a.mtl b.mtl\nmtllib two words.mtl", ["a.mtl", "b.mtl", "two words.mtl"]),
+        ("gone.mtl", []),
+    ],
+)
+def test_all_libraries_of_a_line_go_along(tmp_path: Path, libraries: str, expected: list[str]) -> None:
+    source, out = tmp_path / "in", tmp_path / "out"
+    (source / "more").mkdir(parents=True)
+    for name in ("a.mtl", "b.mtl", "words.mtl", "two words.mtl", "more/c.mtl"):
+        (source / name).write_text("newmtl oak\n")
+    asset = read(written(source / "a.obj", two_legs().replace("table.mtl", libraries)))
+    save(asset, out / "a.obj")
+    files = sorted(path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file())
+    assert files == sorted(["a.obj", *expected])
+
+
 def test_materials_and_their_textures_go_along(tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
     source = written(tmp_path / "in" / "a.obj", two_legs())
