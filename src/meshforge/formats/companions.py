@@ -73,10 +73,17 @@ def _add(found: dict[str, Path], folder: Path, inside: str, reference: str) -> N
     for text in (reference, *reference.split()):
         key = posixpath.normpath(posixpath.join(inside, text.replace("\\", "/")))
         path = Path(os.path.normpath(folder / key))
-        if text and not posixpath.isabs(key) and "\0" not in key and path.is_file():
+        if text and not posixpath.isabs(key) and "\0" not in key and _is_there(path):
             found.setdefault(key, path)
             if text == reference:
                 return
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name longer than those of files
+        return False
 
 
 def _bytes(path: Path) -> bytes:

@@ -237,6 +237,7 @@ def test_a_new_file_reads_back_the_names_it_is_given_or_says_so(tmp_path: Path, 
         ("two words.mtl", ["two words.mtl"]),
         ("a.mtl b.mtl\nmtllib two words.mtl", ["a.mtl", "b.mtl", "two words.mtl"]),
         ("gone.mtl", []),
+        ("a.mtl " * 60, ["a.mtl"]),
     ],
 )
 def test_all_libraries_of_a_line_go_along(tmp_path: Path, libraries: str, expected: list[str]) -> None:
