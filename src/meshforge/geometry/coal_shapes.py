@@ -28,6 +28,7 @@ Placed = tuple[Any, Any]
 _SIZES = (8, 16, 24, 32, 48, 64, 96, 128, 192)  # of vessels; on more vertices climbing is worth the price of edges
 _LOOKED_AT = 32  # coal looks at every vertex of a polytope that has no more, and needs no edges
 _IDLE = 64  # vessels of a size that are kept
+_TURNS = 32  # of a plane, to find the best one
 _EDGES = 254  # at a vertex; coal counts them in a byte
 _STILL = coal.Transform3s()
 
@@ -103,16 +104,29 @@ def parts(shape: Shape) -> list[Shape]:
     edges = np.bincount(shape.faces.ravel())
     if edges.max() <= _EDGES:
         return [shape]
-    hub = int(edges.argmax())
-    around = np.unique(shape.faces[(shape.faces == hub).any(axis=1)])
-    ways = shape.vertices[around[around != hub]] - shape.vertices[hub]
-    across = np.linalg.svd(ways - ways.mean(axis=0))[2][0]  # the plane halves what is around
-    along = ways.mean(axis=0)
-    normal = across - along * (across @ along) / (along @ along)
-    halves = [half for half in cut(shape, shape.vertices[hub], normal) if half is not None]
-    if any(len(half.vertices) >= len(shape.vertices) for half in halves):
-        raise GeometryError(f"a vertex of a hull has {edges.max()} edges, more than can be measured")
+    normal, hub = _halving(shape, edges)
+    halves = [half for half in cut(shape, hub, normal) if half is not None]
+    if any(np.bincount(half.faces.ravel()).max() >= edges.max() for half in halves):
+        raise GeometryError(
+            f"a vertex of a hull has {edges.max()} edges, more than can be measured",
+            remedy="Give the hull fewer vertices.",
+        )
     return [part for half in halves for part in parts(half)]
+
+
+def _halving(shape: Polytope, edges: Ints) -> tuple[Floats, Floats]:
+    """The normal (3,) of a plane and a point (3,) on it, by which a vertex with too many edges loses half of them.
+
+    Two such vertices both lie on it. edges: of each vertex.
+    """
+    first, second = np.argsort(-edges, kind="stable")[:2]
+    around = np.unique(shape.faces[(shape.faces == first).any(axis=1)])
+    ways = shape.vertices[around[around != first]] - shape.vertices[first]
+    along = shape.vertices[second] - shape.vertices[first] if edges[second] > _EDGES else ways.mean(axis=0)
+    across = np.linalg.svd(along[None])[2][1:]  # two directions square to it
+    turns = np.arange(_TURNS) * (np.pi / _TURNS)
+    normals = np.column_stack([np.cos(turns), np.sin(turns)]) @ across
+    return normals[np.abs(np.sign(ways @ normals.T).sum(axis=0)).argmin()], shape.vertices[first]
 
 
 class _Vessel(NamedTuple):

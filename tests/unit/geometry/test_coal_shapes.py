@@ -90,14 +90,12 @@ def test_threads_do_not_pour_into_each_others_vessels() -> None:
             assert list(pool.map(lambda crowd: close_pairs(crowd, 1.0), crowds)) == wanted
 
 
-@pytest.mark.parametrize("rim", [254, 255, 300, 700])
-def test_a_vertex_may_have_more_edges_than_coal_can_count(rim: int) -> None:
-    turn = np.arange(rim) / rim * 2 * np.pi
-    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(rim)])
-    cone = convex_hull(np.vstack([circle, [[0, 0, 1]]]))
-    assert np.bincount(cone.faces.ravel()).max() == rim
+@pytest.mark.parametrize("count", [254, 255, 300, 700])
+def test_a_vertex_may_have_more_edges_than_coal_can_count(count: int) -> None:
+    cone = convex_hull(np.vstack([rim(count), [[0, 0, 1]]]))
+    assert np.bincount(cone.faces.ravel()).max() == count
     cut = parts(cone)
-    assert (len(cut) > 1) == (rim > 254)
+    assert (len(cut) > 1) == (count > 254)
     assert sum(part.volume for part in cut) == pytest.approx(cone.volume, rel=1e-12)
     small = Box(Pose.of_translation([0, 0, 1.75]), np.array([0.25, 0.25, 0.25]))
     assert distance(cone, small) == pytest.approx(0.5, abs=1e-9)
@@ -105,6 +103,38 @@ def test_a_vertex_may_have_more_edges_than_coal_can_count(rim: int) -> None:
     others = [small, beside, cone, Box(Pose.of_translation([9, 0, 0]), np.ones(3))]
     assert close_pairs(others, 1.05) == pytest.approx({(0, 2): 0.5, (1, 2): 1.0}, abs=1e-9)
     assert close_pairs(others, 1.05, frozenset({1, 2})) == pytest.approx({(0, 2): 0.5}, abs=1e-9)
+
+
+def rim(count: int) -> Floats:
+    turn = np.arange(count) / count * 2 * np.pi
+    return np.column_stack([np.cos(turn), np.sin(turn), np.zeros(count)])
+
+
+def fanned(count: int) -> Polytope:
+    """A leaning cone whose base is a fan about one vertex, so that two vertices have edges to all others."""
+    k = np.arange(count)
+    side = np.column_stack([k, (k + 1) % count, np.full(count, count)])
+    base = np.column_stack([np.zeros(count - 2, dtype=int), k[2:], k[1:-1]])
+    return Polytope(np.vstack([rim(count), [[0.3, 0.2, 1]]]), np.concatenate([side, base]))
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        fanned(300),
+        convex_hull(np.vstack([rim(300), [[0.3, 0, 1], [0, 0.3, -1]]])),
+        convex_hull(np.vstack([rim(600), [[0.5, 0, 1], [-0.2, 0.6, -0.1]]])),
+    ],
+    ids=["leaning cone", "double cone", "flat double cone"],
+)
+def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
+    assert (np.bincount(shape.faces.ravel()) > 254).sum() == 2
+    cut = parts(shape)
+    assert all(np.bincount(part.faces.ravel()).max() <= 254 for part in cut)
+    assert sum(part.volume for part in cut) == pytest.approx(shape.volume, rel=1e-9)
+    top = float(shape.aabb.max[2])
+    assert distance(shape, Box(Pose.of_translation([0, 0, top + 1.5]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
+    assert distance(shape, Box(Pose.of_translation([2.5, 0, 0]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
 
 
 def test_a_frame_makes_what_lies_in_it_about_one_long() -> None:
