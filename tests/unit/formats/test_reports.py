@@ -15,6 +15,8 @@ from meshforge.formats.reporting import report
 from meshforge.formats.visuals import LazySurfaces, Visual
 from meshforge.words import counted
 from tests.conversion_samples import SAMPLES, crowd, doors
+from tests.gltf_files import SceneFile
+from tests.soups import box
 from tests.urdf_sample import THREE
 
 GOLDEN = Path(__file__).parents[2] / "golden" / "reports"
@@ -171,6 +173,16 @@ def test_a_visual_that_cannot_be_read_is_told(suffix: str, tmp_path: Path) -> No
     asset = replace(doors(), visuals=LazySurfaces((Visual("door", bad, np.eye(3), np.zeros(3)),)))
     notes = save(asset, tmp_path / "out" / f"m{suffix}").notes
     assert "1 visual (door) is left out: their files cannot be read" in notes
+
+
+def test_what_the_vertices_of_a_gltf_have_besides_their_places_is_told(tmp_path: Path) -> None:
+    scene = SceneFile()
+    part = scene.primitive(box())
+    part["attributes"] |= {"COLOR_0": scene.accessor(np.ones((8, 4), "<f4"))}
+    part["attributes"] |= {"TEXCOORD_0": scene.accessor(np.ones((8, 2), "<f4"))}
+    scene.node("box", mesh=scene.mesh(part))
+    saved = save(read(scene.write(tmp_path / "a.glb")), tmp_path / "a.stl")
+    assert {loss.what for loss in saved.report.lost} >= {What.VERTEX_COLORS, What.TEXTURE_COORDINATES}
 
 
 def test_within_a_format_nothing_is_lost(tmp_path: Path) -> None:

@@ -48,6 +48,7 @@ COULD = frozenset(
         What.BALL_JOINTS,
         What.FIXED_JOINTS,
         What.MATERIALS,
+        What.VERTEX_COLORS,
         What.TEXTURES,
         What.TEXTURE_COORDINATES,
         What.CONTACT,

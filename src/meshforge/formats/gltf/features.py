@@ -18,6 +18,7 @@ _LISTS = {
     "skins": What.SKINS,
     "cameras": What.CAMERAS,
 }
+_ATTRIBUTES = {"COLOR_0": What.VERTEX_COLORS, "TEXCOORD_0": What.TEXTURE_COORDINATES}
 _LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
 
 
@@ -32,8 +33,8 @@ def _features(tree: Json) -> Iterator[Feature]:
         yield _feature(what, entries(tree, key))
     yield _feature(What.LIGHTS, entries(extension(tree, _LIGHTS) or {}, "lights"))
     parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
-    shown = sum("TEXCOORD_0" in part.get("attributes", {}) for part in parts)
-    yield Feature(What.TEXTURE_COORDINATES, unnamed=shown)
+    for name, what in _ATTRIBUTES.items():
+        yield Feature(what, unnamed=sum(name in part.get("attributes", {}) for part in parts))
     physics = extension(tree, _PHYSICS) or {}
     yield Feature(What.CONTACT, unnamed=sum(len(entries(physics, k)) for k in ("physicsMaterials", "collisionFilters")))
     yield Feature(What.JOINTS, unnamed=sum(_is_joined(node) for node in entries(tree, "nodes")))
