@@ -12,6 +12,8 @@ from meshforge.asset import Asset
 from meshforge.formats import read, save
 from meshforge.geometry import Floats
 from tests.conversion_samples import SAMPLES
+from tests.gltf_files import KHR, SceneFile
+from tests.soups import box
 
 PLAIN = (".obj", ".stl", ".ply", "")
 SUFFIXES = (*PLAIN, ".urdf", ".xml", ".glb")
@@ -79,3 +81,17 @@ def test_mujoco_does_not_get_the_convex_hull_of_an_opaque_piece_to_collide_with(
     assert [geom.name for geom in after.geoms] == ["room/stool"]
     assert [(piece.name, piece.plane is not None) for piece in after.opaque] == [("room/floor", True)]
     assert [surface.body for surface in after.visuals] == ["room"]
+
+
+@pytest.mark.parametrize("target", [".urdf", ".xml", ".glb"])
+def test_what_is_seen_of_a_scene_around_a_moving_body_is_no_part_of_it(target: str, tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("floor", box((-5, -1, -5), (10, 1, 10)))
+    ball = scene.collider("skin", {"type": "sphere", "sphere": {"radius": 0.5}})
+    scene.node("ball", children=[ball], extensions={KHR: {"motion": {"mass": 1}}}, translation=[0, 3, 0])
+    before = read(scene.write(tmp_path / "scene.gltf"))
+    assert [body.name for body in before.bodies] == ["body", "ball"]
+    after = read(save(before, tmp_path / "out" / f"scene{target}").path)
+    assert [geom.body for geom in after.geoms] == ["ball"]
+    assert [surface.body for surface in after.visuals if surface.body == "ball"] == []
+    assert len(after.visuals) == 1

@@ -15,7 +15,7 @@ from meshforge.formats.gltf.reading.motions import inertial_of
 from meshforge.formats.gltf.reading.names import hull_names
 from meshforge.formats.gltf.reading.notes import scene_notes
 from meshforge.formats.gltf.reading.sources import Reader, Source
-from meshforge.formats.gltf.reading.visuals import SceneSurfaces
+from meshforge.formats.gltf.reading.visuals import SceneSurfaces, visible
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entries
 from meshforge.formats.triangles import contents
@@ -34,6 +34,7 @@ def read_gltf(path: Path) -> Asset:
         reader = Reader(scene)
         sources = reader.sources()
         bodies = named_bodies(scene)
+        fixed = _is_fixed(scene, reader.convention, sources, bodies)
         notes = [*scene_notes(scene, reader.convention), *reader.notes]
         weighed = (inertial_of(scene.placements[node], name) for node, name in _nodes_of(bodies))
         masses = tuple(inertial for inertial in weighed if inertial is not None)
@@ -45,7 +46,7 @@ def read_gltf(path: Path) -> Asset:
     return Asset(
         path=path,
         format="gltf",
-        bodies=_bodies(scene, bodies, authored),
+        bodies=_bodies(scene, bodies, fixed),
         geoms=tuple(_geoms(authored, sources)),
         document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
         opaque=tuple(_opaque(authored, sources)),
@@ -84,9 +85,16 @@ def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], .
     return tuple(dict.fromkeys(bodies.values()))
 
 
-def _bodies(scene: Scene, bodies: Mapping[int, tuple[int, str]], authored: Sequence[Authored]) -> tuple[Body, ...]:
+def _is_fixed(
+    scene: Scene, convention: Convention, sources: Sequence[Source], bodies: Mapping[int, tuple[int, str]]
+) -> bool:
+    """Whether something that collides or is seen is part of no rigid body."""
+    nodes = [*(source.node for source in sources), *visible(scene, convention)]
+    return not bodies or any(node not in bodies for node in nodes)
+
+
+def _bodies(scene: Scene, bodies: Mapping[int, tuple[int, str]], fixed: bool) -> tuple[Body, ...]:
     """The body of the root frame where something is part of it, then the rigid ones."""
-    fixed = not bodies or any(element.body == BODY for element in authored)
     moving = [Body(name, rigid(scene.placements[node])) for node, name in _nodes_of(bodies)]
     return (*([Body(BODY, Pose.identity())] if fixed else []), *moving)
 
