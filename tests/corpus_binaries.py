@@ -120,6 +120,9 @@ def ply_files() -> Mapping[str, bytes]:
         "little_endian_length_negative.ply": with_bytes(
             ply("little_endian", length="char"), len(little) - 14, struct.pack("<b", -3)
         ),
+        "little_endian_faces_are_numbers.ply": little.replace(b"list uchar int", b"int"),
+        "little_endian_indices_without_sign.ply": little.replace(b"uchar int", b"uchar uint"),
+        "big_endian_indices_without_sign.ply": big.replace(b"uchar int", b"uchar uint"),
         "little_endian_length_is_float.ply": ply("little_endian", length="float"),
         "little_endian_length_is_double.ply": ply("little_endian", length="double"),
         "little_endian_length_is_not_a_number.ply": with_bytes(

@@ -183,17 +183,26 @@ def _vertices(rows: list[Rows], where: str) -> Floats:
     return np.column_stack([as_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
-def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
-    """Triangles (m, 3) and the row of each (m,)."""
+def _corners(rows: list[Rows], where: str) -> Any:
+    """The lists of vertices of all faces."""
     found = next((r for r in rows if r.element.name == "face"), None)
-    key = next((k for k in INDICES if found and k in found.values), None)
     if found is None and any(r.element.name == "tristrips" for r in rows):
         raise AssetError("its faces are triangle strips, which are not read", where=where, remedy="Export triangles.")
-    if found is not None and key is None:
+    if found is None:
+        return []
+    numbers = [p.name for p in found.element.properties if p.name in INDICES and not p.count]
+    if numbers:
+        problem = f"the {numbers[0]} of its faces is a number, not a list"
+        raise AssetError(problem, where=where, remedy="Export it again.")
+    key = next((k for k in INDICES if k in found.values), None)
+    if key is None:
         raise AssetError(f"its faces have no list {' or '.join(INDICES)}", where=where)
-    if found is None or key is None:
-        return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
-    read = found.values[key]
+    return found.values[key]
+
+
+def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
+    """Triangles (m, 3) and the row of each (m,)."""
+    read = _corners(rows, where)
     if isinstance(read, np.ndarray) and read.dtype.kind in "iu":
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
         if table.min(initial=0) >= 0 and table.max(initial=-1) < count:
