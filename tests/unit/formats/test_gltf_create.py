@@ -119,6 +119,14 @@ def test_masses_go_along_and_joints_are_told_as_lost(tmp_path: Path) -> None:
     ]
 
 
+def test_a_mass_comes_back_though_its_inertia_is_not_told(tmp_path: Path) -> None:
+    mechanism = Mechanism(inertials=(Inertial("b", 2.5, np.zeros(3), np.zeros((3, 3))),))
+    path = save(made(brick("b/x", "b"), bodies=(Body("b", TURN),), mechanism=mechanism), tmp_path / "a.glb").path
+    (inertial,) = read(path).mechanism.inertials
+    assert (inertial.body, inertial.mass) == ("b", 2.5)
+    assert np.linalg.eigvalsh(inertial.inertia).min() > 0
+
+
 def test_endless_planes_come_back(tmp_path: Path) -> None:
     floor = Opaque("a/floor", "a", "a plane has no end", plane=TURN)
     path = save(made(brick("a/x", "a"), bodies=(Body("a", TURN @ TURN),), opaque=(floor,)), tmp_path / "a.glb").path

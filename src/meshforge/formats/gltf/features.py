@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-from meshforge.asset import Feature, What
+from meshforge.asset import Asset, Feature, What
 from meshforge.formats.gltf.document import GltfDocument
+from meshforge.formats.gltf.reading.motions import told_motion, why_weightless
 from meshforge.formats.meshfile.gltf import Json, Scene, damage_at
-from meshforge.formats.meshfile.gltf.items import entries, extension
+from meshforge.formats.meshfile.gltf.items import entries, entry, extension
 
 _LISTS = {
     "materials": What.MATERIALS,
@@ -22,10 +22,11 @@ _ATTRIBUTES = {"COLOR_0": What.VERTEX_COLORS, "TEXCOORD_0": What.TEXTURE_COORDIN
 _LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
 
 
-def features_of(document: GltfDocument, path: Path) -> list[Feature]:
+def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
     """The features of a glTF file that its asset does not tell. Raises AssetError: what lists them is damaged."""
-    with damage_at(str(path)):
-        return list(_features(Scene.of(document.source, path).tree))
+    with damage_at(str(asset.path)):
+        tree = Scene.of(document.source, asset.path).tree
+        return [*_features(tree), *_weightless(tree, document, asset)]
 
 
 def _features(tree: Json) -> Iterator[Feature]:
@@ -38,6 +39,15 @@ def _features(tree: Json) -> Iterator[Feature]:
     physics = extension(tree, _PHYSICS) or {}
     yield Feature(What.CONTACT, unnamed=sum(len(entries(physics, k)) for k in ("physicsMaterials", "collisionFilters")))
     yield Feature(What.JOINTS, unnamed=sum(_is_joined(node) for node in entries(tree, "nodes")))
+
+
+def _weightless(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
+    """The masses that the file says and the asset does not have."""
+    known = {inertial.body for inertial in asset.mechanism.inertials}
+    told = {name: told_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
+    reasons = {name: why_weightless(motion) for name, motion in told.items() if "mass" in motion}
+    for reason in dict.fromkeys(reasons.values()):
+        yield Feature(What.MASSES, tuple(name for name, why in reasons.items() if why == reason), reason=reason)
 
 
 def _is_joined(node: Json) -> bool:

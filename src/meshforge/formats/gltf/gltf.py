@@ -40,4 +40,4 @@ class GltfFormat(Format):
         return create_gltf(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document, asset.path) if isinstance(asset.document, GltfDocument) else ()
+        return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()

@@ -1,17 +1,22 @@
-"""The masses of bodies, as KHR_physics_rigid_bodies tells them: in the frame of a body's node, about principal axes."""
+"""The masses of bodies, as physics extensions tell them: in the frame of a body's node, about principal axes."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from meshforge.asset import Asset, Body, Inertial
 from meshforge.formats.body_tree import BodyTree
 from meshforge.formats.gltf.reading.bodies import rigid
-from meshforge.formats.gltf.reading.physics import KHR
+from meshforge.formats.gltf.reading.physics import KHR, OMI
+from meshforge.formats.gltf.reading.solids import solid
 from meshforge.formats.meshfile.gltf import Json, Placement
 from meshforge.formats.meshfile.gltf.items import extension, number, numbers
 from meshforge.formats.meshfile.gltf.scene import turn_of
-from meshforge.geometry import Pose
+from meshforge.geometry import Floats, Pose, Shape
+
+_SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
 
 def motion_of(asset: Asset, body: Body) -> Json:
@@ -31,15 +36,48 @@ def motion_of(asset: Asset, body: Body) -> Json:
     return motion
 
 
-def inertial_of(placement: Placement, body: str) -> Inertial | None:
-    """What a node that is a body weighs; None where the file leaves that to the engine. Raises ValueError."""
-    motion = (extension(placement.node, KHR) or {}).get("motion", {})
-    if not isinstance(motion, dict) or not {"mass", "inertiaDiagonal"} <= motion.keys():
+def told_motion(node: Json) -> Json:
+    """What a node says of how it moves as a body: KHR's `motion`, else OMI's, whose older form is the extension itself.
+
+    Zeros of OMI that leave the inertia to the engine are left out.
+    """
+    khr, omi = extension(node, KHR) or {}, extension(node, OMI) or {}
+    if "motion" in khr:
+        return khr["motion"] if isinstance(khr["motion"], dict) else {}
+    motion = omi.get("motion", omi)
+    told = motion.items() if isinstance(motion, dict) else ()
+    return {key: value for key, value in told if key not in _SIZES or numbers(motion, key, _SIZES[key], ()).any()}
+
+
+def inertial_of(placement: Placement, body: str, hulls: Sequence[Shape]) -> Inertial | None:
+    """What a node that is a body weighs; hulls: of the body, whose inertia it has where it says none.
+
+    None where it is endless, or where the file leaves that to the engine. Raises ValueError.
+    """
+    motion = told_motion(placement.node)
+    mass, told = number(motion, "mass", 0.0), _SIZES.keys() & motion.keys()
+    if mass <= 0 or not (hulls or told):
         return None
-    mass, diagonal = number(motion, "mass", 0.0), numbers(motion, "inertiaDiagonal", 3, ())
-    if mass <= 0 or diagonal.min() <= 0:
-        return None  # zero stands for endless
-    pose = rigid(placement)
-    axes = pose.rotation @ turn_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
     centre = placement.world @ np.array([*numbers(motion, "centerOfMass", 3, (0.0, 0.0, 0.0)), 1.0])
-    return Inertial(body, mass, centre[:3], axes @ np.diag(diagonal) @ axes.T)
+    if not told:
+        return Inertial(body, mass, *solid(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
+    moments, axes = _principal(motion)
+    if moments.min() <= 0:
+        return None  # zero stands for endless
+    axes = rigid(placement).rotation @ axes
+    return Inertial(body, mass, centre[:3], axes @ np.diag(moments) @ axes.T)
+
+
+def why_weightless(motion: Json) -> str:
+    """Why a body that says its mass has none in the asset."""
+    is_endless = number(motion, "mass", 0.0) <= 0 or _SIZES.keys() & motion.keys()
+    return "they or their inertia are endless" if is_endless else "no hull of these bodies tells their inertia"
+
+
+def _principal(motion: Json) -> tuple[Floats, Floats]:
+    """The moments (3,) that a motion says, and their axes (3, 3) in the frame of the body."""
+    if "inertiaDiagonal" in motion:
+        turn = turn_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
+        return numbers(motion, "inertiaDiagonal", 3, ()), turn
+    moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
+    return moments, axes

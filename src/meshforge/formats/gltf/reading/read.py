@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from urllib.parse import unquote
 
-from meshforge.asset import Asset, Body, Geom, Mechanism, Opaque, unique_names
+from meshforge.asset import Asset, Body, Geom, Inertial, Mechanism, Opaque, unique_names
 from meshforge.errors import AssetError
 from meshforge.formats.companions import companions
 from meshforge.formats.gltf.document import BODY, Authored, Convention, GltfDocument
@@ -36,18 +36,18 @@ def read_gltf(path: Path) -> Asset:
         bodies = named_bodies(scene)
         fixed = _is_fixed(scene, reader.convention, sources, bodies)
         notes = [*scene_notes(scene, reader.convention), *reader.notes]
-        weighed = (inertial_of(scene.placements[node], name) for node, name in _nodes_of(bodies))
-        masses = tuple(inertial for inertial in weighed if inertial is not None)
+        authored = authored_of(sources, bodies)
+        geoms = tuple(_geoms(authored, sources))
+        masses = tuple(_masses(scene, bodies, geoms))
         digests = tuple((file, digest_of(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
-    authored = authored_of(sources, bodies)
     files, missing = _files(scene, path)
     return Asset(
         path=path,
         format="gltf",
         bodies=_bodies(scene, bodies, fixed),
-        geoms=tuple(_geoms(authored, sources)),
+        geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
         opaque=tuple(_opaque(authored, sources)),
         visuals=_visuals(source, path, bodies, reader.convention),
@@ -97,6 +97,14 @@ def _bodies(scene: Scene, bodies: Mapping[int, tuple[int, str]], fixed: bool) ->
     """The body of the root frame where something is part of it, then the rigid ones."""
     moving = [Body(name, rigid(scene.placements[node])) for node, name in _nodes_of(bodies)]
     return (*([Body(BODY, Pose.identity())] if fixed else []), *moving)
+
+
+def _masses(scene: Scene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
+    for node, name in _nodes_of(bodies):
+        hulls = [geom.shape for geom in geoms if geom.body == name]
+        inertial = inertial_of(scene.placements[node], name, hulls)
+        if inertial is not None:
+            yield inertial
 
 
 def _geoms(authored: Sequence[Authored], sources: Sequence[Source]) -> Iterator[Geom]:
