@@ -63,6 +63,11 @@ class Preparation:
         """The digests of all hulls it makes by name, those that later steps replace too."""
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
+    @property
+    def divided(self) -> frozenset[str]:
+        """The names of the hulls that its steps put others in the place of, authored ones too."""
+        return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
+
     def then(self, step: Step, hulls: Iterable[Polytope]) -> Preparation:
         """With one step more, which makes these hulls."""
         return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})

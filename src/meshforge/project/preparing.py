@@ -102,10 +102,14 @@ def exchanged(project: Project, asset: str, after: Preparation, seen: str | None
 
 
 def _hulls(source: Asset, folder: Path) -> dict[str, Shape]:
-    """The hulls of an asset by name as they are prepared, those of an outdated preparation too."""
+    """The hulls of an asset by name as they are prepared, those of an outdated preparation too.
+
+    A hull that a step puts others in the place of is none of them, whether or not that step still fits the asset.
+    """
     before = _readable(folder)
     made = {name: before.hulls[known] for name, known in before.made.items()}
-    return made | {geom.name: geom.shape for geom in fitting(source, before).asset.geoms}
+    there = made | {geom.name: geom.shape for geom in fitting(source, before).asset.geoms}
+    return {name: shape for name, shape in there.items() if name not in before.divided}
 
 
 def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:

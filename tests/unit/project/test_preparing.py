@@ -192,6 +192,49 @@ def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) ->
     assert not (project.folder / "prepared" / FIRST).exists()
 
 
+def label_file(project: Project, asset: str) -> dict[str, str]:
+    """The labels that are kept, by hull."""
+    return {name: label.name for name, label in project.labels(asset).labels.items()}
+
+
+def test_labels_of_a_prepared_hull_that_is_split_come_back(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    label_all(project, HIGH)
+    before = label_file(project, HIGH)
+    project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
+    once = label_file(project, HIGH)
+    assert once.keys() - before.keys() == {"cover/geom0#0#0", "cover/geom0#0#1"}
+    project.cut(HIGH, "cover/geom0#0#0", *across(project, "cover/geom0#0#0"))
+    assert not any("no hull takes over" in note for note in project.unprepare(HIGH).notes)
+    assert label_file(project, HIGH) == once
+    project.unprepare(HIGH)
+    assert label_file(project, HIGH) == before
+
+
+def across(project: Project, hull: str) -> tuple[list[float], tuple[float, float, float]]:
+    """A plane through the middle of a hull."""
+    return project.mesh(HIGH).named(hull).aabb.center.tolist(), (1, 0, 0)
+
+
+def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    label_all(project, HIGH)
+    before = label_file(project, HIGH)
+    project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
+    list(project.decompose([HIGH], QUICK, again=True, workers=0))
+    assert label_file(project, HIGH) == before
+
+
+def test_labels_of_a_split_go_back_to_the_hull_though_the_asset_changed(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    label_all(project, HIGH)
+    project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
+    path = tmp_path / "assets" / HIGH
+    path.write_text(path.read_text().replace("4 1 1", "4 1 1.2"))
+    project.unprepare(HIGH)
+    assert project.mesh(HIGH).named("frame/foot").label == "foot"
+
+
 def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     label_all(project, HIGH)
