@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -40,7 +40,7 @@ def prepare(
 
     The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
-    Exit code 1 when some pieces could not be decomposed (each named).
+    Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
     from meshforge.errors import UsageError
     from meshforge.project import Project
@@ -51,9 +51,7 @@ def prepare(
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     opened = Project.open(project)
     if method is None:
-        for asset in _named(opened, assets):
-            show([opened.unprepare(asset, everything=remove)], json)
-        return
+        raise typer.Exit(show(_taken_back(opened, _named(opened, assets), everything=remove), json))
     settings = engine_settings(method, option)
     options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
     raise typer.Exit(decomposed(opened, assets or opened.assets(), settings, json=json, **options))
@@ -98,7 +96,25 @@ def _print(done: Prepared) -> None:
         typer.echo("    failed: " + problem.replace("\n", "\n    "))
 
 
-def _named(project: Project, assets: list[str] | None) -> list[str]:
-    """The assets that were named; without names all that something was done to."""
-    kept = set(project.layout.prepared())
-    return assets or [asset for asset in project.assets() if asset in kept]
+def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
+    """The assets that were named; without names all that something was done to, those that are gone too.
+
+    Raises ProjectError for a name that nothing has.
+    """
+    kept = project.layout.prepared()
+    for asset in assets or ():
+        if asset not in kept:
+            project.path(asset)
+    return tuple(assets or kept)
+
+
+def _taken_back(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[Prepared]:
+    """What became of assets whose preparation is taken back; one that fails never stops the others."""
+    from meshforge.errors import told
+    from meshforge.project import Prepared
+
+    for asset in assets:
+        try:
+            yield project.unprepare(asset, everything=everything)
+        except Exception as error:
+            yield Prepared(asset, problems=(told(error, asset),))

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.asset import Asset
-from meshforge.errors import AssetError, ProjectError
+from meshforge.errors import AssetError, MeshForgeError, ProjectError
 from meshforge.formats import read
 from meshforge.geometry import Shape
 from meshforge.geometry.decompose import DecomposeSettings, cache_folder
@@ -73,8 +73,12 @@ def split(project: Project, asset: str, hull: str, settings: DecomposeSettings, 
 
 
 def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
-    """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was."""
-    project.path(asset)
+    """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was.
+
+    What is kept for an asset that is gone, or cannot be read, can be taken back as a whole.
+    """
+    if asset not in project.layout.prepared():
+        project.path(asset)
     folder = project.layout.preparation(asset)
     seen = record_digest(folder)
     if seen is None:
@@ -119,7 +123,13 @@ def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:
     labels of hulls that are not there are left, which is harmless.
     """
     folder = project.layout.preparation(asset)
-    source = read(project.path(asset))
+    try:
+        source = read(project.path(asset))
+    except MeshForgeError as error:
+        if after.steps:
+            raise
+        remove_preparation(folder)
+        return [f"its labels stay as they are: {error.problem}"] if project.layout.labels(asset).exists() else []
     mesh = SymbolicMesh.of(prepared(source, after))
     follow = relabelled(project, asset, _hulls(source, folder), mesh)
     if follow:

@@ -229,7 +229,7 @@ class Project:
     def unprepare(self, asset: str, *, everything: bool = False) -> Prepared:
         """Take back the last thing that was done to an asset before the program, or everything.
 
-        Raises ProjectError where nothing was done.
+        Everything also of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
         """
         return preparing.unprepare(self, asset, everything)
 

@@ -87,7 +87,8 @@ def test_split_along_a_plane_and_back(run: Run, project: str) -> None:
     assert told.code == 0 and told.out == "row.obj: 1 piece into 2 hulls\n    geom0#1: 2 hulls\n"
     told = run("prepare", project, "row.obj", "--undo")
     assert told.out == "row.obj: taken back\n    geom0#1 cut into 2 hulls\n"
-    assert run("prepare", project, "row.obj", "--undo").code == 2
+    told = run("prepare", project, "row.obj", "--undo")
+    assert told.code == 1 and "failed: row.obj: nothing was done to it" in told.out
 
 
 def test_negative_coordinates_are_understood(run: Run, project: str) -> None:
@@ -108,6 +109,30 @@ def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     assert told.out.count("taken back") == 2
     assert not Path("p/prepared/row.obj").exists()
     assert run("prepare", project, "--remove").out == ""
+
+
+def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: str) -> None:
+    run("prepare", project, *VOXELS)
+    for asset, hull, x in (("row.obj", "geom0#1", "2"), ("stand.urdf", "frame/foot", "0")):
+        run("split", project, asset, hull, "--at", f"{x},0,-1", "--across", "1,0,0")
+    Path("in/stand.urdf").write_text("<robot")
+    told = run("prepare", project, "stand.urdf", "row.obj", "--undo")
+    assert told.code == 1
+    assert "row.obj: taken back\n" in told.out and "failed: " in told.out and "in/stand.urdf" in told.out
+    assert run("prepare", project, "stand.urdf", "--remove").code == 0
+    assert not Path("p/prepared/stand.urdf").exists()
+
+
+def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> None:
+    run("new", "p", "in/stand.*", "in/row.*", "--vocabulary", "a,b")
+    run("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    run("split", "p", "stand.urdf", "frame/foot", "--at", "0,0,-1", "--across", "1,0,0")
+    write_boxes(Path("in/row.2.obj"))
+    Path("in/row.obj").unlink()
+    assert "kept for an asset that is not there: row.obj" in run("status", "p").out
+    told = run("prepare", "p", "--remove")
+    assert told.code == 0 and told.out.count("taken back") == 2
+    assert "not there" not in run("status", "p").out
 
 
 @pytest.mark.parametrize(

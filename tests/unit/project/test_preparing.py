@@ -297,6 +297,17 @@ def test_all_that_was_done_can_be_taken_back_also_where_it_is_damaged(tmp_path: 
     assert names(project, LOW) == ["frame/foot"]
 
 
+def test_labels_stay_where_all_is_taken_back_of_an_asset_that_cannot_be_read(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    label_all(project, HIGH)
+    before = label_file(project, HIGH)
+    (tmp_path / "assets" / HIGH).write_text("<robot")
+    done = project.unprepare(HIGH, everything=True)
+    assert done.undone and "its labels stay as they are" in done.notes[0]
+    assert label_file(project, HIGH) == before
+    assert not (project.folder / "prepared" / HIGH).exists()
+
+
 def test_a_preparation_whose_folder_was_deleted_is_no_more(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     shutil.rmtree(project.folder / "prepared")
