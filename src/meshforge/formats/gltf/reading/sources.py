@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,10 +16,12 @@ from meshforge.formats.gltf.reading.physics import collider_of, has_collider
 from meshforge.formats.gltf.reading.shapes import Z_TO_Y, Described
 from meshforge.formats.gltf.reading.unreal import unreal_shape
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts, placed
+from meshforge.formats.meshfile import RawSurface, joined
 from meshforge.formats.meshfile.gltf import Placement, Scene, Triangles
+from meshforge.formats.meshfile.gltf.instances import NAME as INSTANCING
+from meshforge.formats.meshfile.gltf.instances import is_instanced, repeated
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Pose, Sphere, convex_hull, pieces
 
-INSTANCING = "EXT_mesh_gpu_instancing"
 _SHAPES = {"UBX": "box", "USP": "sphere", "UCP": "capsule"}
 _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 
@@ -56,8 +58,27 @@ class Reader:
             "plain": self._plain,
         }
         each = read.get(self.convention, self._physics)
-        found = [each(placement) for placement in self.scene.placements.values()]
+        found = [
+            self._many(placement, each) if is_instanced(placement.node) else each(placement)
+            for placement in self.scene.placements.values()
+        ]
         return [source for source in found if source is not None and source.parts]
+
+    def _many(self, placement: Placement, each: Callable[[Placement], Source | None]) -> Source | None:
+        """A node that stands for many: one piece, of all instances of what it collides with."""
+        extensions = {name: own for name, own in placement.node["extensions"].items() if name != INSTANCING}
+        alone = {key: value for key, value in placement.node.items() if key != "skin"} | {"extensions": extensions}
+        one = each(replace(placement, node=alone, world=np.eye(4)))
+        if one is None or not one.parts:
+            return None
+        reason = f"many at once by {INSTANCING}, which is not edited"
+        shown = [surface for part in one.parts if (surface := part.shape or part.surface)]
+        if not shown:
+            return Source(placement.index, one.name, [MeshPart(None, reason)])
+        whole = joined([RawSurface(None, np.asarray(s.vertices), s.faces) for s in shown])
+        many = repeated(whole.vertices, whole.faces, self.scene.instances(placement))
+        surface = placed(*many, placement.linear, placement.offset)
+        return Source(placement.index, one.name, [MeshPart(None, reason, surface)])
 
     def _physics(self, placement: Placement) -> Source | None:
         if not has_collider(placement.node, self.convention, self.scene.tree):
@@ -116,11 +137,7 @@ class Reader:
         if "mesh" not in placement.node:
             return None
         name = source_name(self.scene, placement, "plain")
-        mesh = self.scene.placed(placement)
-        if INSTANCING in placement.node.get("extensions", {}):
-            part = _opaque(*mesh, f"many at once by {INSTANCING}, which is not edited")
-            return Source(placement.index, name, [part])
-        return self._pieced(placement.index, name, placement.node["mesh"], *mesh)
+        return self._pieced(placement.index, name, placement.node["mesh"], *self.scene.placed(placement))
 
     def _pieced(
         self, node: int, name: str | None, index: int, mesh: Triangles, linear: Floats, offset: Floats

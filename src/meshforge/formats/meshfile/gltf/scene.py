@@ -16,6 +16,7 @@ import numpy as np
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile.gltf.buffers import Buffers
 from meshforge.formats.meshfile.gltf.container import Container
+from meshforge.formats.meshfile.gltf.instances import all_instances, instances, is_instanced
 from meshforge.formats.meshfile.gltf.items import Json, entries, entry, numbers
 from meshforge.formats.meshfile.gltf.meshes import Triangles, triangles
 from meshforge.geometry import Floats
@@ -94,12 +95,18 @@ class Scene:
             self._meshes[index] = triangles(entry(self.tree, "meshes", index), self.buffers)
         return self._meshes[index]
 
+    def instances(self, placement: Placement) -> Floats:
+        """The places (k, 4, 4) of the instances of a node, in its space."""
+        return instances(placement.node, self.buffers)
+
     def placed(self, placement: Placement) -> tuple[Triangles, Floats, Floats]:
         """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
 
-        A skinned mesh is put in place by its joints, as the file has them.
+        A skinned mesh is put in place by its joints, as the file has them; of an instanced one it is all instances.
         """
         mesh = self.mesh(placement.node["mesh"])
+        if is_instanced(placement.node):
+            return all_instances(mesh, self.instances(placement)), placement.linear, placement.offset
         if "skin" in placement.node:
             from meshforge.formats.meshfile.gltf.skin import posed
 
