@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any
@@ -45,6 +46,17 @@ def engine_settings(method: Method, given: list[str] | None) -> DecomposeSetting
             raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:\n{listed}")
         values[name] = _value(text, value, type(known[name].default))
     return kind(**values)
+
+
+def refuse_given(context: typer.Context, names: Collection[str], without: str) -> None:
+    """Raise UsageError for a parameter among some that was typed, though it says nothing `without` another option."""
+    from meshforge.errors import UsageError
+
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        if parameter.name in names and source is not None and source.name == "COMMANDLINE":
+            option = parameter.opts[0]
+            raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
 
 
 def _value(text: str, value: str, kind: type) -> Any:

@@ -7,12 +7,13 @@ from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
 from meshforge.cli.options import AssetFiles, Workers
 from meshforge.cli.prepare import AssetTimeout, decomposed
 
 
 def new(
+    context: typer.Context,
     project: Annotated[Path, typer.Argument(help="The folder to make.")],
     assets: AssetFiles,
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Labels that hulls can have: a,b,c.")] = "",
@@ -35,6 +36,8 @@ def new(
     from meshforge.project import Project
     from meshforge.words import counted
 
+    if method is None:
+        refuse_given(context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
     settings = engine_settings(method, option) if method else None
     made = Project.create(project, assets, vocabulary=_words(vocabulary), orient=orient)
     typer.echo(f"{project}: a project of {counted(len(made.assets()), 'asset')}")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
 from meshforge.cli.options import Json, Workers
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds
 
 
 def prepare(
+    context: typer.Context,
     project: Annotated[Path, typer.Argument(help="A project folder.")],
     assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None,
     method: Annotated[
@@ -51,6 +52,7 @@ def prepare(
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     opened = Project.open(project)
     if method is None:
+        refuse_given(context, ("option", "only", "again", "hollow", "workers", "timeout"), "--decompose METHOD")
         raise typer.Exit(show(_taken_back(opened, _named(opened, assets), everything=remove), json))
     settings = engine_settings(method, option)
     options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
@@ -61,7 +63,7 @@ def decomposed(project: Project, assets: Iterable[str], settings: Any, *, json: 
     """Decompose assets of a project and show what became of each; the exit code."""
     from meshforge.cli.output import progress
 
-    ids = tuple(assets)
+    ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
         found = project.decompose(ids, settings, progress=advance, **options)
         return show(found, json)
@@ -97,7 +99,7 @@ def _print(done: Prepared) -> None:
 
 
 def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
-    """The assets that were named; without names all that something was done to, those that are gone too.
+    """The assets that were named, each once; without names all that something was done to, those that are gone too.
 
     Raises ProjectError for a name that nothing has.
     """
@@ -105,7 +107,7 @@ def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
     for asset in assets or ():
         if asset not in kept:
             project.path(asset)
-    return tuple(assets or kept)
+    return tuple(dict.fromkeys(assets or kept))
 
 
 def _taken_back(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[Prepared]:

@@ -7,12 +7,13 @@ from typing import Annotated
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings
+from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
 from meshforge.cli.options import Json
 from meshforge.cli.prepare import show
 
 
 def split(
+    context: typer.Context,
     project: Annotated[Path, typer.Argument(help="A project folder.")],
     asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")],
     hull: Annotated[str, typer.Argument(help="The name of a hull, as `info ASSET --project PROJECT` lists it.")],
@@ -41,6 +42,7 @@ def split(
         raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
     opened = Project.open(project)
     if method is None:
+        refuse_given(context, ("option", "hollow"), "--decompose METHOD")
         done = opened.cut(asset, hull, _vector(at, "--at"), _vector(across, "--across"))
     else:
         done = opened.split(asset, hull, engine_settings(method, option), hollow=hollow)

@@ -16,6 +16,7 @@ from meshforge.preparation.fit import told_fit
 from meshforge.preparation.record import Preparation, Replaced, Step, free_names, hull_digest
 from meshforge.preparation.replay import Lost, fitting
 from meshforge.preparation.sources import Source, sources, surface_digest
+from meshforge.words import listed
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -23,12 +24,14 @@ class Decomposed:
     """What became of an asset. made: what was decomposed now; failed: what could not be, and why.
 
     dropped: what an earlier preparation did and was given up, since it does not fit the asset any more.
+    missed: where none of the names that it was limited to is there, a sentence on that.
     """
 
     preparation: Preparation
     made: tuple[Replaced, ...] = ()
     failed: tuple[Lost, ...] = ()
     dropped: tuple[Lost, ...] = ()
+    missed: str | None = None
 
 
 def decompose_asset(
@@ -54,7 +57,9 @@ def decompose_asset(
     made: list[Replaced] = []
     hulls: list[Polytope] = []
     failed: list[Lost] = []
-    for source in sources(fit.asset):
+    bare = sources(fit.asset)
+    missed = _missed(only, [*(source.what for source in bare), *kept.decomposed])
+    for source in bare:
         if not _chosen(source.what, only):
             continue
         try:
@@ -67,7 +72,7 @@ def decompose_asset(
         taken |= entry.made.keys()
     if made:
         kept = kept.then(Step("decompose", settings_record(settings, hollow), software(settings), tuple(made)), hulls)
-    return Decomposed(kept, tuple(made), tuple(failed), fit.lost)
+    return Decomposed(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
 def _decomposed(
@@ -88,6 +93,14 @@ def _without(before: Preparation, only: Sequence[str]) -> Preparation:
         stay = tuple(r for r in step.replaced if step.do != "decompose" or not _chosen(r.what, only))
         kept += [Step(step.do, step.settings, step.software, stay)] if stay else []
     return before.of(kept)
+
+
+def _missed(only: Sequence[str], there: Sequence[str]) -> str | None:
+    """A sentence where no piece or body that can be decomposed has a name that was asked for."""
+    if any(_chosen(name, only) for name in there) or not only:
+        return None
+    known = f"it has {listed(there)}" if there else "it has none that can be decomposed"
+    return f"no piece or body matches {listed(only)}: {known}"
 
 
 def _chosen(name: str, only: Sequence[str]) -> bool:

@@ -64,6 +64,11 @@ class Preparation:
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
     @property
+    def decomposed(self) -> tuple[str, ...]:
+        """The names of the pieces and bodies that got hulls."""
+        return tuple(r.what for step in self.steps for r in step.replaced if r.kind != "hull")
+
+    @property
     def divided(self) -> frozenset[str]:
         """The names of the hulls that its steps put others in the place of, authored ones too."""
         return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")

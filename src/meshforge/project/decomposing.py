@@ -80,6 +80,7 @@ def _decomposed(work: _Work) -> tuple[Decomposed, str | None] | str:
 def _kept(project: Project, asset: str, result: Decomposed, seen: str | None) -> Prepared:
     problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
     notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
+    notes += [result.missed] if result.missed else []
     try:
         if result.made or result.dropped:
             notes += exchanged(project, asset, result.preparation, seen)

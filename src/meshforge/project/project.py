@@ -200,7 +200,7 @@ class Project:
         """
         return decomposing.decompose(
             self,
-            self.assets() if assets is None else tuple(assets),
+            self.assets() if assets is None else tuple(dict.fromkeys(assets)),
             settings or CoacdSettings(),
             only=only,
             again=again,

@@ -111,6 +111,22 @@ def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     assert run("prepare", project, "--remove").out == ""
 
 
+def test_names_that_no_piece_or_body_has_are_told(run: Run, project: str) -> None:
+    told = run("prepare", project, *VOXELS, "--only", "nothing*")
+    assert told.code == 0
+    assert "note: no piece or body matches nothing*: it has frame/body, cover\n" in told.out
+    assert "note: no piece or body matches nothing*: it has none that can be decomposed\n" in told.out
+    for _ in ("made", "made before"):
+        assert "matches" not in run("prepare", project, "stand.urdf", *VOXELS, "--only", "no", "--only", "frame/*").out
+
+
+def test_an_asset_that_is_named_twice_is_prepared_once(run: Run, project: str) -> None:
+    told = run("prepare", project, "stand.urdf", "stand.urdf", *VOXELS, "--again")
+    assert told.code == 0 and told.out.count("stand.urdf: 2 pieces into ") == 1
+    told = run("prepare", project, "stand.urdf", "stand.urdf", "--undo")
+    assert told.code == 0 and told.out.count("taken back") == 1
+
+
 def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: str) -> None:
     run("prepare", project, *VOXELS)
     for asset, hull, x in (("row.obj", "geom0#1", "2"), ("stand.urdf", "frame/foot", "0")):
@@ -136,13 +152,26 @@ def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> N
 
 
 @pytest.mark.parametrize(
+    ("option", "words"),
+    [("--set", ("threshold=1",)), ("--hollow", ()), ("--timeout", ("600",)), ("--workers", ("1",))],
+)
+def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str, words: tuple[str, ...]) -> None:
+    told = run("new", "p", "in/row.obj", option, *words)
+    assert told.code == 2 and f"{option} says nothing without --decompose METHOD" in told.err
+    assert not Path("p").exists()
+
+
+@pytest.mark.parametrize(
     ("words", "problem"),
     [
         (("prepare", "p"), "say what to do"),
         (("prepare", "p", "--decompose", "coacd", "--undo"), "say what to do"),
         (("prepare", "p", "--undo"), "--undo of which asset?"),
         (("prepare", "p", "roww.obj", "--decompose", "vhacd"), "Did you mean 'row.obj'"),
+        (("prepare", "p", "row.obj", "--remove", "--only", "geom0"), "--only says nothing without --decompose"),
+        (("prepare", "p", "row.obj", "--undo", "--again"), "--again says nothing without --decompose"),
         (("split", "p", "row.obj", "geom0#1"), "say how"),
+        (("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0", "--hollow"), "--hollow says"),
         (("split", "p", "row.obj", "geom0#1", "--at", "1,0,0"), "say how"),
         (("split", "p", "row.obj", "geom0#1", "--at", "1,0", "--across", "1,0,0"), "--at 1,0: three numbers"),
         (("split", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"), "does not cut it"),
