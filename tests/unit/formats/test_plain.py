@@ -98,6 +98,37 @@ def test_solids_of_an_ascii_stl_keep_their_names_and_made_hulls_get_theirs(tmp_p
     assert saved.names == {}
 
 
+WORDS = ("facet", "a", "my facet x", "endfacet", "facet normal 0 0 0", "endsolid facet endfacet", "d")
+
+
+@pytest.mark.parametrize("gone", WORDS)
+def test_names_of_solids_may_hold_the_words_of_the_format(tmp_path: Path, gone: str) -> None:
+    solids = {name: stl_ascii(box((3 * k, 0, 0)), name) for k, name in enumerate(WORDS)}
+    asset = read(put(tmp_path, ".stl", b"".join(solids.values())))
+    assert {g.name: g.shape.aabb.min[0] for g in asset.geoms} == {name: 3 * k for k, name in enumerate(WORDS)}
+    saved = save(without(asset, gone), tmp_path / "b.stl")
+    assert saved.names == {}
+    left = stl_ascii((np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)), gone)
+    assert saved.path.read_bytes() == b"".join({**solids, gone: left}.values())
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_made_hulls_are_written_ahead_of_the_end_of_the_solid(tmp_path: Path, name: str) -> None:
+    asset = read(put(tmp_path, ".stl", stl_ascii(LEGS, name)))
+    saved = save(without(asset, "geom0#2", add=[hull("geom0#2~1")]), tmp_path / "b.stl")
+    kept = stl_ascii(together(box(), box((3, 0, 0))), name).rpartition(b"  endfacet\n")[0]
+    assert saved.path.read_bytes().startswith(kept)
+    assert saved.path.read_bytes().endswith(f"endfacet\nendsolid {name}\n".encode())
+    assert volumes(read(saved.path)) == {"geom0#0": 1, "geom0#1": 1, "geom0#2": 0.125}
+
+
+def test_made_hulls_stand_on_lines_of_their_own_in_a_text_without_end(tmp_path: Path) -> None:
+    data = stl_ascii(box()).partition(b"endsolid")[0].rstrip()
+    asset = read(put(tmp_path, ".stl", data))
+    saved = save(without(asset, add=[hull("geom0~1", "geom0")]), tmp_path / "b.stl")
+    assert saved.path.read_bytes().startswith(data + b"\nfacet normal ")
+
+
 @pytest.mark.parametrize("order", ["ascii", "binary_little_endian", "binary_big_endian"])
 def test_a_ply_keeps_colours_and_other_properties(tmp_path: Path, order: str) -> None:
     source = put(tmp_path, ".ply", ply(LEGS, order, extra=True))

@@ -33,11 +33,18 @@ UNUSUAL = {
     "words between": f"solid a\n{TWO.replace('outer loop', 'outer loop with color 3')}endsolid a\n",
     "a name that runs on": f"solid_of_many\n{TWO}endsolid\n",
     "a facet in the title": f"solid facet normal 0 0 1\n{TWO}endsolid\n",
+    "facets in titles": "".join(
+        f"solid {name}\n{FACET.format(0)}endsolid {name}\n"
+        for name in ("facet", "a", "my facet x", "endfacet", "Facet normal 0 0 1", "solid facet", "facet endfacet")
+    ),
+    "one line": f"solid a part {' '.join(TWO.split())} endsolid a part\n",
+    "a facet behind the title": f"solid a {' '.join(FACET.format(0).split())}\n{FACET.format(7)}endsolid a\n",
 }
 DAMAGED = {
     "word": f"solid a\n{TWO.replace('7', 'seven')}endsolid a\n",
     "separator": f"solid a\n{TWO.replace('7', '7_0')}endsolid a\n",
     "two corners": f"solid a\n{TWO.replace('vertex 7 0 0', '')}endsolid a\n",
+    "cut short on one line": f"solid a {' '.join(TWO[:-20].split())} endsolid a\n",
     "cut short": f"solid a\n{TWO[:-20]}\nendsolid a\n",
 }
 
@@ -56,7 +63,9 @@ def test_facets_read_at_once_are_those_read_one_by_one(name: str, monkeypatch: p
     assert quick.corners.shape == careful.corners.shape
     assert np.array_equal(quick.solid, careful.solid)
     assert quick.solids == careful.solids
-    assert len(facet_spans(text.encode())) == len(quick.corners)
+    spans = facet_spans(text.encode()).tolist()
+    assert len(spans) == len(quick.corners)
+    assert all(text[start:stop].lower().split()[:6] == FACET.lower().split()[:6] for start, stop in spans)
 
 
 @pytest.mark.parametrize("name", PLAIN)

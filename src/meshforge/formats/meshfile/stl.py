@@ -19,7 +19,9 @@ _TEXT = 200  # bytes at the start of a file, beyond the title of a binary one, t
 _FACET = re.compile(rb"facet\b.*?\bendfacet\b[^\S\n]*\n?", re.S | re.I)
 _SOLID = re.compile(rb"^[^\S\n]*solid\b[^\S\n]*([^\r\n]*)", re.M | re.I)
 _OPENED = re.compile(rb"\bfacet\s+normal\b", re.I)
-_TITLE = re.compile(rb"^[^\S\n]*(?:end)?solid\b[^\r\n]*", re.M | re.I)
+_NAME = re.compile(
+    rb"^[^\S\n]*(?:end)?solid\b(?:(?!\bvertex\b)[^\r\n])*(?=[\r\n]|\Z)(?!\s*(?:outer|vertex)\b)", re.M | re.I
+)
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.I)
 _WORDS = (
     *(b"facet", b"normal", b"", b"", b"", b"outer", b"loop"),
@@ -92,7 +94,12 @@ def _binary(data: bytes, count: int) -> StlText:
 
 def facet_spans(data: bytes) -> Ints:
     """The bytes (m, 2) of each triangle in an ASCII file."""
-    return np.array([f.span() for f in _FACET.finditer(data)], dtype=np.int64).reshape(-1, 2)
+    return np.array([f.span() for f in _FACET.finditer(_without_names(data))], dtype=np.int64).reshape(-1, 2)
+
+
+def _without_names(data: bytes) -> bytes:
+    """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
+    return _NAME.sub(lambda title: b" " * len(title[0]), data)
 
 
 def _ascii(data: bytes, where: str) -> StlText:
@@ -107,6 +114,8 @@ def _plain_ascii(data: bytes) -> StlText | None:
     count = len(words) // len(_WORDS)
     if title[5:6].strip() or not ended or b"\n" in rest.strip() or len(words) != count * len(_WORDS) or b"_" in body:
         return None
+    if b"vertex" in title.lower():
+        return None
     if any(words[k :: len(_WORDS)].count(word) != count for k, word in enumerate(_WORDS) if word):
         return None
     try:
@@ -119,7 +128,8 @@ def _plain_ascii(data: bytes) -> StlText | None:
 
 def _any_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
-    facets = list(_FACET.finditer(data))
+    plain = _without_names(data)
+    facets = list(_FACET.finditer(plain))
     numbers: list[tuple[bytes, ...]] = []
     for facet in facets:
         found = _VERTEX.findall(facet[0])
@@ -128,7 +138,7 @@ def _any_ascii(data: bytes, where: str) -> StlText:
             problem = "a vertex needs three numbers" if whole else "a facet needs three vertices"
             raise AssetError(problem, where=f"{where}:{_line(data, facet.start())}")
         numbers += found
-    if len(_OPENED.findall(_TITLE.sub(b"", data))) > len(facets):
+    if len(_OPENED.findall(plain)) > len(facets):
         raise AssetError("the file is cut short: a facet does not end", where=where, remedy=_AGAIN)
     try:
         corners = np.array([[float(x) for x in row] for row in numbers], dtype=np.float64).reshape(-1, 3, 3)

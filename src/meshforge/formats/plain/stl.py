@@ -65,17 +65,25 @@ def _records(parts: Sequence[Part]) -> npt.NDArray[np.void]:
 
 def _ascii(data: bytes, text: StlText, edit: Edit) -> bytes:
     """The text without the facets that go, and with those of the parts: in the one solid, or in solids of their own."""
-    kept, at = [], 0
-    for start, stop in facet_spans(data)[~edit.stays].tolist():
+    spans, kept, at = facet_spans(data), [], 0
+    for start, stop in spans[~edit.stays].tolist():
         kept.append(data[at:start].rstrip(b" \t"))
         at = stop
-    body = b"".join([*kept, data[at:]])
     if len(text.solids) > 1:
-        solids = [b"solid %s\n%sendsolid %s\n" % (n, _facets(p), n) for p in edit.parts for n in [_word(p.name)]]
-        return b"".join([body if body.endswith(b"\n") else body + b"\n", *solids])
-    cut = body.lower().rfind(b"endsolid")
-    cut = len(body) if cut < 0 else cut
-    return body[:cut] + b"".join(map(_facets, edit.parts)) + body[cut:]
+        end = len(data)
+        made = b"".join(b"solid %s\n%sendsolid %s\n" % (n, _facets(p), n) for p in edit.parts for n in [_word(p.name)])
+    else:
+        end = _end_of_solid(data, int(spans[-1, 1]))
+        made = b"".join(map(_facets, edit.parts))
+    body = b"".join([*kept, data[at:end]])
+    gap = b"\n" if made and not body.rstrip(b" \t").endswith((b"\n", b"\r")) else b""
+    return body + gap + made + data[end:]
+
+
+def _end_of_solid(data: bytes, at: int) -> int:
+    """Where the last solid ends, whose last facet ends at `at`."""
+    found = data[at:].lower().find(b"endsolid")
+    return len(data) if found < 0 else at + found
 
 
 def _word(name: str) -> bytes:
