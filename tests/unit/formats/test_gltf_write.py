@@ -205,7 +205,24 @@ def test_a_mesh_that_another_node_shows_too_is_parted_in_one_only(tmp_path: Path
     assert case.trees[1]["meshes"][0] == case.trees[0]["meshes"][0]
 
 
-def test_primitives_are_parted_each_and_points_and_lines_left_to_none(tmp_path: Path) -> None:
+def with_a_line(scene: SceneFile, soup: Soup) -> int:
+    """A mesh of a surface and a line."""
+    line = {"attributes": {"POSITION": scene.accessor(np.array([[0, 0, 0], [9, 9, 9]], "<f4"))}, "mode": 1}
+    return scene.mesh(soup, line)
+
+
+def modes(tree: Tree) -> dict[str, list[int]]:
+    """The modes of the primitives that each node in the scene shows."""
+    waiting, found = [*tree["scenes"][0]["nodes"]], {}
+    for index in waiting:
+        node = tree["nodes"][index]
+        waiting += node.get("children", [])
+        if "mesh" in node:
+            found[node["name"]] = [part.get("mode", 4) for part in tree["meshes"][node["mesh"]]["primitives"]]
+    return found
+
+
+def test_primitives_are_parted_each_and_points_and_lines_stay_in_their_node(tmp_path: Path) -> None:
     scene = SceneFile()
     points, faces = together(box(), box((4, 0, 0)))
     line = scene.primitive(box(), mode=1)
@@ -214,8 +231,37 @@ def test_primitives_are_parted_each_and_points_and_lines_left_to_none(tmp_path: 
     scene.node("set", mesh=scene.mesh((points, first), line, (points, second), (points, third)))
     case = Edited(scene, tmp_path)
     assert names(case.edit(gone=["set#0"])) == ["set#1"]
-    child = case.trees[1]["nodes"][1]
-    assert len(case.trees[1]["meshes"][child["mesh"]]["primitives"]) == 2
+    assert modes(case.trees[1]) == {"set": [1], "set#1": [4, 4]}
+
+
+@pytest.mark.parametrize("name", ["legs", "UCX_legs", "legs-colonly", "legs-convcolonly"])
+def test_points_and_lines_of_a_removed_hull_stay_in_the_scene(tmp_path: Path, name: str) -> None:
+    scene = SceneFile()
+    scene.node(name, mesh=with_a_line(scene, box()))
+    scene.node(name.replace("legs", "top"), box((5, 0, 0)))
+    case = Edited(scene, tmp_path)
+    after = case.edit(gone=[name])
+    assert names(after) == [name.replace("legs", "top")] and not after.opaque
+    assert modes(case.trees[1]) == {name: [1], name.replace("legs", "top"): [4]}
+
+
+@pytest.mark.parametrize("name", ["legs", "legs-colonly"])
+def test_points_and_lines_stay_with_the_pieces_that_are_left(tmp_path: Path, name: str) -> None:
+    scene = SceneFile()
+    scene.node(name, mesh=with_a_line(scene, three_legs()))
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=[f"{name}#2"])) == [f"{name}#0", f"{name}#1"]
+    assert modes(case.trees[1]) == {name: [4, 1]}
+
+
+def test_a_line_of_a_mesh_that_two_nodes_show_stays_in_both(tmp_path: Path) -> None:
+    scene = SceneFile()
+    mesh = with_a_line(scene, box())
+    scene.node("left", mesh=mesh)
+    scene.node("right", mesh=mesh, translation=[0, 0, 9])
+    case = Edited(scene, tmp_path)
+    assert names(case.edit(gone=["left"])) == ["right"]
+    assert modes(case.trees[1]) == {"left": [1], "right": [4, 1]}
 
 
 def test_strips_become_lists_of_triangles_where_they_are_parted(tmp_path: Path) -> None:

@@ -116,7 +116,10 @@ class Reader:
         kind = unreal_kind(name)
         if kind is None:
             return None
-        part = self._hull(*self.scene.placed(placement))
+        mesh = self.scene.placed(placement)
+        if not len(mesh[0].faces):
+            return None
+        part = self._hull(*mesh)
         if part.shape is not None and kind != "UCX":
             shape = unreal_shape(kind, part.shape)
             if shape is None:
@@ -129,9 +132,10 @@ class Reader:
         kind = godot_kind(name)
         if kind is None:
             return None
-        if kind in ("convcol", "convcolonly"):
-            return Source(placement.index, name, [self._hull(*self.scene.placed(placement))])
-        return self._pieced(placement.index, name, placement.node["mesh"], *self.scene.placed(placement))
+        mesh = self.scene.placed(placement)
+        if kind in ("convcol", "convcolonly") and len(mesh[0].faces):
+            return Source(placement.index, name, [self._hull(*mesh)])
+        return self._pieced(placement.index, name, placement.node["mesh"], *mesh)
 
     def _plain(self, placement: Placement) -> Source | None:
         if "mesh" not in placement.node:

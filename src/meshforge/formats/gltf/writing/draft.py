@@ -35,18 +35,21 @@ class Draft:
         return entry(self.tree, "nodes", index)
 
     def empty(self, index: int) -> None:
-        """Take the mesh from a node, and the node from the tree where nothing else hangs on it.
+        """Take the triangles from a node, and the node from the tree where nothing else hangs on it.
 
         It stays in the list of nodes, so that no other gets its number.
         """
         self.without_mesh(index)
         node = self.node(index)
-        needed = node.get("children") or node.get("extensions") or "camera" in node or index in self.referred.nodes
-        if not needed:
+        needed = node.get("children") or node.get("extensions") or {"camera", "mesh"} & node.keys()
+        if not needed and index not in self.referred.nodes:
             self._take_out(index)
 
     def without_mesh(self, index: int) -> Json:
-        """Take the mesh from a node; what belonged to it is returned. Raises AssetError: an animation morphs it."""
+        """Take the mesh from a node but for its points and lines; what belonged to it is returned.
+
+        Raises AssetError: an animation morphs it.
+        """
         node = self.node(index)
         if index in self.referred.morphed:
             raise AssetError(
@@ -54,7 +57,12 @@ class Draft:
                 where=str(self.scene.path),
                 remedy="Leave the hull as it is, or take the animation out of the file.",
             )
-        return {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
+        gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
+        strokes = self._strokes(gone["mesh"]) if "mesh" in gone else []
+        if strokes:
+            mesh = {**entry(self.scene.tree, "meshes", gone["mesh"]), "primitives": strokes}
+            node |= {**gone, "mesh": self.add_mesh(mesh, gone["mesh"])}
+        return gone
 
     def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
         """A new node below another one, or at the root of the scene; at: before which child, None for the last."""
@@ -98,8 +106,11 @@ class Draft:
             part["material"] = material
         return self.add_mesh({"name": name, "primitives": [part]}), middle
 
-    def parted(self, index: int, owner: Ints, kept: Iterable[int]) -> Json:
-        """A mesh of some pieces only: with the vertices, attributes and materials of the whole."""
+    def parted(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
+        """A mesh of some pieces only: with the vertices, attributes and materials of the whole.
+
+        strokes: whether its points and lines, which are no part of a piece, stay in it.
+        """
         mesh = copy.deepcopy(entry(self.scene.tree, "meshes", index))
         stays = np.isin(owner, list(kept))
         starts = np.cumsum([0, *(len(patch.faces) for patch in self.scene.mesh(index).patches)])
@@ -109,12 +120,19 @@ class Draft:
         parts = []
         for k, part in enumerate(mesh["primitives"]):
             if k not in whole:
-                continue  # points and lines are no part of a piece
+                parts += [part] * strokes
+                continue
             patch, start = whole[k]
             own = stays[start : start + len(patch.faces)]
             if own.any():
                 parts.append(part if own.all() else self._fewer(part, patch.faces[own], patch.decoded))
         return {**mesh, "primitives": parts}
+
+    def _strokes(self, index: int) -> list[Json]:
+        """The primitives of a mesh that are no triangles."""
+        solid = {patch.index for patch in self.scene.mesh(index).patches}
+        parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
+        return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]
 
     def _fewer(self, part: Json, faces: Ints, decoded: Any) -> Json:
         """A primitive with some of its triangles; one that Draco compressed is written plainly."""

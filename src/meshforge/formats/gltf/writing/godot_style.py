@@ -33,7 +33,8 @@ class GodotStyle(Style):
             node = draft.add_node({"name": f"{base}-colonly", "mesh": parted, **skinned}, element.node)
             draft.expected[node] = names
         else:
-            draft.node(element.node)["mesh"] = draft.add_mesh(draft.parted(mesh, element.owner, kept), mesh)
+            left = draft.parted(mesh, element.owner, kept, strokes=True)
+            draft.node(element.node)["mesh"] = draft.add_mesh(left, mesh)
             draft.expected[element.node] = names
 
     def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:

@@ -26,7 +26,8 @@ class PlainStyle(Style):
         names = tuple(element.names[k] for k in kept)
         if len(kept) > 1 and list(kept) == list(range(len(kept))):
             assert element.owner is not None  # only meshes have several pieces
-            draft.node(element.node)["mesh"] = draft.add_mesh(draft.parted(mesh, element.owner, kept), mesh)
+            parted = draft.parted(mesh, element.owner, kept, strokes=True)
+            draft.node(element.node)["mesh"] = draft.add_mesh(parted, mesh)
             draft.expected[element.node] = names
         else:
             self.split(element, kept, mesh, names)
