@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
 
 
 def nearest(name: str, available: Iterable[str]) -> str | None:
@@ -59,6 +62,15 @@ def told(error: Exception, where: str | None = None, fault: str = "please report
         case _:
             head = f"{where}: " if where else ""
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
+
+
+def complaint(error: ValidationError) -> str:
+    """The complaint about the first field of a JSON file that does not fit, in one line."""
+    first = error.errors(include_url=False)[0]
+    field = ".".join(str(step) for step in first["loc"])
+    given = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
+    at = f"the field {field}: " if field else ""
+    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + given
 
 
 class AssetError(MeshForgeError):

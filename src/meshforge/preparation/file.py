@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 import json
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from meshforge.asset import Asset, Surface
-from meshforge.errors import AssetError
+from meshforge.errors import AssetError, complaint
 from meshforge.files import write_atomically
 from meshforge.formats import Part, obj_parts, read, read_triangles
 from meshforge.geometry import Polytope
 from meshforge.preparation.record import Preparation, Step, hull_digest
 from meshforge.preparation.replay import prepared
 
-if TYPE_CHECKING:
-    from pydantic import TypeAdapter
-
 RECORD = "preparation.json"
 """The file in a preparation's folder that says what was done."""
 _HULLS = "hulls.obj"
+
+
+@dataclass(frozen=True, slots=True)
+class _Record:
+    """The contents of that file."""
+
+    steps: tuple[Step, ...]
 
 
 def read_prepared(path: Path, folder: Path | None) -> Asset:
@@ -46,11 +51,11 @@ def read_preparation(folder: Path) -> Preparation | None:
     """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
     path = folder / RECORD
     try:
-        steps = _steps().validate_python(json.loads(path.read_bytes())["steps"])
+        steps = _steps(path)
     except (FileNotFoundError, NotADirectoryError):
         return None
-    except (OSError, ValueError, KeyError, TypeError) as error:  # pydantic's complaints are ValueErrors
-        raise _damaged(path, str(error).splitlines()[0]) from error
+    except OSError as error:
+        raise _no_file(path, error) from error
     hulls = _read_hulls(folder / _HULLS) if steps else {}
     found = Preparation(steps, hulls)
     for name, known in found.made.items():
@@ -60,11 +65,13 @@ def read_preparation(folder: Path) -> Preparation | None:
 
 
 def record_digest(folder: Path) -> str | None:
-    """The digest of what was done, hulls included, None where nothing was."""
+    """The digest of what was done, hulls included, None where nothing was; an empty text where it cannot be read."""
     try:
         return hashlib.blake2b((folder / RECORD).read_bytes(), digest_size=16).hexdigest()
     except (FileNotFoundError, NotADirectoryError):
         return None
+    except OSError:
+        return ""
 
 
 def write_preparation(folder: Path, preparation: Preparation) -> None:
@@ -79,24 +86,35 @@ def write_preparation(folder: Path, preparation: Preparation) -> None:
     own = [(name, preparation.hulls[known]) for name, known in preparation.made.items()]
     old = [(f"{n}@before", before.hulls[k]) for n, k in before.made.items() if k not in preparation.hulls]
     write_atomically(folder / _HULLS, _hulls_text([*own, *old]))
-    record = {"steps": [asdict(step) for step in preparation.steps]}
-    write_atomically(folder / RECORD, json.dumps(record, ensure_ascii=False, indent=2) + "\n")
+    record = _Record(preparation.steps)
+    write_atomically(folder / RECORD, json.dumps(asdict(record), ensure_ascii=False, indent=2) + "\n")
     if old:
         write_atomically(folder / _HULLS, _hulls_text(own))
 
 
 def remove_preparation(folder: Path) -> None:
-    """Take a preparation away; what was done first, so that hulls are never missed."""
-    for name in (RECORD, _HULLS):
-        (folder / name).unlink(missing_ok=True)
+    """Take a preparation away; what was done first, so that hulls are never missed.
+
+    Raises AssetError where something else stands in the place of its files.
+    """
+    for path in (folder / RECORD, folder / _HULLS):
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise _no_file(path, error) from error
     if folder.is_dir() and not any(folder.iterdir()):
         folder.rmdir()
 
 
-def _steps() -> TypeAdapter[tuple[Step, ...]]:
-    from pydantic import TypeAdapter  # a tenth of a second, and only projects have preparations
+def _steps(path: Path) -> tuple[Step, ...]:
+    """The steps in a record. Raises OSError, and AssetError where it is damaged."""
+    content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+    from pydantic import TypeAdapter, ValidationError  # a tenth of a second, and only projects have preparations
 
-    return TypeAdapter(tuple[Step, ...])
+    try:
+        return TypeAdapter(_Record).validate_json(content).steps
+    except ValidationError as error:
+        raise _damaged(path, complaint(error)) from error
 
 
 def _read_hulls(path: Path) -> dict[str, Polytope]:
@@ -121,4 +139,12 @@ def _damaged(path: Path, problem: Any) -> AssetError:
         f"this preparation is damaged: {problem}",
         where=str(path),
         remedy="Bring the file back as it was, or take the preparation away: meshforge prepare --remove",
+    )
+
+
+def _no_file(path: Path, error: OSError) -> AssetError:
+    return AssetError(
+        f"this is no file of a preparation that can be read or replaced: {error.strerror}",
+        where=str(path),
+        remedy="Take away by hand what stands there.",
     )

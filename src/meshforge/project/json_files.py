@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.errors import ProjectError
+from meshforge.errors import ProjectError, complaint
 from meshforge.files import write_atomically
 
 
@@ -40,9 +40,4 @@ def write_json(path: Path, content: BaseModel) -> None:
 
 def invalid(path: Path, error: ValidationError) -> ProjectError:
     """The complaint about the first field that does not fit."""
-    first = error.errors(include_url=False)[0]
-    field = ".".join(str(step) for step in first["loc"])
-    given = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
-    at = f"the field {field}: " if field else ""
-    problem = first["msg"].replace("valid tuple", "list").replace("valid array", "list")
-    return ProjectError(f"{at}{problem}{given}", where=str(path), remedy="Mend the file by hand, or remove it.")
+    return ProjectError(complaint(error), where=str(path), remedy="Mend the file by hand, or remove it.")

@@ -86,7 +86,8 @@ def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
     before = _readable(folder) if everything else read_preparation(folder) or Preparation()
     left = 0 if everything else len(before.steps) - 1
     notes = exchanged(project, asset, before.of(before.steps[:left]), seen)
-    return Prepared(asset, undone=tuple(map(str, before.steps[left:])), notes=tuple(notes))
+    undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
+    return Prepared(asset, undone=undone, notes=tuple(notes))
 
 
 def _readable(folder: Path) -> Preparation:

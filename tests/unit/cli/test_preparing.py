@@ -151,6 +151,20 @@ def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> N
     assert "not there" not in run("status", "p").out
 
 
+def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: Run, project: str) -> None:
+    record = Path("p/prepared/row.obj/preparation.json")
+    record.parent.mkdir(parents=True)
+    record.write_text("[" * 100_000)
+    assert "this preparation is damaged: Invalid JSON" in run("status", project).out
+    told = run("prepare", project, "row.obj", "--remove")
+    assert told.code == 0 and told.out == "row.obj: taken back\n    what was kept, which was damaged\n"
+    record.mkdir(parents=True)
+    for words in (("prepare", project, "row.obj", "--remove"), ("prepare", project, "row.obj", "--undo")):
+        told = run(*words)
+        assert told.code == 1 and "Take away by hand what stands there" in told.out
+    assert "Take away by hand what stands there" in run("status", project).out
+
+
 @pytest.mark.parametrize(
     ("option", "words"),
     [("--set", ("threshold=1",)), ("--hollow", ()), ("--timeout", ("600",)), ("--workers", ("1",))],

@@ -62,12 +62,38 @@ def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) ->
     assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 1
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"steps": [{"do": "guess"}]}', '{"steps": 3}', '{"hulls": []}'])
-def test_a_damaged_record_is_named(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "Invalid JSON"),
+        ("{", "Invalid JSON"),
+        ("[" * 100_000, "Invalid JSON: recursion limit exceeded"),
+        ("[]", "Input should be an object"),
+        ('{"steps": [{"do": "guess"}]}', "the field steps.0.do: Input should be 'decompose', 'cut' or 'split'"),
+        ('{"steps": 3}', "the field steps: Input should be a list"),
+        ('{"hulls": []}', "the field steps: Field required"),
+    ],
+)
+def test_a_damaged_record_is_named(tmp_path: Path, text: str, problem: str) -> None:
     (tmp_path / "preparation.json").write_text(text)
     with pytest.raises(AssetError, match="damaged") as caught:
         read_preparation(tmp_path)
+    assert caught.value.problem.startswith(f"this preparation is damaged: {problem}")
     assert "preparation.json" in caught.value.message and "--remove" in caught.value.message
+
+
+def test_a_record_is_read_with_a_byte_order_mark(tmp_path: Path) -> None:
+    (tmp_path / "preparation.json").write_text('{"steps": []}', encoding="utf-8-sig")
+    assert read_preparation(tmp_path) is not None
+
+
+def test_a_folder_in_the_place_of_a_record_is_to_be_taken_away_by_hand(tmp_path: Path) -> None:
+    (tmp_path / "preparation.json").mkdir()
+    for reach in (read_preparation, remove_preparation):
+        with pytest.raises(AssetError, match=r"preparation\.json: .*\n  Take away by hand") as caught:
+            reach(tmp_path)
+        assert "prepare --remove" not in caught.value.message
+    assert record_digest(tmp_path) == ""
 
 
 def test_hulls_that_were_changed_or_are_gone_are_noticed(tmp_path: Path) -> None:
