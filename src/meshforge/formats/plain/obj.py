@@ -16,7 +16,10 @@ from meshforge.formats.plain.plain import Edit, PlainFormat
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)
+_COLOR = re.compile(rb"^[ \t]*v(?:[ \t]+[^\s#]+){6}", re.M)
 _COMMENT = re.compile(rb"^[ \t]*#", re.M)
+_OTHER = re.compile(rb"^[ \t]*([lp])[ \t]", re.M)
+_KINDS = {b"l": "line", b"p": "point"}
 
 
 class Obj(PlainFormat):
@@ -25,7 +28,7 @@ class Obj(PlainFormat):
     name = "obj"
     title = "OBJ"
     holds = frozenset({What.NAMES, What.OPAQUE})
-    could = frozenset({What.MATERIALS, What.TEXTURES, What.TEXTURE_COORDINATES, What.COMMENTS})
+    could = frozenset({What.MATERIALS, What.TEXTURES, What.TEXTURE_COORDINATES, What.VERTEX_COLORS, What.COMMENTS})
     suffixes = (".obj",)
 
     def soup(self, data: bytes, path: Path) -> Soup:
@@ -43,4 +46,8 @@ class Obj(PlainFormat):
             materials = dict.fromkeys(name.decode("utf-8", "replace").strip() for name in _MATERIAL.findall(data))
             yield Feature(What.MATERIALS, tuple(materials))
             yield Feature(What.TEXTURE_COORDINATES, unnamed=len(_COORDINATE.findall(data)))
+            yield Feature(What.VERTEX_COLORS, unnamed=1 if _COLOR.search(data) else 0)
+            others = _OTHER.findall(data)
+            kinds = tuple(_KINDS[word] for word in dict.fromkeys(others))
+            yield Feature(What.OTHERS, kinds, len(others) - len(kinds))
             yield Feature(What.COMMENTS, unnamed=len(_COMMENT.findall(data)))
