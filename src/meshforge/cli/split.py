@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -43,7 +44,7 @@ def split(
     opened = Project.open(project)
     if method is None:
         refuse_given(context, ("option", "hollow"), "--decompose METHOD")
-        done = opened.cut(asset, hull, _vector(at, "--at"), _vector(across, "--across"))
+        done = opened.cut(asset, hull, _vector(at, "--at"), _direction(across, "--across"))
     else:
         done = opened.split(asset, hull, engine_settings(method, option), hollow=hollow)
     show([done], json)
@@ -56,4 +57,15 @@ def _vector(text: str, option: str) -> tuple[float, float, float]:
         x, y, z = map(float, text.split(","))
     except ValueError:
         raise UsageError(f"{option} {text}: three numbers are needed, with commas between") from None
+    if not all(map(isfinite, (x, y, z))):
+        raise UsageError(f"{option} {text}: three numbers are needed that are finite")
     return x, y, z
+
+
+def _direction(text: str, option: str) -> tuple[float, float, float]:
+    from meshforge.errors import UsageError
+
+    vector = _vector(text, option)
+    if not any(vector):
+        raise UsageError(f"{option} {text}: a direction is needed, so one of the numbers is not zero")
+    return vector

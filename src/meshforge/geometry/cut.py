@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from meshforge.errors import GeometryError
@@ -22,10 +24,9 @@ def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, P
     whole = shape.tessellated()
     if not np.isfinite(point).all():
         raise GeometryError("a plane needs a point whose coordinates are finite")
-    length = float(np.linalg.norm(normal))
-    if not (np.isfinite(length) and length > 0):
-        raise GeometryError("a plane needs a normal that is not zero")
-    heights = (whole.vertices - point) @ (normal / length)
+    direction = _direction(normal)
+    with np.errstate(over="ignore"):  # far enough from the shape is far enough
+        heights = (whole.vertices - point) @ direction
     thin = _THIN * whole.aabb.diagonal
     if heights.min() >= -thin:
         return None, whole
@@ -34,6 +35,16 @@ def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, P
     crossing = _crossing(whole, heights)
     below, above = whole.vertices[heights < 0], whole.vertices[heights > 0]
     return _part(below, crossing), _part(above, crossing)
+
+
+def _direction(normal: Floats) -> Floats:
+    """The normal one long, however long it is. It is halved or doubled first, which rounds nothing."""
+    most = float(np.abs(normal).max())
+    if not (math.isfinite(most) and most > 0):
+        raise GeometryError("a plane needs a normal that is finite and not zero")
+    near = np.ldexp(normal, -math.frexp(most)[1])
+    direction: Floats = near / np.linalg.norm(near)
+    return direction
 
 
 def _crossing(whole: Polytope, heights: Floats) -> Floats:

@@ -33,7 +33,8 @@ def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: V
         raise GeometryError(
             "the plane does not cut it",
             where=name,
-            remedy=f"It reaches from ({_shown(box.min)}) to ({_shown(box.max)}), in the frame that the asset comes in.",
+            remedy=f"Choose --at within it: it reaches from ({_shown(box.min)}) to ({_shown(box.max)}), "
+            "in the frame that the asset comes in.",
         )
     told = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
     settings = {"at": [*map(float, at)], "across": [*map(float, across)]}

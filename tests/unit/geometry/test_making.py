@@ -151,9 +151,23 @@ def test_a_plane_beside_a_shape_leaves_it_whole(height: float, parts: tuple[bool
     assert tuple(part is not None for part in found) == parts
 
 
-def test_a_cut_needs_a_normal() -> None:
+@pytest.mark.parametrize("normal", [(0, 0, 0), (np.nan, 0, 1), (np.inf, 0, 0)])
+def test_a_cut_needs_a_normal(normal: tuple[float, ...]) -> None:
     with pytest.raises(GeometryError, match="normal"):
-        cut(CUBE, np.zeros(3), np.zeros(3))
+        cut(CUBE, np.zeros(3), np.array(normal, dtype=float))
+
+
+@pytest.mark.parametrize("length", [5e-324, 1e-300, 1e200, 1.7e308])
+def test_a_normal_may_have_any_length(length: float) -> None:
+    point, normal = np.array([0.1, 0.2, 0.05]), np.array([1.0, 1.0, 0.0])
+    for part, same in zip(cut(CUBE, point, normal * length), cut(CUBE, point, normal), strict=True):
+        assert part and same and part.volume == pytest.approx(same.volume)
+
+
+def test_a_plane_may_be_anywhere() -> None:
+    far = np.full(3, 1.79e308)
+    below, above = cut(CUBE, far, np.ones(3))
+    assert below and len(below.vertices) == 8 and above is None
 
 
 def test_boxes_that_touch_have_no_overlap_and_no_distance() -> None:
