@@ -136,6 +136,20 @@ def test_relative_numbers_stay_relative(tmp_path: Path) -> None:
     assert text == second
 
 
+def test_faces_of_two_corners_keep_their_vertices(tmp_path: Path) -> None:
+    source = written(tmp_path / "a.obj", two_legs() + "f 1 16\nf -1 -16\nl 2 3\n")
+    _, text = edited(source, tmp_path / "b.obj", drop={"left leg"})
+    assert text.endswith("f 1 11\nf -1 -11\nl 2 3\n")
+    assert text.count("v ") == 11
+
+
+@pytest.mark.parametrize("end", ["", "\n", "\r\n"])
+def test_a_made_hull_does_not_go_on_with_a_continued_line(tmp_path: Path, end: str) -> None:
+    source = written(tmp_path / "a.obj", two_legs() + f"s \\\n1 \\{end}")
+    asset, _ = edited(source, tmp_path / "b.obj", add=(made("left leg~1", "left leg"),))
+    assert names(asset) == ["left leg", "right leg", "left leg~1"]
+
+
 def test_hulls_of_one_group_keep_their_names_when_one_goes(tmp_path: Path) -> None:
     source = written(tmp_path / "a.obj", two_legs("o legs\n", "") + vertex_lines(box((6, 0, 0))) + quad_lines(17))
     assert names(read(source)) == ["legs#0", "legs#1", "legs#2"]

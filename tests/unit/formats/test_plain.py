@@ -150,6 +150,21 @@ def test_rows_of_a_ply_that_count_on_vertices_stop_an_edit(tmp_path: Path) -> No
         save(without(asset, "geom0#0"), tmp_path / "c.ply")
 
 
+def test_an_element_twice_in_a_ply_stops_an_edit(tmp_path: Path) -> None:
+    again = b"element vertex 1\nproperty float x\nend_header"
+    asset = read(put(tmp_path, ".ply", ply(LEGS).replace(b"end_header", again) + b"7\n"))
+    with pytest.raises(AssetError, match="it has rows of vertex, which may count on"):
+        save(without(asset, "geom0#0"), tmp_path / "c.ply")
+
+
+def test_a_ply_keeps_faces_of_two_corners_and_their_vertices(tmp_path: Path) -> None:
+    data = ply(LEGS).replace(b"element face 36", b"element face 37") + b"2 7 23\n"
+    saved = save(without(read(put(tmp_path, ".ply", data)), "geom0#0"), tmp_path / "b.ply")
+    rows = saved.path.read_bytes().partition(b"end_header\n")[2].splitlines()
+    assert rows[0] == b"%d %d %d" % tuple(LEGS[0][7].astype(int).tolist())
+    assert rows[-1] == b"2 0 16"
+
+
 def test_exact_duplicates_stay_apart_in_an_stl(tmp_path: Path) -> None:
     asset = read(put(tmp_path, ".stl", stl_binary(LEGS)))
     twin = Geom("geom0#0~1", "body", asset.geoms[0].shape, "geom0#0")

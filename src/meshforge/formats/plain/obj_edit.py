@@ -32,6 +32,9 @@ class _Editor:
         if any(word in _FREE_FORM for word in self.words):
             raise AssetError("files with free-form surfaces cannot be edited", where=str(edit.path))
         self.stays = dict(zip(text.face_at.tolist(), edit.stays.tolist(), strict=True))
+        self.bare = {  # statements that name vertices and make no triangle, which stay
+            k for k, word in enumerate(self.words) if word in _OTHERS or (word in _FACES and k not in self.stays)
+        }
         self.wanted = self._wanted()
         self.end = line_end(text.statements)
         self._number_vertices()
@@ -39,6 +42,8 @@ class _Editor:
     def written(self) -> bytes:
         body = b"".join(self._lines())
         if body and not body.endswith((b"\n", b"\r")):
+            body += self.end
+        if self.edit.parts and body.rstrip(b"\r\n").endswith(b"\\"):  # what follows would be of the last statement
             body += self.end
         width = len(arguments(self.text.statements[self.text.vertex_at[0]]))
         colors = width - 3 if width in (6, 7) else 0
@@ -63,11 +68,10 @@ class _Editor:
         self.kept = np.ones(len(text.vertices), dtype=bool)
         self.kept[np.unique(text.faces[~self.edit.stays])] = False
         self.kept[np.unique(text.faces[self.edit.stays])] = True
-        for k, word in enumerate(self.words):
-            if word in _OTHERS:
-                before = int(np.searchsorted(text.vertex_at, k))
-                numbers = [int(w.partition(b"/")[0]) for w in arguments(text.statements[k])]
-                self.kept[[n - 1 if n > 0 else before + n for n in numbers]] = True
+        for k in self.bare:
+            before = int(np.searchsorted(text.vertex_at, k))
+            numbers = [int(w.partition(b"/")[0]) for w in arguments(text.statements[k])]
+            self.kept[[n - 1 if n > 0 else before + n for n in numbers]] = True
         self.kept_before = np.concatenate([[0], np.cumsum(self.kept)])
         self.number = self.kept_before[1:] - 1
         self.gone_at = set(text.vertex_at[~self.kept].tolist())
@@ -86,7 +90,7 @@ class _Editor:
                     yield from self._group_lines(force, self.wanted[k])
                     force = self.wanted[k]
                     yield self._renumbered(k)
-            elif word in _OTHERS:
+            elif k in self.bare:
                 yield self._renumbered(k)
             elif k not in self.gone_at:
                 yield statement

@@ -76,17 +76,26 @@ class _Editor:
     def __init__(self, text: PlyText, edit: Edit) -> None:
         self.text = text
         self.edit = edit
-        others = [r.element.name for r in text.rows if r.element.name not in ("vertex", "face") and r.element.rows]
+        first = {r.element.name: r for r in reversed(text.rows)}
+        read = (first["vertex"], first["face"])
+        others = [r.element.name for r in text.rows if r not in read and r.element.rows]
         if others:
             problem = f"it has rows of {others[0]}, which may count on vertices that the edit moves"
             raise AssetError(problem, where=str(edit.path), remedy="Convert it to OBJ first.")
         self.kept = np.ones(len(text.vertices), dtype=bool)
         self.kept[np.unique(text.faces[~edit.stays])] = False
         self.kept[np.unique(text.faces[edit.stays])] = True
+        self.kept[self._of_faces_without_triangles(first["face"])] = True
         self.number = np.cumsum(self.kept) - 1
         self.gone = set(text.face_at[~edit.stays].tolist())
         self.vertices, self.faces = _stacked(edit.parts, int(self.kept.sum()))
         self._refuse_misfits()
+
+    def _of_faces_without_triangles(self, faces: Rows) -> list[int]:
+        """The vertices of faces of two corners, which stay."""
+        bare = set(range(faces.element.rows)).difference(self.text.face_at.tolist())
+        lists = [faces.values[key] for key in INDICES if key in faces.values]
+        return [int(corner) for read in lists for k in bare for corner in read[k]]
 
     def written(self) -> bytes:
         head = self.edit.document.data[: self.text.header.size]
