@@ -10,12 +10,13 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from meshforge.errors import AssetError
-from meshforge.formats.meshfile.gltf import Container, damage_at, parsed
+from meshforge.formats.meshfile.gltf import damage_at, parsed
 from meshforge.formats.meshfile.gltf.items import entries
 
 _LIBRARY = re.compile(rb"mtllib[ \t]+([^\r\n]+)")  # at the start of a line; asking for that here takes 50 times as long
 _MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.M | re.I)
 _IMAGE = re.compile(rb"<init_from[^>]*>\s*(?:<ref>)?\s*([^<]+?)\s*<")
+_GLB_HEADER = 20  # bytes: magic, version, length; length and type of the chunk of JSON
 
 
 def companions(mesh: Path) -> dict[str, Path]:
@@ -55,9 +56,12 @@ def _matches(pattern: re.Pattern[bytes], data: bytes) -> Iterator[str]:
 
 
 def _uris(mesh: Path) -> Iterator[str]:
+    data = _bytes(mesh)
+    if data[:4] == b"glTF":
+        data = data[_GLB_HEADER : _GLB_HEADER + int.from_bytes(data[12:16], "little")]
     try:
         with damage_at(str(mesh)):
-            scene = parsed(Container.of(_bytes(mesh)).text)
+            scene = parsed(data)
             things = [thing for kind in ("buffers", "images") for thing in entries(scene, kind)]
             uris = [thing["uri"] for thing in things if "uri" in thing]
     except AssetError:
