@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -14,7 +13,7 @@ from meshforge.cli.prepare import AssetTimeout, decomposed
 
 def new(
     context: typer.Context,
-    project: Annotated[Path, typer.Argument(help="The folder to make.")],
+    project: Annotated[str, typer.Argument(help="The folder to make.")],
     assets: AssetFiles,
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Labels that hulls can have: a,b,c.")] = "",
     orient: Annotated[

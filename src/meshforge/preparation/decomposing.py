@@ -65,7 +65,8 @@ def decompose_asset(
         try:
             entry, own = _decomposed(source, settings, taken, hollow, cache)
         except MeshForgeError as error:
-            failed.append(Lost(source.what, error.message))
+            own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
+            failed.append(Lost(source.what, MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message))
             continue
         made.append(entry)
         hulls += own

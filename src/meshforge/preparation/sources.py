@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.asset import Asset, Surface
+from meshforge.geometry.decompose import is_line
 from meshforge.preparation.record import Kind
 
 _GRID = 1.4142135e-7
@@ -27,6 +28,11 @@ class Source:
     body: str
     base: str
     surface: Surface
+
+    @property
+    def is_hopeless(self) -> bool:
+        """Whether it has no area, so that no engine makes hulls of it."""
+        return is_line(self.surface.vertices[self.surface.faces].reshape(-1, 3))
 
 
 def sources(asset: Asset) -> tuple[Source, ...]:

@@ -69,6 +69,8 @@ class Project:
 
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
+        if not str(folder):
+            raise UsageError("the folder to make has no name", remedy="Name it; . is the one you are in.")
         folder = Path(folder).absolute()
         if (folder / SETTINGS).exists():
             raise ProjectError("there is a project here already", where=str(folder), remedy="Choose another folder.")

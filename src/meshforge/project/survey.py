@@ -107,7 +107,7 @@ def _facts(work: _Work) -> Facts:
         entries = [entry for step in preparation.steps for entry in step.replaced]
         return Facts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
-            sources=len(sources(asset)),
+            sources=sum(not source.is_hopeless for source in sources(asset)),
             preparation=record_digest(work.preparation),
             prepared=tuple(map(str, preparation.steps)),
             replaced={entry.what: tuple(entry.made) for entry in entries if entry.kind == "hull"},

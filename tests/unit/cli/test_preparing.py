@@ -50,6 +50,20 @@ def test_new_with_decompose_exits_with_1_where_a_piece_fails_and_the_project_is_
     assert Path("p/meshforge.toml").is_file()
 
 
+def test_a_piece_without_area_is_told_once_and_not_advised_to_be_prepared(run: Run) -> None:
+    Path("in/line.obj").write_text("o l\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    told = run("new", "p", "in/line.obj", *VOXELS)
+    assert told.code == 1 and "    failed: l: it is a line: it has no area\n" in told.out
+    assert "meshforge prepare" not in run("status", "p").out
+
+
+def test_a_project_without_a_name_is_not_made_here(run: Run) -> None:
+    told = run("new", "", "in/row.obj")
+    assert told.code == 2 and "the folder to make has no name" in told.err
+    assert not Path("meshforge.toml").exists()
+    assert run("new", ".", "in/row.obj").code == 0
+
+
 def test_an_unknown_option_of_the_engine_makes_no_project(run: Run) -> None:
     told = run("new", "p", "in/row.obj", "--decompose", "coacd", "--set", "treshold=1")
     assert told.code == 2 and "threshold=0.05" in told.err

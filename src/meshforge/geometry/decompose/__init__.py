@@ -5,7 +5,7 @@ from meshforge.geometry.decompose.child import DecompositionCancelledError, Prog
 from meshforge.geometry.decompose.holes import enclosed_volume
 from meshforge.geometry.decompose.run import decompose
 from meshforge.geometry.decompose.settings import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.geometry.decompose.sheet import is_sheet, sheet_hulls
+from meshforge.geometry.decompose.sheet import is_line, is_sheet, sheet_hulls
 
 __all__ = [
     "CoacdSettings",
@@ -16,6 +16,7 @@ __all__ = [
     "cache_folder",
     "decompose",
     "enclosed_volume",
+    "is_line",
     "is_sheet",
     "sheet_hulls",
 ]

@@ -26,6 +26,12 @@ def is_sheet(vertices: Any) -> bool:
     return not spans_volume(frozen_floats(vertices, (-1, 3)))
 
 
+def is_line(vertices: Any) -> bool:
+    """Whether points (n, 3) lie on a line, so that there are no hulls of what they span."""
+    points = frozen_floats(vertices, (-1, 3))
+    return not spans_volume(points) and _is_narrow(principal_extents(points)[2])
+
+
 def sheet_hulls(vertices: Any, faces: Any, decompose: Decompose, name: str) -> list[Polytope]:
     """The thin hulls of a flat surface of vertices (n, 3) [m] and faces (m, 3), 1e-4 of its length thick.
 
@@ -36,7 +42,7 @@ def sheet_hulls(vertices: Any, faces: Any, decompose: Decompose, name: str) -> l
     points, triangles = points[used], local.reshape(-1, 3)
     center, axes, extents = principal_extents(points)
     thin = FLATNESS * float(extents[0])
-    if extents[1] <= thin:
+    if _is_narrow(extents):
         raise GeometryError("it is a line: it has no area", where=name, remedy="Delete it.")
     whole = convex_hull(points, name=name, thicken=thin)
     if _area(points, triangles) >= _WHOLE * whole.volume / thin:
@@ -46,6 +52,11 @@ def sheet_hulls(vertices: Any, faces: Any, decompose: Decompose, name: str) -> l
     slices = (_sliced(hull, rise) for hull in decompose(*_thickened(flat, triangles, rise)))
     hulls = [convex_hull(s @ axes + center, name=name, thicken=thin) for s in slices if s is not None]
     return hulls or [whole]
+
+
+def _is_narrow(extents: Floats) -> bool:
+    """Whether what has these extents (3,), widest first, is too narrow to be a sheet."""
+    return bool(extents[1] <= FLATNESS * extents[0])
 
 
 def _sliced(hull: Polytope, rise: float) -> Floats | None:
