@@ -26,7 +26,7 @@ def jobs(project: Project) -> tuple[AssetJob, ...]:
             base,
             layout.labels(asset) if layout.labels(asset).exists() else None,
             project.corrections(asset),
-            layout.preparation(asset) if (layout.preparation(asset) / RECORD).is_file() else None,
+            layout.preparation(asset) if (layout.preparation(asset) / RECORD).exists() else None,
         )
         for asset, path in project.found.ids.items()
     )

@@ -177,6 +177,17 @@ def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_aga
     assert [word(o) for o in project.apply(workers=0)] == ["edited", "skipped"]
 
 
+def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_path: Path) -> None:
+    project = decomposed(tmp_path)
+    (project.folder / "program.mf").write_text("All => Merge\n")
+    record = project.folder / "prepared" / HIGH / "preparation.json"
+    record.unlink()
+    record.mkdir()
+    first, second = project.apply(workers=0)
+    assert isinstance(first, Failed) and str(record) in first.error and word(second) == "edited"
+    assert "preparation.json" in (project.status(workers=0).assets[0].error or "")
+
+
 def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     before = json.loads((project.folder / "labels" / f"{FIRST}.json").read_text())
