@@ -1,7 +1,7 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
-from meshforge.formats.loading import labels_beside, load, load_many, read
+from meshforge.formats.loading import NO_GEOMETRY, labels_beside, load, load_many, read
 from meshforge.formats.losses import Loss
 from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.placing import placed
@@ -23,6 +23,7 @@ __all__ = [
     "DESCRIPTION_SUFFIXES",
     "FORMATS",
     "MESH_SUFFIXES",
+    "NO_GEOMETRY",
     "SUFFIXES",
     "Format",
     "Loss",

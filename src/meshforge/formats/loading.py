@@ -14,6 +14,9 @@ from meshforge.formats.registry import SUFFIXES, format_of, is_asset
 from meshforge.formats.units import refuse_beyond, unit_note
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
+NO_GEOMETRY = "it has no collision geometry: `meshforge new --decompose` makes hulls of what is shown"
+"""The note on an asset that holds nothing to reason about."""
+
 
 def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     """The asset in a file, or in a folder of mesh files. Raises AssetError.
@@ -31,7 +34,7 @@ def _absence(asset: Asset) -> str | None:
     """A note on an asset that holds nothing to reason about."""
     if asset.geoms or asset.opaque:
         return None
-    return "it has no collision geometry: `meshforge new --decompose` makes hulls of what is shown"
+    return NO_GEOMETRY
 
 
 def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:

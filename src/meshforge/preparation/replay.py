@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError
+from meshforge.formats import NO_GEOMETRY
 from meshforge.geometry import digest
 from meshforge.preparation.record import Preparation, Replaced
 from meshforge.preparation.sources import sources, surface_digest
@@ -59,7 +60,14 @@ def fitting(asset: Asset, preparation: Preparation) -> Fitting:
                 fits.append(entry)
                 current = _with(current, entry, preparation, authored)
         kept += [replace(step, replaced=tuple(fits))] if fits else []
-    return Fitting(current, preparation.of(kept), tuple(lost))
+    return Fitting(_noted(current), preparation.of(kept), tuple(lost))
+
+
+def _noted(asset: Asset) -> Asset:
+    """The asset without the note that it has no collision geometry, where it has some."""
+    if NO_GEOMETRY not in asset.notes or not asset.geoms:
+        return asset
+    return replace(asset, notes=tuple(note for note in asset.notes if note != NO_GEOMETRY))
 
 
 def _problem(asset: Asset, entry: Replaced) -> str | None:

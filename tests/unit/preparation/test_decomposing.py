@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import pytest
 
 from meshforge.asset import Opaque, Surface
 from meshforge.errors import AssetError
-from meshforge.formats import load, read, save
+from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
 from meshforge.geometry.decompose import DecomposeSettings
 from meshforge.preparation import Preparation, decompose_asset, fitting, prepared, sources
@@ -25,6 +26,15 @@ def test_planes_and_the_like_have_no_triangles_and_stay_opaque(tmp_path: Path) -
     asset = read(write_boxes(tmp_path / "row.obj"))
     plane = Opaque("ground", "body", "an endless plane")
     assert sources(replace(asset, opaque=(plane,))) == ()
+
+
+def test_a_prepared_asset_is_not_noted_to_have_no_collision_geometry(tmp_path: Path) -> None:
+    path = write_stand(tmp_path)
+    path.write_text(re.sub(r"(?s)<collision.*</collision>", "", path.read_text()))
+    asset = read(path)
+    (gone,) = {*asset.notes} - {*prepared(asset, decompose_asset(asset, Preparation(), QUICK).preparation).notes}
+    assert gone == NO_GEOMETRY
+    assert prepared(asset, Preparation()).notes == asset.notes
 
 
 def test_assets_of_hulls_have_nothing_to_be_done(tmp_path: Path) -> None:
