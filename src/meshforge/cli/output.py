@@ -25,10 +25,10 @@ def remark(text: str) -> None:
 
 
 def table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right: Sequence[str] = ()) -> None:
-    """A table on stdout; columns named in `right` are aligned to the right. Piped, it is never cut."""
+    """A table on stdout; columns named in `right` are aligned to the right. Piped, no line is broken."""
     from rich.console import Console
 
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False, soft_wrap=not sys.stdout.isatty())
+    console = Console(width=None if sys.stdout.isatty() else 1_000_000, highlight=False)
     console.print(_made(columns, rows, right))
 
 
