@@ -118,5 +118,5 @@ def _taken_back(project: Project, assets: Iterable[str], *, everything: bool) ->
     for asset in assets:
         try:
             yield project.unprepare(asset, everything=everything)
-        except Exception as error:
+        except Exception as error:  # one asset never stops the others
             yield Prepared(asset, problems=(told(error, asset),))
