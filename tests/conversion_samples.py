@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
 from tests.soups import angle
 
@@ -76,7 +76,7 @@ def doors() -> Asset:
     )
     masses = tuple(inertial(body.name, k + 1.5, (0.1, k, 0.2)) for k, body in enumerate(asset.bodies))
     red, none = (1.0, 0.25, 0.0, 1.0), np.zeros(3)
-    visuals = LazySurfaces(
+    visuals = VisualSurfaces(
         (
             Visual("door", Box(door, np.array([0.31, 0.03, 0.51])), np.eye(3), none, red),
             Visual("frame", wedge(3), np.eye(3), none),

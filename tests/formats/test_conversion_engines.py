@@ -12,7 +12,7 @@ import pytest
 
 from meshforge.asset import Asset, Joint
 from meshforge.formats import read, save
-from meshforge.formats.visuals import LazySurfaces
+from meshforge.formats.visuals import VisualSurfaces
 from tests.conversion_samples import SAMPLES, block, crowd, doors, foreign, inertial
 from tests.corpus_path import corpus
 from tests.mjcf_engines import assert_as_in_mujoco
@@ -281,7 +281,7 @@ def test_the_sektion_cabinet_opens_in_mujoco_as_its_urdf_does(tmp_path: Path) ->
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(data.body("drawer_top").xpos - shut, [0.4, 0, 0], atol=1e-9)
     hulls = [geom for geom in before.geoms if not geom.shape.is_primitive]
-    assert isinstance(before.visuals, LazySurfaces)
+    assert isinstance(before.visuals, VisualSurfaces)
     assert model.nmesh == len(hulls) + len({visual.what for visual in before.visuals.visuals})
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import mujoco
@@ -100,5 +99,5 @@ def test_nothing_is_written_beside_the_files_or_where_one_works(
     monkeypatch.chdir(tmp_path)
     for key in ("weird/15_unknown_element_region.xml", "lamps/furniture_sim/lightButtons.xml"):
         read(files[key])
-    assert not os.listdir(tmp_path)  # noqa: PTH208
+    assert not any(tmp_path.iterdir())
     assert capfd.readouterr() == ("", "")

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
+from meshforge.formats.gltf.document import GltfDocument
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, same_shape
 from tests.gltf_files import KHR, SceneFile, Tree, tree_of
 from tests.soups import angle, box, together
@@ -135,7 +136,8 @@ def _assert_has(after: Asset, wanted: Asset, names: object) -> None:
 def _assert_rest_is_same(before: Asset, wanted: Asset, then: Tree, now: Tree) -> None:
     """Nodes, meshes, views and all else that no edit concerns are there, under the numbers that they had."""
     kept = {geom.name for geom in wanted.geoms} | {piece.name for piece in wanted.opaque}
-    touched = {e.node for e in before.document.authored if not set(e.names) <= kept}  # type: ignore[attr-defined]
+    assert isinstance(before.document, GltfDocument)
+    touched = {e.node for e in before.document.authored if not set(e.names) <= kept}
     for k, node in enumerate(then["nodes"]):
         free = {"children", "name"} | ({"mesh", "extensions"} if k in touched else set())
         assert {a: b for a, b in now["nodes"][k].items() if a not in free} == {

@@ -10,7 +10,7 @@ from meshforge.asset import Asset, Feature, Surface, What, features
 from meshforge.formats.base import Format, Output
 from meshforge.formats.companions import companions
 from meshforge.formats.losses import Loss
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.words import listed
 
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
@@ -81,7 +81,7 @@ def _renamed(output: Output, target: Format) -> list[Loss]:
 
 def _of_visuals(asset: Asset) -> Iterator[Feature]:
     """Visuals and their colours."""
-    if not isinstance(asset.visuals, LazySurfaces):
+    if not isinstance(asset.visuals, VisualSurfaces):
         shown: Sequence[Surface | Visual] = asset.visuals
     else:
         shown = asset.visuals.visuals
@@ -91,7 +91,7 @@ def _of_visuals(asset: Asset) -> Iterator[Feature]:
 
 def _faded(asset: Asset, target: Format) -> list[Loss]:
     """Mesh files of visuals whose own materials the target does not show, though it has the shapes."""
-    if What.VISUALS not in target.holds or not isinstance(asset.visuals, LazySurfaces):
+    if What.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
         return []
     files = dict.fromkeys(visual.what for visual in asset.visuals.visuals if isinstance(visual.what, Path))
     faded = tuple(f.name for f in files if f.suffix.lower() not in target.shown_files and _has_materials(f))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from meshforge.asset import Asset, Body, Opaque, Surface
 from meshforge.formats.base import Format
-from meshforge.formats.visuals import LazySurfaces
+from meshforge.formats.visuals import VisualSurfaces
 from meshforge.geometry import Pose
 
 _Z_FROM_Y = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])
@@ -49,8 +49,8 @@ def _opaque(piece: Opaque, turn: Pose) -> Opaque:
 
 
 def _visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:
-    if isinstance(visuals, LazySurfaces):
-        return LazySurfaces(tuple(visual.moved(turn) for visual in visuals.visuals))
+    if isinstance(visuals, VisualSurfaces):
+        return VisualSurfaces(tuple(visual.moved(turn) for visual in visuals.visuals))
     return tuple(_surface(surface, turn) for surface in visuals)
 
 

@@ -17,7 +17,7 @@ from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.meshfile import joined
 from meshforge.formats.numbers import tidy
 from meshforge.formats.triangles import read_triangles
-from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
+from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.geometry import Floats, Ints, Pose, Shape
 
 _ROUNDING = 1e-14  # share that is lost when a rotation is taken off a scale, and back
@@ -37,7 +37,7 @@ class Shown:
 def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
     """What each body shows; what belongs to none is shown by the first."""
     first = asset.bodies[0].name if asset.bodies else ""
-    found = asset.visuals.visuals if isinstance(asset.visuals, LazySurfaces) else asset.visuals
+    found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
     return [(visual.body or first, visual) for visual in found]
 
 

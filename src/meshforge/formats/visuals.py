@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import overload
+from typing import Any, overload
 
 from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
@@ -48,22 +49,19 @@ class Visual:
         return [replace(surface, rgba=self.rgba) for surface in found]
 
 
-class LazySurfaces(Sequence[Surface]):
-    """The surfaces of visuals, made at the first look; pickles as the visuals."""
+class LazySurfaces(Sequence[Surface], ABC):
+    """Surfaces that are made at the first look; pickles without them."""
 
-    def __init__(self, visuals: tuple[Visual, ...]) -> None:
-        self._visuals = visuals
-        self._made: tuple[Surface, ...] | None = None
+    _made: tuple[Surface, ...] | None = None
 
-    @property
-    def visuals(self) -> tuple[Visual, ...]:
-        """What the surfaces are made from."""
-        return self._visuals
+    @abstractmethod
+    def _make(self) -> Iterable[Surface]:
+        """The surfaces."""
 
     @property
     def _surfaces(self) -> tuple[Surface, ...]:
         if self._made is None:
-            self._made = tuple(surface for visual in self._visuals for surface in visual.surfaces())
+            self._made = tuple(self._make())
         return self._made
 
     @overload
@@ -76,5 +74,16 @@ class LazySurfaces(Sequence[Surface]):
     def __len__(self) -> int:
         return len(self._surfaces)
 
-    def __reduce__(self) -> tuple[Callable[[tuple[Visual, ...]], LazySurfaces], tuple[tuple[Visual, ...]]]:
-        return LazySurfaces, (self._visuals,)
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_made"}
+
+
+class VisualSurfaces(LazySurfaces):
+    """The surfaces of visuals."""
+
+    def __init__(self, visuals: tuple[Visual, ...]) -> None:
+        self.visuals = visuals
+
+    def _make(self) -> Iterator[Surface]:
+        for visual in self.visuals:
+            yield from visual.surfaces()

@@ -18,6 +18,7 @@ from meshforge.geometry.fit import (
     tight_capsule,
     tight_cylinder,
 )
+from meshforge.geometry.inertia import inertia
 from meshforge.geometry.overlap import overlap_volume, volume_of_union
 from meshforge.geometry.pieces import Piece, pieces
 from meshforge.geometry.pose import Pose
@@ -52,6 +53,7 @@ __all__ = [
     "distance",
     "frozen_floats",
     "frozen_ints",
+    "inertia",
     "is_closed",
     "is_convex",
     "longest_axis",

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -226,7 +226,8 @@ def test_progress_counts_every_asset(assets: Path, out: Path) -> None:
 def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Path, out: Path) -> None:
     outcomes = apply(Program.parse(PROGRAM), jobs(expand([assets])), out, workers=1)
     assert status(next(outcomes)) == "edited"
-    outcomes.close()  # type: ignore[attr-defined]
+    assert isinstance(outcomes, Generator)
+    outcomes.close()
     assert sorted(results(out)) == ["table0/model.labels.json", "table0/model.obj"]
     assert not (out / ".meshforge" / "drafts").exists()
     assert words(run(assets, out)) == ["skipped", "edited", "edited"]

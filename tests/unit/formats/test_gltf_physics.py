@@ -140,11 +140,13 @@ def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp
     assert poses["lid"].translation.tolist() == [5, 2, 0]
 
 
-def test_a_mass_with_its_inertia_is_read_in_the_root_frame(tmp_path: Path) -> None:
+@pytest.mark.parametrize("length", [1.0, 2.0])
+def test_a_mass_with_its_inertia_is_read_in_the_root_frame(tmp_path: Path, length: float) -> None:
     scene = SceneFile()
     child = scene.collider("box", {"type": "box"})
     half = float(np.sqrt(0.5))
-    motion = {"mass": 2, "centerOfMass": [1, 0, 0], "inertiaDiagonal": [1, 2, 3]}
+    motion: dict[str, object] = {"mass": 2, "centerOfMass": [1, 0, 0], "inertiaDiagonal": [3, 2, 1]}
+    motion["inertiaOrientation"] = [0, half * length, 0, half * length]  # takes X to -Z
     scene.node(
         "jar",
         children=[child],

@@ -12,7 +12,7 @@ import pytest
 
 from meshforge.asset import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
 from meshforge.formats import Saved, read, save
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
 from tests.conversion_samples import TURNED, block, foreign, wedge
 from tests.soups import angle
@@ -174,7 +174,7 @@ def shown(folder: Path, name: str, text: str | bytes, **more: Any) -> Asset:
     path.parent.mkdir(exist_ok=True)
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     visual = Visual("base", path, TURNED.rotation * np.array([2.0, 2.0, -2.0]), TURNED.translation, **more)
-    return replace(pair(), visuals=LazySurfaces((visual,)))
+    return replace(pair(), visuals=VisualSurfaces((visual,)))
 
 
 ONE = boxes_obj(((0, 0, 0), (1, 2, 3)))
@@ -256,9 +256,9 @@ def test_files_beside_a_visual_stay_beside_it(tmp_path: Path) -> None:
 
 def test_a_visual_that_is_sheared_is_written_as_it_looks(tmp_path: Path) -> None:
     asset = shown(tmp_path, "box.obj", ONE)
-    assert isinstance(asset.visuals, LazySurfaces)
+    assert isinstance(asset.visuals, VisualSurfaces)
     sheared = replace(asset.visuals.visuals[0], linear=np.array([[1, 1, 0], [0, 1, 0], [0, 0, 1.0]]))
-    asset = replace(asset, visuals=LazySurfaces((sheared,)))
+    asset = replace(asset, visuals=VisualSurfaces((sheared,)))
     after, _, _ = made(asset, tmp_path)
     np.testing.assert_allclose(after.visuals[0].vertices, asset.visuals[0].vertices, atol=1e-5)
 

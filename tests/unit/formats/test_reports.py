@@ -12,7 +12,7 @@ import pytest
 from meshforge.asset import Asset, What
 from meshforge.formats import FORMATS, Format, Loss, Output, read, save
 from meshforge.formats.reporting import report
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.words import counted
 from tests.conversion_samples import SAMPLES, crowd, doors
 from tests.gltf_files import SceneFile
@@ -170,7 +170,7 @@ def test_names_count_where_an_author_gave_them_only() -> None:
 def test_a_visual_that_cannot_be_read_is_told(suffix: str, tmp_path: Path) -> None:
     bad = tmp_path / "bad.wrl"
     bad.write_text("nothing of the kind")
-    asset = replace(doors(), visuals=LazySurfaces((Visual("door", bad, np.eye(3), np.zeros(3)),)))
+    asset = replace(doors(), visuals=VisualSurfaces((Visual("door", bad, np.eye(3), np.zeros(3)),)))
     notes = save(asset, tmp_path / "out" / f"m{suffix}").notes
     assert "1 visual (door) is left out: their files cannot be read" in notes
 

@@ -11,7 +11,7 @@ import pytest
 from meshforge.asset import Surface
 from meshforge.formats import FORMATS, Format, read, save
 from meshforge.formats.turning import stood_up, turned
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
 from tests.conversion_samples import TURNED, doors, opaque
 from tests.urdf_sample import boxes_obj
@@ -54,7 +54,7 @@ def test_what_is_on_top_stays_on_top(way: tuple[str, str, int]) -> None:
 def test_all_of_an_asset_turns_together(tmp_path: Path) -> None:
     file = tmp_path / "box.obj"
     file.write_text(boxes_obj(((0, 0, 0), (1, 2, 3))))
-    visuals = LazySurfaces((Visual("door", file, TURNED.rotation, TURNED.translation, (1, 0, 0, 1)),))
+    visuals = VisualSurfaces((Visual("door", file, TURNED.rotation, TURNED.translation, (1, 0, 0, 1)),))
     asset = replace(doors(), visuals=visuals, opaque=opaque().opaque)
     after = turned(asset, TURNED)
     walls, floor = after.opaque

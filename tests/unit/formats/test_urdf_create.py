@@ -14,7 +14,7 @@ from meshforge.formats import save
 from meshforge.formats.base import Output
 from meshforge.formats.reporting import report
 from meshforge.formats.urdf import UrdfFormat
-from meshforge.formats.visuals import LazySurfaces, Visual
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import boxes_obj, put, read
@@ -238,7 +238,7 @@ def test_visuals_are_copied_with_what_lies_beside_them_or_become_objs(tmp_path: 
         Visual("arm", Capsule(TURNED, 0.1, 0.4), np.eye(3), np.zeros(3)),
         Visual("arm", Sphere(TURNED, 0.1), np.eye(3), np.zeros(3)),
     )
-    asset = replace(jointed(), visuals=LazySurfaces(visuals))
+    asset = replace(jointed(), visuals=VisualSurfaces(visuals))
     again, path, output = created(asset, tmp_path / "out")
     assert sorted(output.copies) == ["new--visuals/a.obj", "new--visuals/b/a.mtl"]
     assert b'<mesh filename="new--visuals/a.obj" scale="2 3 -4"/>' in output.main

@@ -11,17 +11,17 @@ from meshforge.errors import MeshForgeError
 from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.numbers import floats, origin
 from meshforge.formats.urdf.shapes import geometry_of, mesh_scale, primitive
-from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
+from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element
 from meshforge.geometry import Pose
 
 
 def read_visuals(
     robot: Element, links: Mapping[str, Element], poses: Mapping[str, Pose], resolver: Resolver, where: str
-) -> LazySurfaces:
+) -> VisualSurfaces:
     """The visuals of all links; one that is not understood is left out, it never fails."""
     colors = _colors(robot, where)
-    return LazySurfaces(
+    return VisualSurfaces(
         tuple(
             replace(visual, rgba=_color(element.first("material"), colors, where))
             for name, link in links.items()

@@ -10,11 +10,10 @@ from meshforge.asset import Asset, Body, Inertial
 from meshforge.formats.body_tree import BodyTree
 from meshforge.formats.gltf.reading.bodies import rigid
 from meshforge.formats.gltf.reading.physics import KHR, OMI
-from meshforge.formats.gltf.reading.solids import solid
 from meshforge.formats.meshfile.gltf import Json, Placement
 from meshforge.formats.meshfile.gltf.items import extension, number, numbers
-from meshforge.formats.meshfile.gltf.scene import turn_of
-from meshforge.geometry import Floats, Pose, Shape
+from meshforge.formats.meshfile.gltf.turns import turns_of
+from meshforge.geometry import Floats, Pose, Shape, inertia
 
 _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
@@ -60,7 +59,7 @@ def inertial_of(placement: Placement, body: str, hulls: Sequence[Shape]) -> Iner
         return None
     centre = placement.world @ np.array([*numbers(motion, "centerOfMass", 3, (0.0, 0.0, 0.0)), 1.0])
     if not told:
-        return Inertial(body, mass, *solid(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
+        return Inertial(body, mass, *inertia(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
     moments, axes = _principal(motion)
     if moments.min() <= 0:
         return None  # zero stands for endless
@@ -77,7 +76,7 @@ def why_weightless(motion: Json) -> str:
 def _principal(motion: Json) -> tuple[Floats, Floats]:
     """The moments (3,) that a motion says, and their axes (3, 3) in the frame of the body."""
     if "inertiaDiagonal" in motion:
-        turn = turn_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
+        turn = turns_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
         return numbers(motion, "inertiaDiagonal", 3, ()), turn
     moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
     return moments, axes

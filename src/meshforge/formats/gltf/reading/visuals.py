@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import overload
 
 from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
@@ -16,23 +14,20 @@ from meshforge.formats.gltf.reading.names import godot_kind, unreal_kind
 from meshforge.formats.mesh_parts import placed
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entry
+from meshforge.formats.visuals import LazySurfaces
 
 
-class SceneSurfaces(Sequence[Surface]):
-    """The visible surfaces of a file; bodies: the body of each node that is in one."""
+class SceneSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one."""
 
     def __init__(self, source: bytes, path: Path, bodies: dict[int, str]) -> None:
         self._source, self._path, self._bodies = source, path, bodies
-        self._made: tuple[Surface, ...] | None = None
 
-    @property
-    def _surfaces(self) -> tuple[Surface, ...]:
-        if self._made is None:
-            try:
-                self._made = tuple(self._read())
-            except MeshForgeError:
-                self._made = ()
-        return self._made
+    def _make(self) -> list[Surface]:
+        try:
+            return self._read()
+        except MeshForgeError:
+            return []
 
     def _read(self) -> list[Surface]:
         with damage_at(str(self._path)):
@@ -44,16 +39,6 @@ class SceneSurfaces(Sequence[Surface]):
                 for part, rgba in coloured(scene, scene.placements[index].node["mesh"], mesh):
                     found.append(replace(placed(part.vertices, part.faces, linear, offset, body), rgba=rgba))
             return found
-
-    @overload
-    def __getitem__(self, index: int) -> Surface: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Surface, ...]: ...
-    def __getitem__(self, index: int | slice) -> Surface | tuple[Surface, ...]:
-        return self._surfaces[index]
-
-    def __len__(self) -> int:
-        return len(self._surfaces)
 
 
 def visible(scene: Scene, convention: Convention) -> list[int]:

@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.formats.meshfile.gltf.buffers import Buffers
 from meshforge.formats.meshfile.gltf.items import Json, extension
 from meshforge.formats.meshfile.gltf.meshes import Patch, Triangles
+from meshforge.formats.meshfile.gltf.turns import turns_of
 from meshforge.geometry import Floats, Ints
 
 NAME = "EXT_mesh_gpu_instancing"
@@ -30,7 +31,7 @@ def instances(node: Json, buffers: Buffers) -> Floats:
         raise ValueError(f"the attributes of its instances have {' and '.join(map(str, sorted(counts)))} values")
     places = np.tile(np.eye(4), (counts.pop(), 1, 1))
     if "ROTATION" in found:
-        places[:, :3, :3] = _turns(found["ROTATION"])
+        places[:, :3, :3] = turns_of(found["ROTATION"])
     if "SCALE" in found:
         places[:, :3, :3] *= found["SCALE"][:, None]
     if "TRANSLATION" in found:
@@ -65,16 +66,6 @@ def _rows(values: Any, name: str) -> Floats:
     if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
         raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
     return rows
-
-
-def _turns(quaternions: Floats) -> Floats:
-    """The rotations (k, 3, 3) of quaternions (k, 4), x y z w."""
-    from meshforge.formats.meshfile.gltf.scene import turn_of
-
-    lengths = np.linalg.norm(quaternions, axis=1)
-    if not lengths.all():
-        raise ValueError("a rotation of all zeros")
-    return np.moveaxis(turn_of((quaternions / lengths[:, None]).T), 2, 0)
 
 
 def _reflects(places: Floats) -> Any:

@@ -19,11 +19,11 @@ from meshforge.formats.meshfile.gltf.container import Container
 from meshforge.formats.meshfile.gltf.instances import all_instances, instances, is_instanced
 from meshforge.formats.meshfile.gltf.items import Json, entries, entry, numbers
 from meshforge.formats.meshfile.gltf.meshes import Triangles, triangles
+from meshforge.formats.meshfile.gltf.turns import turns_of
 from meshforge.geometry import Floats
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, RecursionError, OverflowError, MemoryError)
 _SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")  # an escape that is half a character, unless another one follows
-_ALIKE = 1e-12  # how far a quaternion's length may be from one, squared, to be taken as it is
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
 
@@ -133,27 +133,9 @@ def matrix_of(node: Json) -> Floats:
     if "matrix" in node:
         return numbers(node, "matrix", 16, ()).reshape(4, 4).T
     quaternion = numbers(node, "rotation", 4, (0.0, 0.0, 0.0, 1.0))
-    length = float(quaternion @ quaternion)
-    if length == 0.0:
-        raise ValueError("a rotation of all zeros")
-    if abs(length - 1.0) > _ALIKE:
-        quaternion = quaternion / np.abs(quaternion).max()  # lest its square has no number
-        quaternion = quaternion / np.linalg.norm(quaternion)
-    matrix[:3, :3] = turn_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
+    matrix[:3, :3] = turns_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
     matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
     return matrix
-
-
-def turn_of(quaternion: Floats) -> Floats:
-    """The rotation (3, 3) of a unit quaternion (4,), x y z w."""
-    x, y, z, w = quaternion
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def _ancestors(found: dict[int, Placement], index: int | None) -> set[int]:

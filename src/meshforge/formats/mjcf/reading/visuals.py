@@ -12,7 +12,7 @@ from meshforge.formats.mjcf.reading.kinematics import mesh_frame, rotation_of
 from meshforge.formats.mjcf.reading.model import Reading
 from meshforge.formats.mjcf.reading.shapes import Shapes, mesh_surface
 from meshforge.formats.triangles import MESH_SUFFIXES
-from meshforge.formats.visuals import LazySurfaces, Rgba, Visual
+from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.geometry import Floats, Polytope
 
 if TYPE_CHECKING:
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 _SHOWN_GROUPS = 3  # MuJoCo's viewers show the groups 0, 1 and 2
 
 
-def read_visuals(reading: Reading, spec: mujoco.MjSpec, hidden: frozenset[int] = frozenset()) -> LazySurfaces:
+def read_visuals(reading: Reading, spec: mujoco.MjSpec, hidden: frozenset[int] = frozenset()) -> VisualSurfaces:
     """The visuals of all bodies; hidden: geoms that only stand for others."""
     seen = _Visuals(reading, spec)
     found = (seen.of(k) for k in range(reading.model.ngeom) if k not in hidden)
-    return LazySurfaces(tuple(visual for visual in found if visual))
+    return VisualSurfaces(tuple(visual for visual in found if visual))
 
 
 class _Visuals:

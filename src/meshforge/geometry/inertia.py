@@ -1,4 +1,4 @@
-"""The inertia of solids, which a file leaves to the engine: that of hulls of one density."""
+"""The inertia of solids of one density."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Shape, Sphere
+from meshforge.geometry.arrays import Floats
+from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
 
 
-def solid(shapes: Sequence[Shape], mass: float, centre: Floats | None) -> tuple[Floats, Floats]:
+def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) -> tuple[Floats, Floats]:
     """The centre of mass (3,), and the inertia (3, 3) about it, of shapes that weigh `mass` [kg] together.
 
     centre: where that is known to be; None for that of the shapes. Where they overlap, they count twice, as in MuJoCo.
