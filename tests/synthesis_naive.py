@@ -7,7 +7,7 @@ from itertools import product
 
 from meshforge.language import DIRECTIONS, All, Attach, Base, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
 from meshforge.synthesis.example import Example
-from meshforge.synthesis.order import order
+from meshforge.synthesis.search.order import order
 
 _ROOM = 64  # bits kept for each mesh
 

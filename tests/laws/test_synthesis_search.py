@@ -13,8 +13,8 @@ from meshforge.language import Extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.example import Example
 from meshforge.synthesis.options import Options, Shortcuts
-from meshforge.synthesis.order import Key, order
 from meshforge.synthesis.search import Hit, Miss, Search
+from meshforge.synthesis.search.order import Key, order
 from meshforge.synthesis.watch import Watch
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_naive import naive_search

@@ -10,11 +10,11 @@ from meshforge.language import EXTREMITY, Extractor, Orient, Program, Rule, Temp
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.agreement import Agreed, agreed_rules
 from meshforge.synthesis.demonstration import Demonstration, named
-from meshforge.synthesis.miss import NearMiss
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.outcome import Found, Nearest, NoProgram, Outcome, Reading, TimedOut
 from meshforge.synthesis.replay import advanced, begun, example
 from meshforge.synthesis.search import Answer, Hit, Miss, Search, Tried, Unfinished
+from meshforge.synthesis.search.miss import NearMiss
 from meshforge.synthesis.verify import verify
 from meshforge.synthesis.vocabulary import learned_vocabulary
 from meshforge.synthesis.watch import Clock, Watch

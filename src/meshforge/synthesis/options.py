@@ -7,6 +7,8 @@ from typing import Literal, get_args
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
 LAYERS: tuple[Layers, ...] = get_args(Layers)
+Strategy = Literal["default", "paper"]
+STRATEGIES: tuple[Strategy, ...] = get_args(Strategy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,13 +31,18 @@ class Shortcuts:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """Limits of a search.
+    """How to learn, and its limits.
 
+    strategy: `paper` follows the algorithms of the paper to the letter, as a yardstick.
     layers: which extractors it may use besides set operators: semantic, topological, geometric (paper, ablation).
+    repair: whether wrong labels are looked for; eta: corrections a mesh, over all rules, at most.
     max_size: in syntax nodes; budget: for the whole program [s].
     """
 
+    strategy: Strategy = "default"
     layers: Layers = "S+T+G"
+    repair: bool = True
+    eta: int = 2
     max_size: int = 13
     budget: float = 120.0
     shortcuts: Shortcuts = Shortcuts()

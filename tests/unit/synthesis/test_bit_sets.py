@@ -5,9 +5,9 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.synthesis.atoms import atoms, packed, singles, split_by
-from meshforge.synthesis.columns import Columns, positions
-from meshforge.synthesis.space import Space
+from meshforge.synthesis.search.atoms import atoms, packed, singles, split_by
+from meshforge.synthesis.search.columns import Columns, positions
+from meshforge.synthesis.search.space import Space
 from tests.synthesis_boxes import boxes
 
 masks = st.integers(0, 2**12 - 1)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, size
-from meshforge.synthesis.order import order
+from meshforge.synthesis.search.order import order
 from tests.strategies import VOCABULARY, extractors
 
 LABELS = {label: place for place, label in enumerate(VOCABULARY)}

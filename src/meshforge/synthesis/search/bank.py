@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from meshforge.language import Diff, Intersect, Union
-from meshforge.synthesis.columns import Columns, positions
-from meshforge.synthesis.order import Joint, Key, joint_key
-from meshforge.synthesis.term import Term, joined
+from meshforge.synthesis.search.columns import Columns, positions
+from meshforge.synthesis.search.order import Joint, Key, joint_key
+from meshforge.synthesis.search.term import Term, joined
 from meshforge.synthesis.watch import Watch
 
 Draft = tuple[Key, Joint, Term, Term]

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from meshforge.language import Diff, Intersect, Union
-from meshforge.synthesis.bank import Bank, Level
 from meshforge.synthesis.options import Shortcuts
-from meshforge.synthesis.order import Joint
-from meshforge.synthesis.term import Term, first, joined
+from meshforge.synthesis.search.bank import Bank, Level
+from meshforge.synthesis.search.order import Joint
+from meshforge.synthesis.search.term import Term, first, joined
 from meshforge.synthesis.watch import Watch
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from meshforge.language import Diff, Extractor, Union
-from meshforge.synthesis.order import Joint, Key, joint_key
+from meshforge.synthesis.search.order import Joint, Key, joint_key
 
 
 @dataclass(frozen=True, slots=True)

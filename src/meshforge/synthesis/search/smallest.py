@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from meshforge.language import EXTREMITY, Extractor
-from meshforge.synthesis.atoms import atoms, packed, singles, split_by
-from meshforge.synthesis.bank import Bank
-from meshforge.synthesis.completion import Completion, Goal
 from meshforge.synthesis.example import Example
-from meshforge.synthesis.leaves import Leaf, leaves, observed
-from meshforge.synthesis.miss import NearMiss, lookalikes, near_miss, nearest_term
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.order import leaf_key
-from meshforge.synthesis.space import Space
-from meshforge.synthesis.term import Term
+from meshforge.synthesis.search.atoms import atoms, packed, singles, split_by
+from meshforge.synthesis.search.bank import Bank
+from meshforge.synthesis.search.completion import Completion, Goal
+from meshforge.synthesis.search.leaves import Leaf, leaves, observed
+from meshforge.synthesis.search.miss import NearMiss, lookalikes, near_miss, nearest_term
+from meshforge.synthesis.search.order import leaf_key
+from meshforge.synthesis.search.space import Space
+from meshforge.synthesis.search.term import Term
 from meshforge.synthesis.watch import OutOfTime, Watch
 
 NEAR_SIZE = 5

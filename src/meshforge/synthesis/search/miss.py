@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from meshforge.language import Extractor
 from meshforge.symbolic import bits
-from meshforge.synthesis.atoms import split_by
-from meshforge.synthesis.columns import positions
 from meshforge.synthesis.example import Example
-from meshforge.synthesis.space import Space
-from meshforge.synthesis.term import Term
+from meshforge.synthesis.search.atoms import split_by
+from meshforge.synthesis.search.columns import positions
+from meshforge.synthesis.search.space import Space
+from meshforge.synthesis.search.term import Term
 
 
 @dataclass(frozen=True, slots=True)
