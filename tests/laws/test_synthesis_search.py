@@ -28,7 +28,9 @@ OFF = {
     "complete": replace(ON, complete=False),
     "help": replace(ON, help=False),
     "stored": replace(ON, stored=0),
-    "all": Shortcuts(merge=False, group=False, complete=False, help=False, stored=0),
+    "few": replace(ON, few=0),
+    "fewer": replace(ON, few=2),
+    "all": Shortcuts(merge=False, group=False, complete=False, help=False, stored=0, few=0),
 }
 batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size=3)
 

@@ -20,6 +20,8 @@ class Shortcuts:
     complete: the missing operand of a set operator is looked up by what it must hold and avoid.
     help: an operand that brings its goal no nearer is passed over.
     stored: up to this size every selection is kept in an index, beyond only goals are followed.
+    few: the search begins with this many of the demonstrated groups of hulls; those that refute its answer join
+    (0: all at once).
     """
 
     merge: bool = True
@@ -27,6 +29,7 @@ class Shortcuts:
     complete: bool = True
     help: bool = True
     stored: int = 5
+    few: int = 48
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshforge.synthesis.search.atoms import atoms, packed, singles, split_by
+from meshforge.language import EXTREMITY, Extractor, select_mask
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.search.columns import Columns, positions
-from meshforge.synthesis.search.space import Space
-from tests.synthesis_boxes import boxes
+from meshforge.synthesis.search.field import Field
+from meshforge.synthesis.search.miss import Errors
+from tests.strategies import extractors, grid_boxes, meshes
+from tests.synthesis_boxes import boxes, table
 
+LABELS = ("a", "b", "c")
 masks = st.integers(0, 2**12 - 1)
-EVERY = 2**12 - 1
+batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size=4)
 
 
 @given(st.lists(masks, max_size=30), masks, masks)
@@ -21,36 +25,44 @@ def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list
     assert list(positions(found)) == [k for k, row in enumerate(rows) if row & need == need and not row & avoid]
 
 
-@given(st.lists(masks, max_size=6))
-def test_atoms_part_the_hulls_and_no_mask_splits_one(shown: list[int]) -> None:
-    groups = atoms(shown, EVERY)
-    assert sum(groups) == EVERY
-    assert sum(group.bit_count() for group in groups) == 12
-    assert all(split_by(mask, groups) == () for mask in shown)
+@settings(max_examples=200, deadline=None)
+@given(batches, extractors(LABELS), st.booleans(), st.sampled_from([EXTREMITY, 0.3]))
+def test_what_an_extractor_selects_is_a_set_of_groups(
+    batch: list[SymbolicMesh], extractor: Extractor, group: bool, extremity: float
+) -> None:
+    field = Field(batch, LABELS, extremity=extremity, group=group)
+    chosen = field.bits(extractor)
+    assert [field.on(chosen, k) for k in range(len(batch))] == [select_mask(extractor, m, extremity) for m in batch]
 
 
-@given(st.lists(masks, max_size=6))
-def test_two_hulls_in_different_atoms_are_told_apart_by_a_mask(shown: list[int]) -> None:
-    firsts = [next(positions(group)) for group in atoms(shown, EVERY)]
-    told_apart = {tuple(mask >> hull & 1 for mask in shown) for hull in firsts}
-    assert len(told_apart) == len(firsts)
+@settings(max_examples=50, deadline=None)
+@given(batches)
+def test_leaves_tell_the_first_hulls_of_two_groups_apart(batch: list[SymbolicMesh]) -> None:
+    field = Field(batch, LABELS)
+    seen = {tuple(term.bits >> group & 1 for term in field.terms) for group in range(field.width)}
+    assert len(seen) == field.width
 
 
-def test_a_mask_that_splits_a_group_names_it() -> None:
-    assert split_by(0b0110, (0b0011, 0b0100, 0b1000)) == (0b0011,)
+@settings(max_examples=50, deadline=None)
+@given(batches, st.integers(0, 2**32 - 1), masks)
+def test_errors_are_counted_by_hulls(batch: list[SymbolicMesh], shown: int, chosen: int) -> None:
+    field = Field(batch, LABELS)
+    selections = [shown >> 8 * k & ((1 << len(mesh.hulls)) - 1) for k, mesh in enumerate(batch)]
+    wrong = sum((field.on(chosen, k) ^ selection).bit_count() for k, selection in enumerate(selections))
+    assert Errors(field, selections, field.width).count(chosen & ((1 << field.width) - 1)) == wrong
 
 
-def test_a_mask_is_packed_by_groups() -> None:
-    assert packed(0b1011, (0b0011, 0b0100, 0b1000)) == 0b101
-    assert packed(0b1010, singles(0b1110)) == 0b101
-    assert atoms([], 0) == ()
+def test_groups_of_the_first_meshes_come_first() -> None:
+    field = Field([table(), table(drawers=2)], LABELS)
+    assert field.width_of(0) == 0
+    assert set(field.groups[0]) == set(range(field.width_of(1)))
 
 
-def test_meshes_side_by_side_are_split_as_they_were_joined() -> None:
-    one = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", None, (2, 0, 0), (1, 1, 1)))
-    other = boxes(("c", None, (0, 0, 0), (1, 1, 1)))
-    space = Space([one, other])
-    assert space.everything == 0b111
-    assert space.join([0b10, 0b1]) == 0b110
-    assert space.split(0b110) == (0b10, 0b1)
-    assert Space([]).everything == 0
+def test_two_like_hulls_of_which_one_is_selected_are_named() -> None:
+    mesh = boxes(*((f"leg{k}", "a", (2.0 * k, 0, 0), (1, 1, 1)) for k in range(4)))
+    assert Field([mesh], LABELS).unlike([0b0010]) == ((0, 1), (0, 2))
+    assert Field([mesh], LABELS).unlike([0b0110]) is None
+
+
+def test_a_field_without_meshes_has_no_groups() -> None:
+    assert Field([], LABELS).width == 0

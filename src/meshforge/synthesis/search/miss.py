@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from meshforge.language import Extractor
 from meshforge.symbolic import bits
 from meshforge.synthesis.example import Example
-from meshforge.synthesis.search.atoms import split_by
-from meshforge.synthesis.search.columns import positions
-from meshforge.synthesis.search.space import Space
-from meshforge.synthesis.search.term import Term
+from meshforge.synthesis.search.field import Field
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,28 +24,42 @@ class NearMiss:
     missing: tuple[str, ...]
 
 
-def nearest_term(terms: Iterable[Term], groups: Sequence[int], target: int) -> Term | None:
-    """The term that differs from the target by the fewest hulls; of equals, the first in the order."""
-    gain = [(group & ~target).bit_count() - (group & target).bit_count() for group in groups]
-    return min(terms, key=lambda term: (sum(gain[p] for p in positions(term.bits)), term.key), default=None)
+class Errors:
+    """Counts the demonstrated hulls on which a selection of groups is wrong.
+
+    The weights of all groups are kept as planes of binary digits, so that a count takes a few operations on bit sets.
+    """
+
+    def __init__(self, field: Field, selections: Sequence[int], width: int) -> None:
+        shown, others = [0] * width, [0] * width
+        for mask, groups in zip(selections, field.groups, strict=False):
+            for hull, group in enumerate(groups):
+                (shown if mask >> hull & 1 else others)[group] += 1
+        self._missed, self._extra = _planes(shown), _planes(others)
+
+    def count(self, chosen: int) -> int:
+        """How many hulls a selection of groups has too many or too few."""
+        extra = sum((chosen & plane).bit_count() << k for k, plane in enumerate(self._extra))
+        return extra + sum((~chosen & plane).bit_count() << k for k, plane in enumerate(self._missed))
 
 
-def near_miss(term: Term, groups: Sequence[int], target: int, examples: Sequence[Example], space: Space) -> NearMiss:
-    """Where and how a term's selection differs from the target."""
-    found = sum(groups[p] for p in positions(term.bits))
-    extra, missing = space.split(found & ~target), space.split(target & ~found)
+def near_miss(extractor: Extractor, field: Field, examples: Sequence[Example]) -> NearMiss:
+    """Where and how an extractor's selection differs from what was shown."""
+    found = field.bits(extractor)
+    on = [field.on(found, k) for k in range(len(examples))]
+    extra = [mask & ~example.selection for mask, example in zip(on, examples, strict=True)]
+    missing = [example.selection & ~mask for mask, example in zip(on, examples, strict=True)]
     worst = max(range(len(examples)), key=lambda k: (extra[k].bit_count() + missing[k].bit_count(), -k))
     example = examples[worst]
-    return NearMiss(term.extractor, example.name, _names(example, extra[worst]), _names(example, missing[worst]))
+    return NearMiss(extractor, example.name, _names(example, extra[worst]), _names(example, missing[worst]))
 
 
-def lookalikes(groups: Sequence[int], target: int, examples: Sequence[Example], space: Space) -> str | None:
+def lookalikes(field: Field, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
     """A sentence on two hulls that no extractor tells apart though only one of them was selected."""
-    split = split_by(target, groups)
-    if not split:
+    found = field.unlike(selections)
+    if not found:
         return None
-    shown = _first_named(examples, space.split(split[0] & target))
-    other = _first_named(examples, space.split(split[0] & ~target))
+    shown, other = (f"{examples[mesh].mesh.hulls[hull].name!r} of {examples[mesh].name}" for mesh, hull in found)
     return (
         f"{shown} was selected and {other} was not, yet every extractor treats them alike; "
         "a label of its own for one of them would tell them apart"
@@ -59,5 +70,9 @@ def _names(example: Example, mask: int) -> tuple[str, ...]:
     return tuple(example.mesh.hulls[index].name for index in sorted(bits(mask)))
 
 
-def _first_named(examples: Sequence[Example], masks: Sequence[int]) -> str:
-    return next(f"{_names(e, mask)[0]!r} of {e.name}" for e, mask in zip(examples, masks, strict=True) if mask)
+def _planes(weights: Sequence[int]) -> list[int]:
+    """Bit set k holds the positions whose weight has binary digit k."""
+    return [
+        sum(1 << place for place, weight in enumerate(weights) if weight >> k & 1)
+        for k in range(max(weights, default=0).bit_length())
+    ]

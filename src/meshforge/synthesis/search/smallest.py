@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from meshforge.language import EXTREMITY, Extractor
+from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.example import Example
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.search.atoms import atoms, packed, singles, split_by
 from meshforge.synthesis.search.bank import Bank
+from meshforge.synthesis.search.columns import positions
 from meshforge.synthesis.search.completion import Completion, Goal
-from meshforge.synthesis.search.leaves import Leaf, leaves, observed
-from meshforge.synthesis.search.miss import NearMiss, lookalikes, near_miss, nearest_term
-from meshforge.synthesis.search.order import leaf_key
-from meshforge.synthesis.search.space import Space
+from meshforge.synthesis.search.field import Field
+from meshforge.synthesis.search.miss import Errors, NearMiss, lookalikes, near_miss
 from meshforge.synthesis.search.term import Term
 from meshforge.synthesis.watch import OutOfTime, Watch
 
 NEAR_SIZE = 5
 """Where nothing matches, the nearest miss is looked for among all selections of extractors up to this size."""
+
+_HASTY = 4
+"""The same where the time ran out."""
+
+_REFUTING = 16  # groups that join the search when its answer is wrong on them
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +66,10 @@ Answer = Hit | Miss | Unfinished
 
 
 class Search:
-    """One rule's examples, prepared: selections of all of them as one bit set, over hulls or groups of like hulls.
+    """One rule's examples, prepared: the selections of all of them as one bit set over groups of like hulls.
 
-    vocabulary: the labels to ask for, in the order in which they are preferred.
+    vocabulary: the labels to ask for, in the order in which they are preferred; batch: further meshes in the field,
+    about which nothing is said.
     """
 
     def __init__(
@@ -72,59 +79,88 @@ class Search:
         watch: Watch,
         options: Options,
         extremity: float = EXTREMITY,
+        batch: Sequence[SymbolicMesh] = (),
     ) -> None:
-        self.examples = tuple(examples)
-        self.space = Space([example.mesh for example in examples])
-        self.target = self.space.join(example.selection for example in examples)
-        self.options = options
-        chosen = leaves(vocabulary, options.layers)
-        by_mesh = [observed(chosen, mesh, extremity) for mesh in self.space.meshes]
-        masks = [self.space.join(column) for column in zip(*by_mesh, strict=True)]
-        every, shortcuts = self.space.everything, options.shortcuts
-        self.alike = atoms(masks, every)
-        self.groups = self.alike if shortcuts.group else singles(every)
-        terms = _terms(chosen, [packed(mask, self.groups) for mask in masks], vocabulary)
-        self.bank = Bank(terms, len(self.groups), watch, shortcuts.merge)
-        self.completion = Completion(self.bank, watch, shortcuts)
-        self._exhausted = 0
+        self.examples, self.options, self.watch = tuple(examples), options, watch
+        self.selections = tuple(example.selection for example in examples)
+        meshes = [*(example.mesh for example in examples), *batch]
+        self.field = Field(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
+        self.width = self.field.width_of(len(examples))
+        self.need = self.field.touched(self.selections)
+        self._exhausted = self._kept = self._goals = 0
 
     def run(self) -> Answer:
         """The answer, within the limits of the options and the watch."""
         try:
             return self._hit() or self._miss()
         except OutOfTime:
-            return Unfinished(self._nearest(), self.tried)
+            return Unfinished(self._nearest(min(self._exhausted, _HASTY), Watch(math.inf)), self.tried)
 
     @property
     def tried(self) -> Tried:
-        kept = sum(len(level.terms) for level in self.bank.levels)
-        return Tried(self._exhausted, kept, self.completion.goals)
+        return Tried(self._exhausted, self._kept, self._goals)
+
+    @cached_property
+    def decisive(self) -> tuple[int, ...]:
+        """The groups of demonstrated hulls that the search begins with: as many selected as not, if there are many."""
+        few, every = self.options.shortcuts.few, range(self.width)
+        if not few or self.width <= few:
+            return tuple(every)
+        shown = [group for group in every if self.need >> group & 1][: few // 2]
+        return tuple(sorted([*shown, *[g for g in every if not self.need >> g & 1][: few - len(shown)]]))
 
     def _hit(self) -> Hit | None:
-        if split_by(self.target, self.groups):
+        if self.options.shortcuts.group and self.field.unlike(self.selections):
             return None
-        need = packed(self.target, self.groups)
-        goal = Goal(need, ((1 << len(self.groups)) - 1) & ~need)
-        for size in range(1, self.options.max_size + 1):
-            term = self.completion.first(goal, size)
-            if term:
-                return Hit(term.extractor, self.tried)
-            self._exhausted = size
-        return None
+        while True:
+            extractor = self._smallest()
+            if extractor is None:
+                return None
+            wrong = (self.field.bits(extractor) ^ self.need) & ((1 << self.width) - 1)
+            if not wrong:
+                return Hit(extractor, self.tried)
+            refuting = list(positions(wrong))[:_REFUTING]
+            self.decisive = tuple(sorted({*self.decisive, *refuting}))
+
+    def _smallest(self) -> Extractor | None:
+        """The first extractor that is right on the decisive groups."""
+        groups, shortcuts = self.decisive, self.options.shortcuts
+        whole = groups == tuple(range(self.width))
+        terms = [Term(_packed(t.bits, groups, whole), t.key, t.made) for t in self.field.terms]
+        bank = Bank(terms, len(groups), self.watch, shortcuts.merge)
+        completion = Completion(bank, self.watch, shortcuts)
+        need = _packed(self.need, groups, whole)
+        goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
+        try:
+            for size in range(1 + self._exhausted, self.options.max_size + 1):
+                term = completion.first(goal, size)
+                if term:
+                    return term.extractor
+                self._exhausted = size
+            return None
+        finally:
+            self._kept += sum(len(level.terms) for level in bank.levels)
+            self._goals += completion.goals
 
     def _miss(self) -> Miss:
-        self.bank.level(NEAR_SIZE)
-        why = lookalikes(self.alike, self.target, self.examples, self.space)
-        nearest = self._nearest()
+        why = lookalikes(self.field, self.selections, self.examples)
+        nearest = self._nearest(NEAR_SIZE, self.watch)
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _nearest(self) -> NearMiss | None:
-        terms = (term for level in self.bank.levels for term in level.terms)
-        term = nearest_term(terms, self.groups, self.target)
-        return near_miss(term, self.groups, self.target, self.examples, self.space) if term else None
+    def _nearest(self, size: int, watch: Watch) -> NearMiss | None:
+        """The nearest miss among extractors of up to some size."""
+        terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.made) for t in self.field.terms]
+        bank = Bank(terms, self.width, watch)
+        levels = [bank.level(k) for k in range(1, size + 1)]
+        errors = Errors(self.field, self.selections, self.width)
+        made = (term for level in levels for term in level.terms)
+        term = min(made, key=lambda term: (errors.count(term.bits), term.key), default=None)
+        return near_miss(term.extractor, self.field, self.examples) if term else None
 
 
-def _terms(chosen: Sequence[Leaf], masks: Sequence[int], vocabulary: Sequence[str]) -> list[Term]:
-    places = {label: place for place, label in enumerate(vocabulary)}
-    return [Term(mask, leaf_key(leaf, places), leaf) for leaf, mask in zip(chosen, masks, strict=True)]
+def _packed(bits: int, groups: Sequence[int], whole: bool) -> int:
+    """The bits of some groups, moved together."""
+    if whole:
+        return bits & ((1 << len(groups)) - 1)
+    return mask_of(place for place, group in enumerate(groups) if bits >> group & 1)

@@ -4,17 +4,41 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from meshforge.language import Diff, Extractor, Union
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Is, Union
 from meshforge.synthesis.search.order import Joint, Key, joint_key
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
+class Joined:
+    """A set operator over two terms."""
+
+    joint: Joint
+    left: Term
+    right: Term
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Term:
-    """An extractor, its place in the order, and its selection as a bit set over the search's groups of hulls."""
+    """An extractor, its place in the order, and its selection as a bit set over the search's groups of hulls.
+
+    made: the extractor itself, or the operands it is put together from: most terms are never written out.
+    """
 
     bits: int
     key: Key
-    extractor: Extractor
+    made: All | Is | Attach | Geo | Joined
+
+    @property
+    def extractor(self) -> Extractor:
+        """The term written out."""
+        made = self.made
+        return made.joint(made.left.extractor, made.right.extractor) if isinstance(made, Joined) else made
+
+    @property
+    def size(self) -> int:
+        """Its syntax nodes."""
+        size: int = self.key[0]
+        return size
 
 
 def joined(joint: Joint, left: Term, right: Term) -> Term:
@@ -25,7 +49,7 @@ def joined(joint: Joint, left: Term, right: Term) -> Term:
         bits = left.bits | right.bits
     else:
         bits = left.bits & ~right.bits if joint is Diff else left.bits & right.bits
-    return Term(bits, joint_key(joint, left.key, right.key), joint(left.extractor, right.extractor))
+    return Term(bits, joint_key(joint, left.key, right.key), Joined(joint, left, right))
 
 
 def first(terms: list[Term]) -> Term | None:
