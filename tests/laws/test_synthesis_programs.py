@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program, Rule, size
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, Found, synthesize
+from meshforge.synthesis import Ambiguous, Demonstration, Found, Options, synthesize
 from tests.strategies import TEMPLATES, grid_boxes, meshes, programs
 from tests.synthesis_showing import demonstrated
 
@@ -33,11 +33,16 @@ def shown(program: Program, batch: list[SymbolicMesh]) -> tuple[list[Rule], list
     return rules, demos
 
 
-def learned(program: Program, demos: list[Demonstration]) -> Found:
+def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
     outcome = synthesize(
-        demos, templates=TEMPLATES, vocabulary=LABELS, contact=program.contact, extremity=program.extremity
+        demos,
+        templates=TEMPLATES,
+        vocabulary=LABELS,
+        contact=program.contact,
+        extremity=program.extremity,
+        options=Options(repair=False),
     )
-    assert isinstance(outcome, Found)
+    assert isinstance(outcome, Found | Ambiguous)
     return outcome
 
 

@@ -25,21 +25,21 @@ def synthesize(
     """
     from meshforge.cli.output import print_json
     from meshforge.project import Project
-    from meshforge.synthesis import Found, Options, outcome_json
+    from meshforge.synthesis import Ambiguous, Found, Options, outcome_json
 
     outcome = Project.open(project).synthesize(accept=not dry_run, options=Options(budget=budget))
     if json:
         print_json(outcome_json(outcome))
     else:
         _print(outcome, project, dry_run)
-    raise typer.Exit(int(not isinstance(outcome, Found)))
+    raise typer.Exit(int(not isinstance(outcome, Found | Ambiguous)))
 
 
 def _print(outcome: Outcome, project: Path, dry_run: bool) -> None:
     from typing import assert_never
 
     from meshforge.cli.output import remark
-    from meshforge.synthesis import Found, NoProgram, TimedOut
+    from meshforge.synthesis import Ambiguous, Found, NeedsRepair, NoProgram, TimedOut
 
     match outcome:
         case Found():
@@ -54,6 +54,8 @@ def _print(outcome: Outcome, project: Path, dry_run: bool) -> None:
                 typer.echo(f"  learned: {rule}")
             if outcome.nearest:
                 typer.echo(_told(outcome.nearest))
+        case Ambiguous() | NeedsRepair():
+            typer.echo(str(outcome.program))
         case _:
             assert_never(outcome)
 

@@ -10,7 +10,7 @@ from meshforge.files import write_atomically
 from meshforge.language import Program
 from meshforge.preparation import RECORD
 from meshforge.project.json_files import JsonFile, read_json, write_json
-from meshforge.synthesis import Found, Options, Outcome, synthesize
+from meshforge.synthesis import Ambiguous, Found, Options, Outcome, synthesize
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -37,7 +37,7 @@ def learn(project: Project, accepting: bool, options: Options | None) -> Outcome
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     outcome = synthesize(
         tuple(demos.values()),
-        batch=project.meshes(),
+        batch=dict(project.named_meshes()),
         orient=project.orientation,
         templates=project.templates(names),
         vocabulary=settings.vocabulary or None,
@@ -45,7 +45,7 @@ def learn(project: Project, accepting: bool, options: Options | None) -> Outcome
         extremity=settings.thresholds.extremity,
         options=options or Options(),
     )
-    if accepting and isinstance(outcome, Found):
+    if accepting and isinstance(outcome, Found | Ambiguous):
         accept(project, outcome.program)
         with project.lock():
             learned = _Learned(program=program_digest(outcome.program), lesson=lesson)

@@ -169,9 +169,13 @@ class Project:
 
     def meshes(self) -> Iterator[SymbolicMesh]:
         """All assets with their labels, one after the other; those that cannot be read are left out."""
+        return (mesh for _, mesh in self.named_meshes())
+
+    def named_meshes(self) -> Iterator[tuple[str, SymbolicMesh]]:
+        """The same with their ids."""
         for asset in self.assets():
             try:
-                yield self.mesh(asset)
+                yield asset, self.mesh(asset)
             except MeshForgeError:
                 continue
 

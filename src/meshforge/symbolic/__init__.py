@@ -1,6 +1,7 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
 from meshforge.symbolic.components import bodies, components
+from meshforge.symbolic.descriptor import DESCRIBED, descriptors
 from meshforge.symbolic.follow import Followed, follow_labels
 from meshforge.symbolic.hull import Hull
 from meshforge.symbolic.label_file import LabelFile, read_labels, write_labels
@@ -8,6 +9,7 @@ from meshforge.symbolic.labels import HUMAN_SOURCES, SOURCES, Label, Source
 from meshforge.symbolic.mesh import EPSILON, SymbolicMesh, bits, mask_of
 
 __all__ = [
+    "DESCRIBED",
     "EPSILON",
     "HUMAN_SOURCES",
     "SOURCES",
@@ -20,6 +22,7 @@ __all__ = [
     "bits",
     "bodies",
     "components",
+    "descriptors",
     "follow_labels",
     "mask_of",
     "read_labels",

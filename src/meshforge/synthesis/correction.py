@@ -16,3 +16,8 @@ class Correction:
     hull: str
     was: str | None
     to: str
+
+    @property
+    def reverse(self) -> Correction | None:
+        """The correction that undoes this one, None where the hull had no label."""
+        return None if self.was is None else Correction(self.asset, self.hull, self.to, self.was)

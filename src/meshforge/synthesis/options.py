@@ -40,6 +40,7 @@ class Options:
     layers: which extractors it may use besides set operators: semantic, topological, geometric (paper, ablation).
     repair: whether wrong labels are looked for; eta: corrections a mesh, over all rules, at most.
     max_size: in syntax nodes; budget: for the whole program [s].
+    above: readings have up to so many nodes more than the smallest; effort: how many operands they may take to find.
     """
 
     strategy: Strategy = "default"
@@ -48,4 +49,6 @@ class Options:
     eta: int = 2
     max_size: int = 13
     budget: float = 120.0
+    above: int = 3
+    effort: int = 300_000
     shortcuts: Shortcuts = Shortcuts()

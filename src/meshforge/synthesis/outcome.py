@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from meshforge.language import Extractor, Program, Rule, size
+from meshforge.synthesis.asking import Answer, Hint, Question, Repair
+from meshforge.synthesis.frames import Suggested
 from meshforge.synthesis.search import Tried
 
 
@@ -48,8 +50,10 @@ class Nearest:
 class _Outcome:
     """What all outcomes have.
 
-    rules: those learned, in order; readings: of them, by rule; tried: how far the search of each rule went.
-    seconds: under "search" and "replay"; settled: whether all believable readings do the same on the whole batch.
+    rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
+    search of each rule went. seconds: under "search" and "replay".
+    settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
+    their asset or hulls are gone; hint: what to demonstrate next.
     """
 
     rules: tuple[Rule, ...]
@@ -57,36 +61,61 @@ class _Outcome:
     tried: tuple[Tried, ...]
     seconds: Mapping[str, float]
     settled: bool = False
-    repairs: tuple[()] = ()
-    question: None = None
+    stale: tuple[Answer, ...] = ()
+    hint: Hint | None = None
+    repairs: tuple[Repair, ...] = ()
+    question: Question | None = None
+    nearest: Nearest | None = None
+    program: Program | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found(_Outcome):
-    """A program that does on every demonstration what was shown."""
+    """A program that does on every demonstration what was shown; what is still open is not worth a question."""
 
     status: ClassVar[Literal["found"]] = "found"
     program: Program
-    nearest: None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ambiguous(_Outcome):
+    """A program that does what was shown, and a question that may change what it does elsewhere."""
+
+    status: ClassVar[Literal["ambiguous"]] = "ambiguous"
+    program: Program
+    question: Question
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NeedsRepair(_Outcome):
+    """Labels that are probably wrong: with them corrected the rules have believable extractors.
+
+    proposed: what the program would be then, as far as all rules were found; nearest: of a rule that still has none.
+    """
+
+    status: ClassVar[Literal["repair"]] = "repair"
+    proposed: Program | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoProgram(_Outcome):
-    """A rule that no extractor fits; why: one sentence about it."""
+    """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each.
+
+    suggested: an orientation in which every rule has an extractor.
+    """
 
     status: ClassVar[Literal["none"]] = "none"
     nearest: Nearest
     why: str
-    program: None = None
+    advice: tuple[str, ...] = ()
+    suggested: Suggested | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimedOut(_Outcome):
-    """The time ran out while a rule was searched for; the rules before it are there."""
+    """The time ran out, or a person stopped it, while a rule was searched for; the rules before it are there."""
 
     status: ClassVar[Literal["timeout"]] = "timeout"
-    nearest: Nearest | None
-    program: None = None
 
 
-Outcome = Found | NoProgram | TimedOut
+Outcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut

@@ -8,7 +8,7 @@ from meshforge.language import Attach, Delete, Is, Merge
 from meshforge.synthesis import Demonstration, Found, NoProgram, Step, outcome_json, synthesize
 from tests.synthesis_boxes import boxes
 
-KEYS = ["status", "program", "settled", "readings", "repairs", "question", "nearest", "seconds"]
+KEYS = ["status", "program", "settled", "readings", "repairs", "question", "nearest", "demonstrate_next", "seconds"]
 TWINS = boxes(
     ("left", "leg", (0, 0, 0), (1, 1, 1)),
     ("middle", "leg", (2, 0, 0), (1, 1, 1)),
@@ -31,6 +31,7 @@ def test_a_found_program_as_json() -> None:
         "repairs": [],
         "question": None,
         "nearest": None,
+        "demonstrate_next": None,
     }
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from meshforge.language import Diff, Intersect, Union
 from meshforge.synthesis.options import Shortcuts
 from meshforge.synthesis.search.bank import Bank, Level
-from meshforge.synthesis.search.order import Joint
+from meshforge.synthesis.search.order import Joint, Key, joint_key
 from meshforge.synthesis.search.term import Term, first, joined
 from meshforge.synthesis.watch import Watch
 
@@ -33,6 +33,19 @@ class Opening:
     known: Term
     rest: Goal
     as_right: bool = False
+
+    def bits(self, other: int) -> int:
+        """What the whole selects with an operand that selects `other` in its place."""
+        if self.joint is Union:
+            return self.known.bits | other
+        if self.joint is Intersect:
+            return self.known.bits & other
+        return other & ~self.known.bits if self.as_right else self.known.bits & ~other
+
+    def key(self, other: Key) -> Key:
+        """The place of the whole in the order."""
+        left, right = (other, self.known.key) if self.as_right else (self.known.key, other)
+        return joint_key(self.joint, left, right)
 
     def closed(self, other: Term) -> Term:
         """The whole, with the other operand in its place."""
@@ -71,7 +84,7 @@ class Completion:
         """Of each set operator whose smaller operand is known, the first that meets the goal."""
         for small in range(1, (size - 1) // 2 + 1):
             self._watch.check()
-            for opening in _openings(self._bank.level(small), goal, self._shortcuts.help):
+            for opening in openings(self._bank.level(small), goal, self._shortcuts.help):
                 other = self._operand(opening.rest, size - 1 - small)
                 if other:
                     yield opening.closed(other)
@@ -81,13 +94,17 @@ def _meets(bits: int, goal: Goal) -> bool:
     return bits & goal.need == goal.need and not bits & goal.avoid
 
 
-def _first_in(level: Level, goal: Goal) -> Term | None:
+def meeting(level: Level, goal: Goal) -> Iterator[Term]:
+    """The terms of a level that meet a goal, in order."""
     columns = level.columns
-    rows = columns.avoiding(goal.avoid, columns.holding(goal.need, columns.every))
-    return next(level.chosen(rows), None)
+    return level.chosen(columns.avoiding(goal.avoid, columns.holding(goal.need, columns.every)))
 
 
-def _openings(level: Level, goal: Goal, helpful: bool) -> Iterator[Opening]:
+def _first_in(level: Level, goal: Goal) -> Term | None:
+    return next(meeting(level, goal), None)
+
+
+def openings(level: Level, goal: Goal, helpful: bool) -> Iterator[Opening]:
     """Set operators with one operand from the level that can meet the goal.
 
     helpful: only where the operand leaves less to need or to avoid; else the other one would meet the goal alone.

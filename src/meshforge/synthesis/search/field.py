@@ -14,7 +14,7 @@ from meshforge.synthesis.options import Layers
 from meshforge.synthesis.search.arrays import Hulls
 from meshforge.synthesis.search.leaves import leaves
 from meshforge.synthesis.search.order import leaf_key
-from meshforge.synthesis.search.term import Term
+from meshforge.synthesis.search.term import Term, joined
 
 
 class Field:
@@ -69,21 +69,21 @@ class Field:
         rows = zip(selections, self.groups, strict=False)
         return mask_of(group for mask, groups in rows for hull, group in enumerate(groups) if mask >> hull & 1)
 
+    def term(self, extractor: Extractor) -> Term:
+        """An extractor over the leaves as a term, operands in the order that terms have."""
+        match extractor:
+            case Union(left, right) | Intersect(left, right) | Diff(left, right):
+                return joined(type(extractor), self.term(left), self.term(right))
+            case leaf:
+                return self._leaves[leaf]
+
     def bits(self, extractor: Extractor) -> int:
         """The groups that an extractor over the leaves selects."""
-        match extractor:
-            case Union(left, right):
-                return self.bits(left) | self.bits(right)
-            case Intersect(left, right):
-                return self.bits(left) & self.bits(right)
-            case Diff(left, right):
-                return self.bits(left) & ~self.bits(right)
-            case leaf:
-                return self._leaf_bits[leaf]
+        return self.term(extractor).bits
 
     @cached_property
-    def _leaf_bits(self) -> dict[Extractor, int]:
-        return {term.extractor: term.bits for term in self.terms}
+    def _leaves(self) -> dict[Extractor, Term]:
+        return {term.extractor: term for term in self.terms}
 
     def unlike(self, selections: Sequence[int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
         """Two hulls, each as (mesh, hull), that no extractor tells apart though only the first is selected.

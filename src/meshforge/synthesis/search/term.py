@@ -40,6 +40,12 @@ class Term:
         size: int = self.key[0]
         return size
 
+    @property
+    def doubts(self) -> int:
+        """How much in it fits by accident easily (search/order.py)."""
+        doubts: int = self.key[1]
+        return doubts
+
 
 def joined(joint: Joint, left: Term, right: Term) -> Term:
     """A set operator over two terms; the operands of `Union` and `Intersect` are put in order."""

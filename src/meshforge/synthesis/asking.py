@@ -1,0 +1,74 @@
+"""What a person is asked, and what they say: questions between readings, answers, and proposed repairs of labels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from meshforge.synthesis.correction import Correction
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One way to go on; reading: the id of the most believable reading that does so; select: names of hulls."""
+
+    reading: str
+    select: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """Which hulls should a rule select on an asset? One of the choices, or neither.
+
+    harm: the share of the assets that the program is expected to edit wrongly as it stands; left: after an answer.
+    """
+
+    rule: int
+    asset: str
+    choices: tuple[Choice, ...]
+    harm: float
+    left: float
+
+    @property
+    def id(self) -> str:
+        return f"{self.rule}:{self.asset}"
+
+    def answered(self, choice: int | None) -> Answer:
+        """The answer that takes a choice, counted from 0, or None for neither."""
+        offered = tuple(frozenset(c.select) for c in self.choices)
+        return Answer(self.rule, self.asset, None if choice is None else offered[choice])
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class Answer:
+    """What a person said: the hulls that a rule selects on an asset; None: neither of the choices."""
+
+    rule: int
+    asset: str
+    select: frozenset[str] | None
+
+    def __init__(self, rule: int, asset: str, select: Iterable[str] | None) -> None:
+        object.__setattr__(self, "rule", rule)
+        object.__setattr__(self, "asset", asset)
+        object.__setattr__(self, "select", None if select is None else frozenset(select))
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A label that is probably wrong, with what would be right.
+
+    rule: the first one that needs it; belief: that it is right, in 0..1; why: one sentence.
+    """
+
+    correction: Correction
+    rule: int
+    belief: float
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """The asset that is best demonstrated next, and why, in a sentence."""
+
+    asset: str
+    why: str

@@ -1,0 +1,110 @@
+"""The meshes of a family on their way through the rules: those that are demonstrated, and all others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+from meshforge.errors import MeshForgeError
+from meshforge.language import Program, Rule, Template
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis.agreement import Agreed
+from meshforge.synthesis.asking import Answer
+from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.demonstration import Demonstration, named
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.replay import Replay, advanced, begun, example
+
+Batch = Mapping[str, SymbolicMesh]
+"""Meshes by the names that questions and readings call them."""
+
+
+def named_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
+    """The meshes of a batch by name, without those that are demonstrated; by default the name is the file's path."""
+    shown, meshes = dict(named(demos)), {id(demo.mesh) for demo in demos}
+    rows = batch.items() if isinstance(batch, Mapping) else _called(batch)
+    return {name: mesh for name, mesh in rows if name not in shown and id(mesh) not in meshes}
+
+
+def _called(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, SymbolicMesh]]:
+    for number, mesh in enumerate(batch, 1):
+        yield str(mesh.asset.path) if mesh.asset else f"mesh {number}", mesh
+
+
+def corrected(mesh: SymbolicMesh, name: str, corrections: Iterable[Correction]) -> SymbolicMesh:
+    """A mesh with the labels that corrections give to its hulls, as far as they are there."""
+    given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == name}
+    return mesh.labelled(given) if given else mesh
+
+
+class Course:
+    """All meshes as the next rule meets them.
+
+    Those of the batch that cannot be oriented, or that an action fails on, leave it: the program would fail there.
+    """
+
+    def __init__(
+        self,
+        demos: Sequence[Demonstration],
+        batch: Batch,
+        frame: Program,
+        templates: Mapping[str, Template],
+        answers: Sequence[Answer],
+    ) -> None:
+        self._frame, self._templates, self._answers = frame, templates, answers
+        self.shown = [begun(name, demo, frame.orient, frame.contact) for name, demo in named(demos)]
+        self.others = [replay for name, mesh in batch.items() if (replay := self._begun(name, mesh))]
+        self.stale = [answer for answer in answers if answer.asset not in {r.name for r in [*self.shown, *self.others]}]
+
+    def _begun(self, name: str, mesh: SymbolicMesh) -> Replay | None:
+        try:
+            return begun(name, Demonstration(mesh, (), name), self._frame.orient, self._frame.contact)
+        except MeshForgeError:
+            return None
+
+    def examples(self, rule: Agreed) -> tuple[list[Example], list[Replay]]:
+        """What is known about a rule, by demonstrations and answers, and the meshes about which nothing is."""
+        examples, open_ = [], []
+        answered = {a.asset: a for a in self._answers if a.rule == rule.number and a.select is not None}
+        for replay in [*self.shown, *self.others]:
+            shown = example(replay, rule)
+            answer = answered.get(replay.name)
+            if shown is None and answer:
+                shown = _of_answer(replay, answer)
+                self.stale += [] if shown else [answer]
+            if shown:
+                examples.append(shown)
+            else:
+                open_.append(replay)
+        return examples, open_
+
+    def take(self, number: int, rule: Rule, last: bool) -> None:
+        """Run a rule on all meshes; the last one only on those that are demonstrated."""
+        delta = self._frame.extremity
+        self.shown = [advanced(replay, number, rule, self._templates, delta) for replay in self.shown]
+        if not last:
+            self.others = [done for replay in self.others if (done := self._advanced(replay, number, rule))]
+
+    def _advanced(self, replay: Replay, number: int, rule: Rule) -> Replay | None:
+        try:
+            return advanced(replay, number, rule, self._templates, self._frame.extremity)
+        except MeshForgeError:
+            return None
+
+    def correct(self, corrections: Sequence[Correction]) -> None:
+        """Go on as if labels were corrected."""
+        self.shown = [_corrected(replay, corrections) for replay in self.shown]
+        self.others = [_corrected(replay, corrections) for replay in self.others]
+
+
+def _of_answer(replay: Replay, answer: Answer) -> Example | None:
+    """None where a hull of the answer is not there: it was made by an earlier rule that is another one now."""
+    index, names = replay.mesh.index, answer.select or frozenset()
+    if not names <= index.keys():
+        return None
+    return Example(replay.name, replay.mesh, sum(1 << index[name] for name in names))
+
+
+def _corrected(replay: Replay, corrections: Sequence[Correction]) -> Replay:
+    mesh = corrected(replay.mesh, replay.name, corrections)
+    return replay if mesh is replay.mesh else replace(replay, mesh=mesh)

@@ -1,0 +1,213 @@
+"""The course of learning one program: rule by rule, each on the meshes that the rules before it make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypedDict, assert_never
+
+from meshforge.errors import MeshForgeError
+from meshforge.language import Program, Rule
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.agreement import Agreed
+from meshforge.synthesis.asking import Answer, Question
+from meshforge.synthesis.batch import Course
+from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.failure import advice
+from meshforge.synthesis.frames import Suggested, suggest_orientation
+from meshforge.synthesis.guidance import hint, question, reading_id
+from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, NoProgram, Outcome, Reading, TimedOut
+from meshforge.synthesis.paper import Explained, paper_search
+from meshforge.synthesis.readings import Weighed, every
+from meshforge.synthesis.repairs import Repairs
+from meshforge.synthesis.search import Hit, Miss, Search, Tried, Unfinished
+from meshforge.synthesis.search.miss import NearMiss
+from meshforge.synthesis.task import Task
+from meshforge.synthesis.verify import verify
+from meshforge.synthesis.watch import OutOfTime, Watch
+
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """One rule, its readings, and the names of the meshes in their field."""
+
+    rule: Rule
+    weighed: Weighed
+    names: tuple[str, ...]
+
+
+class _Shared(TypedDict):
+    rules: tuple[Rule, ...]
+    readings: tuple[Reading, ...]
+    tried: tuple[Tried, ...]
+    seconds: Mapping[str, float]
+    stale: tuple[Answer, ...]
+
+
+class Lesson:
+    """Learns the rules of a task one after the other, as far as it gets."""
+
+    def __init__(self, task: Task, watch: Watch, confirm: Callable[[Correction], bool] | None = None) -> None:
+        self._task, self._watch, self._confirm = task, watch, confirm
+        self._course = Course(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._learned: list[Learned] = []
+        self._tried: list[Tried] = []
+        self._question: Question | None = None
+        self._searching = 0.0
+        meshes = {replay.name: replay.mesh for replay in [*self._course.shown, *self._course.others]}
+        self._repairs = Repairs(task, meshes, watch)
+
+    def outcome(self) -> Outcome:
+        """What comes of it."""
+        for agreed in self._task.rules:
+            failed = self._learn(agreed)
+            if failed:
+                return failed
+        return self._repaired() if self._repairs.found else self._found()
+
+    def _learn(self, agreed: Agreed) -> Outcome | None:
+        """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
+        while True:
+            examples, rest = self._course.examples(agreed)
+            names = (*(example.name for example in examples), *(replay.name for replay in rest))
+            start = self._watch.elapsed
+            found = self._answer(agreed, examples, [replay.mesh for replay in rest])
+            self._searching += self._watch.elapsed - start
+            match found:
+                case Weighed():
+                    self._take(agreed, found, names)
+                    return None
+                case Miss():
+                    return self._missed(agreed, found, examples)
+                case Unfinished():
+                    nearest = _placed(agreed.number, found.nearest) if found.nearest else None
+                    return TimedOut(nearest=nearest, **self._shared())
+                case tuple():
+                    self._course.correct(found)
+                case _:
+                    assert_never(found)
+
+    def _answer(
+        self, agreed: Agreed, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+    ) -> Weighed | Miss | Unfinished | tuple[Correction, ...]:
+        """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
+        task, watch = self._task, self._watch
+        if task.options.strategy == "paper":
+            return self._by_the_paper(agreed, examples)
+        search = Search(examples, task.frame.labels, watch, task.options, task.extremity, rest)
+        found = search.run()
+        self._note(agreed, found.tried)
+        if isinstance(found, Unfinished):
+            return found
+        try:
+            corrections = self._repairs.explaining(agreed.number, examples, found)
+        except OutOfTime:
+            corrections = ()
+        if corrections:
+            return corrections
+        if isinstance(found, Miss):
+            return found
+        return Weighed(search, every(search, found.extractor, task.options.above))
+
+    def _by_the_paper(
+        self, agreed: Agreed, examples: Sequence[Example]
+    ) -> Weighed | Miss | Unfinished | tuple[Correction, ...]:
+        task = self._task
+        found = paper_search(
+            examples,
+            task.frame.labels,
+            self._watch,
+            task.options,
+            task.extremity,
+            self._confirm,
+            task.rejected,
+            self._repairs.spent,
+        )
+        self._note(agreed, found.tried)
+        if isinstance(found, Explained):
+            return self._repairs.inferred(agreed.number, found)
+        if not isinstance(found, Hit):
+            return found
+        search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity)
+        return Weighed.alone(search, found.extractor)
+
+    def _take(self, agreed: Agreed, weighed: Weighed, names: tuple[str, ...]) -> None:
+        rule = Rule(weighed.extractor, agreed.action, agreed.label)
+        self._learned.append(Learned(rule, weighed, names))
+        if not self._question:
+            declined = {a.asset for a in self._task.answers if a.rule == agreed.number and a.select is None}
+            self._question = question(agreed.number, weighed, names, declined)
+        self._course.take(agreed.number, rule, last=agreed.number == len(self._task.rules))
+
+    def _found(self) -> Outcome:
+        task, program = self._task, self._program()
+        verify(program, task.demos, task.templates)
+        ahead = hint([(learned.weighed, learned.names) for learned in self._learned])
+        if self._question:
+            return Ambiguous(program=program, question=self._question, hint=ahead, **self._shared())
+        settled = bool(task.batch) and all(learned.weighed.settled for learned in self._learned)
+        return Found(program=program, settled=settled, hint=ahead, **self._shared())
+
+    def _repaired(self) -> Outcome:
+        return NeedsRepair(repairs=self._repairs.found, proposed=self._program(), **self._shared())
+
+    def _missed(self, agreed: Agreed, miss: Miss, examples: Sequence[Example]) -> Outcome:
+        nearest, repairs = _placed(agreed.number, miss.nearest), self._repairs.found
+        if repairs:
+            return NeedsRepair(repairs=repairs, nearest=nearest, **self._shared())
+        answered = {a.asset for a in self._task.answers if a.rule == agreed.number}
+        return NoProgram(
+            why=miss.why,
+            nearest=nearest,
+            advice=advice(miss.nearest, examples, answered),
+            suggested=self._suggested(),
+            **self._shared(),
+        )
+
+    def _suggested(self) -> Suggested | None:
+        task = self._task
+        try:
+            return suggest_orientation(
+                task.demos,
+                task.rules,
+                task.frame,
+                task.templates,
+                task.options,
+                self._watch,
+                None,
+                list(task.batch.values()),
+            )
+        except (OutOfTime, MeshForgeError):
+            return None
+
+    def _program(self) -> Program:
+        rules = tuple(learned.rule for learned in self._learned)
+        return replace(self._task.frame, rules=rules)
+
+    def _note(self, agreed: Agreed, tried: Tried) -> None:
+        self._tried = [*self._tried[: agreed.number - 1], tried]
+
+    def _shared(self) -> _Shared:
+        elapsed = self._watch.elapsed
+        return {
+            "rules": tuple(learned.rule for learned in self._learned),
+            "readings": tuple(
+                reading
+                for number, learned in enumerate(self._learned, 1)
+                for reading in _readings(number, learned.weighed, learned.names)
+            ),
+            "tried": tuple(self._tried),
+            "seconds": {"search": self._searching, "replay": elapsed - self._searching},
+            "stale": tuple(self._course.stale),
+        }
+
+
+def _readings(rule: int, weighed: Weighed, names: Sequence[str]) -> Iterator[Reading]:
+    for place, (term, belief) in enumerate(zip(weighed.terms, weighed.beliefs, strict=True)):
+        differs = tuple(names[k] for k in weighed.differing(place))
+        yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
+
+
+def _placed(rule: int, miss: NearMiss) -> Nearest:
+    return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)

@@ -1,0 +1,104 @@
+"""Every extractor up to some size that selects what was shown, one for each way of selecting on the batch."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator
+from dataclasses import dataclass
+from itertools import chain
+
+from meshforge.language import Extractor
+from meshforge.symbolic import mask_of
+from meshforge.synthesis.search.bank import Bank
+from meshforge.synthesis.search.completion import Goal, Opening, meeting, openings
+from meshforge.synthesis.search.order import Key
+from meshforge.synthesis.search.smallest import Search
+from meshforge.synthesis.search.term import Term
+from meshforge.synthesis.watch import OutOfTime
+
+
+@dataclass(frozen=True, slots=True)
+class Consistent:
+    """Terms that agree with all demonstrations, no two selecting the same on the whole field, in their order.
+
+    size: all of up to so many nodes are there; complete: whether that is as far as was asked for.
+    """
+
+    terms: tuple[Term, ...]
+    size: int
+    complete: bool
+
+
+class _Enough(Exception):  # noqa: N818 (not an error: the way out of an endless task)
+    """So many operands were looked at that the rest is left."""
+
+
+def every(search: Search, answer: Extractor, above: int) -> Consistent:
+    """All consistent terms over the field of a search, from those as small as its `answer` to `above` nodes more.
+
+    Sizes that take more than `options.effort` operands are left out, and those above them; so are all that the time
+    does not suffice for.
+    """
+    first, collector = search.field.term(answer), _Collector(search)
+    found = {first.bits: first}
+    for size in range(first.size, first.size + above + 1):
+        try:
+            found.update(collector.exactly(size, found))
+        except (_Enough, OutOfTime):
+            return Consistent(_sorted(found), size - 1, False)
+    return Consistent(_sorted(found), first.size + above, True)
+
+
+def _sorted(found: dict[int, Term]) -> tuple[Term, ...]:
+    return tuple(sorted(found.values(), key=lambda term: term.key))
+
+
+class _Collector:
+    """Puts consistent terms together: one operand from the bank, the other by the goal that is left for it."""
+
+    def __init__(self, search: Search) -> None:
+        shortcuts = search.options.shortcuts
+        self._need, self._shown = search.need, (1 << search.width) - 1
+        decisive = mask_of(search.decisive)
+        self._goal = Goal(search.need & decisive, decisive & ~search.need)
+        self._watch, self._left = search.watch, search.options.effort
+        self._stored = max(shortcuts.stored, 1)
+        self._bank = Bank(search.field.terms, search.field.width, search.watch)
+        self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
+
+    def exactly(self, size: int, known: Container[int]) -> dict[int, Term]:
+        """The consistent terms of that size which select something that no known one does, each the first to do so."""
+        leaves = [(leaf.bits, leaf.key, None, leaf) for leaf in self._bank.leaves(size)]
+        best: dict[int, tuple[Key, Opening | None, Term]] = {}
+        for bits, key, opening, term in chain(leaves, self._compounds(self._goal, size)):
+            if bits & self._shown == self._need and bits not in known and (bits not in best or key < best[bits][0]):
+                best[bits] = (key, opening, term)
+        return {bits: opening.closed(term) if opening else term for bits, (_, opening, term) in best.items()}
+
+    def _compounds(self, goal: Goal, size: int) -> Iterator[tuple[int, Key, Opening | None, Term]]:
+        """Every set operator of that size that meets a goal: what it selects, its place, and its operands."""
+        for small in range(1, (size - 1) // 2 + 1):
+            self._watch.check()
+            for opening in openings(self._bank.level(small), goal, helpful=False):
+                for other in self._operands(opening.rest, size - 1 - small):
+                    yield opening.bits(other.bits), opening.key(other.key), opening, other
+
+    def _operands(self, goal: Goal, size: int) -> Iterable[Term]:
+        """The terms of that size that meet a goal, one for each way of selecting."""
+        if size > self._stored:
+            if (goal, size) not in self._known:
+                self._known[goal, size] = self._made(goal, size)
+            found: Iterable[Term] = self._known[goal, size]
+        else:
+            found = meeting(self._bank.level(size), goal)
+        for term in found:
+            self._left -= 1
+            if self._left < 0:
+                raise _Enough
+            yield term
+
+    def _made(self, goal: Goal, size: int) -> tuple[Term, ...]:
+        best: dict[int, tuple[Key, Opening | None, Term]] = {}
+        for bits, key, opening, term in self._compounds(goal, size):
+            if bits not in best or key < best[bits][0]:
+                best[bits] = (key, opening, term)
+        return tuple(opening.closed(term) if opening else term for _, opening, term in best.values())

@@ -1,0 +1,75 @@
+"""The repairs of labels that a lesson comes to propose, joined over its rules."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+from meshforge.language import show
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.asking import Repair
+from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.demonstration import named
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.paper import Explained
+from meshforge.synthesis.repair import Labels, explain
+from meshforge.synthesis.search import Hit, Miss
+from meshforge.synthesis.task import Task
+from meshforge.synthesis.watch import Watch
+
+
+class Repairs:
+    """Collects corrections rule by rule; each counts once, however many rules need it.
+
+    meshes: all meshes by name, oriented, before the first rule.
+    """
+
+    def __init__(self, task: Task, meshes: Mapping[str, SymbolicMesh], watch: Watch) -> None:
+        self._task, self._meshes, self._watch = task, meshes, watch
+        self._found: dict[Correction, Repair] = {}
+
+    @property
+    def found(self) -> tuple[Repair, ...]:
+        return tuple(repair for _, repair in sorted(self._found.items()))
+
+    @property
+    def spent(self) -> Mapping[str, int]:
+        """How many corrections there are on each mesh."""
+        return Counter(correction.asset for correction in self._found)
+
+    def explaining(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
+        """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
+        task = self._task
+        explanation = task.options.repair and explain(
+            examples,
+            task.frame.labels,
+            self._labels,
+            task.options,
+            self._watch,
+            task.extremity,
+            found.extractor if isinstance(found, Hit) else None,
+            self.spent,
+            task.rejected,
+        )
+        if not explanation:
+            return ()
+        rows = zip(explanation.corrections, explanation.beliefs, explanation.whys, strict=True)
+        self._found.update({correction: Repair(correction, rule, belief, why) for correction, belief, why in rows})
+        return explanation.corrections
+
+    def inferred(self, rule: int, explained: Explained) -> tuple[Correction, ...]:
+        """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
+        why = f"with it, {show(explained.extractor)} selects what was shown"
+        self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
+        return explained.corrections
+
+    @cached_property
+    def _labels(self) -> Labels:
+        said = {answer.asset for answer in self._task.answers}
+        known = said.union(name for name, _ in named(self._task.demos))
+        return Labels(
+            {name: mesh for name, mesh in self._meshes.items() if name in known},
+            [mesh for name, mesh in self._meshes.items() if name not in known],
+            self._task.frame.labels,
+        )

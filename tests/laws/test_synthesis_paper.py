@@ -1,0 +1,189 @@
+"""The paper strategy finds the smallest, its bounds hold, and its repairs are the smallest there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, product
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.language import All, Attach, Base, Extractor, Geo, Is, labels_used, select_mask, size
+from meshforge.symbolic import Label, SymbolicMesh, bits
+from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.options import LAYERS, Layers, Options
+from meshforge.synthesis.paper import Explained, paper_search
+from meshforge.synthesis.paper.abduction import Abduction
+from meshforge.synthesis.paper.bounds import bounds, feasible
+from meshforge.synthesis.paper.demo import Demo
+from meshforge.synthesis.paper.partial import (
+    BaseHole,
+    Grammar,
+    Hole,
+    Open,
+    OpenAttach,
+    OpenGeo,
+    OpenJoint,
+    Partial,
+    attach,
+    join,
+    nodes,
+)
+from meshforge.synthesis.search import Hit, Miss, Search
+from meshforge.synthesis.watch import Watch
+from tests.strategies import extractors, grid_boxes, meshes
+
+LABELS = ("a", "b", "c")
+batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size=3)
+small_batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS, max_size=3), min_size=1, max_size=2)
+
+
+def examples_of(batch: Sequence[SymbolicMesh], selected: Sequence[int]) -> list[Example]:
+    assume(any(selected))
+    return [Example(f"mesh {k}", mesh, mask) for k, (mesh, mask) in enumerate(zip(batch, selected, strict=True))]
+
+
+def shown(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Example]:
+    return examples_of(batch, [select_mask(extractor, mesh) for mesh in batch])
+
+
+@settings(max_examples=60, deadline=None)
+@given(batches, extractors(LABELS, max_leaves=3), st.sampled_from(LAYERS))
+def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidden: Extractor, layers: Layers) -> None:
+    examples = shown(batch, hidden)
+    options = Options(layers=layers, repair=False, max_size=5)
+    answer = paper_search(examples, LABELS, Watch(600), options)
+    other = Search(examples, LABELS, Watch(600), options).run()
+    assert isinstance(answer, Hit | Miss) and isinstance(other, Hit | Miss)
+    assert isinstance(answer, Hit) == isinstance(other, Hit)
+    if isinstance(answer, Hit) and isinstance(other, Hit):
+        assert size(answer.extractor) == size(other.extractor)
+        assert [select_mask(answer.extractor, e.mesh) for e in examples] == [e.selection for e in examples]
+
+
+@st.composite
+def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
+    """The extractor with parts of it put out."""
+
+    def base(node: Base) -> Base | BaseHole:
+        return BaseHole() if draw(st.booleans()) else node
+
+    def part(node: Extractor) -> Partial:
+        if draw(st.integers(0, 3)) == 0:
+            return Hole()
+        match node:
+            case All() | Is():
+                return node
+            case Attach(selected, anchor):
+                return attach(base(selected), base(anchor))
+            case Geo(_, direction):
+                return OpenGeo(direction) if draw(st.booleans()) else node
+            case joint:
+                return join(type(joint), part(joint.left), part(joint.right))
+
+    return part(extractor)
+
+
+@settings(max_examples=300, deadline=None)
+@given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS), st.data())
+def test_a_completion_selects_within_the_bounds(mesh: SymbolicMesh, extractor: Extractor, data: st.DataObject) -> None:
+    partial = data.draw(with_holes(extractor))
+    low, high = bounds(partial, Demo(Example("mesh", mesh, 0)))
+    selection = select_mask(extractor, mesh)
+    assert not low & ~selection
+    assert not selection & ~high
+    if not isinstance(partial, Open):
+        assert low == high == selection
+
+
+def completes(extractor: Extractor, partial: Partial) -> bool:
+    match partial:
+        case Hole():
+            return True
+        case OpenGeo(direction):
+            return isinstance(extractor, Geo) and extractor.direction == direction
+        case OpenAttach(selected, anchor):
+            return isinstance(extractor, Attach) and all(
+                isinstance(base, BaseHole) or base == wanted
+                for base, wanted in ((selected, extractor.selected), (anchor, extractor.anchor))
+            )
+        case OpenJoint(joint, left, right):
+            if isinstance(extractor, All | Is | Attach | Geo) or not isinstance(extractor, joint):
+                return False
+            return completes(extractor.left, left) and completes(extractor.right, right)
+        case _:
+            return partial == extractor
+
+
+@settings(max_examples=100, deadline=None)
+@given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS))
+def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
+    mesh: SymbolicMesh, hidden: Extractor
+) -> None:
+    demo, grammar = Demo(Example("mesh", mesh, select_mask(hidden, mesh))), Grammar(LABELS, "S+T+G")
+    partial: Partial = Hole()
+    while isinstance(partial, Open):
+        assert feasible(partial, demo)
+        (following,) = [candidate for candidate in grammar.filled(partial) if completes(hidden, candidate)]
+        assert nodes(partial) <= nodes(following) <= size(hidden)
+        partial = following
+    assert partial == hidden
+
+
+def corrected(example: Example, corrections: Sequence[Correction]) -> Example:
+    example.mesh.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
+    labels = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == example.name}
+    return Example(example.name, example.mesh.labelled(labels), example.selection)
+
+
+def matches(extractor: Extractor, examples: Sequence[Example]) -> bool:
+    return all(select_mask(extractor, example.mesh) == example.selection for example in examples)
+
+
+def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -> Iterator[tuple[Correction, ...]]:
+    """All relabelings of at most eta suspects a mesh by labels relevant to the extractor, over all meshes at once."""
+    mentioned = labels_used(extractor)
+    labels = [hull.label for example in examples for hull in example.mesh.hulls]
+    outside = sorted((label for label in LABELS if label not in mentioned), key=lambda label: -labels.count(label))
+    relevant = (*mentioned, *outside[:1])
+    ways = []
+    for example in examples:
+        wrong = bits(select_mask(extractor, example.mesh) ^ example.selection)
+        suspects = [example.mesh.hulls[index] for index in sorted(wrong)]
+        one = [[Correction(example.name, h.name, h.label, to) for to in relevant if to != h.label] for h in suspects]
+        ways.append([way for k in range(eta + 1) for chosen in combinations(one, k) for way in product(*chosen)])
+    for parts in product(*ways):
+        yield tuple(correction for part in parts for correction in part)
+
+
+@settings(max_examples=150, deadline=None)
+@given(small_batches, extractors(LABELS, max_leaves=2), st.integers(0, 2**6 - 1), st.integers(0, 2))
+def test_a_repair_is_the_smallest_of_all_relabelings_of_suspects(
+    batch: list[SymbolicMesh], extractor: Extractor, selections: int, eta: int
+) -> None:
+    examples = examples_of(batch, [(selections >> 3 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
+    allowed = {example.name: eta for example in examples}
+    found = Abduction([Demo(example) for example in examples], LABELS, allowed, Watch(600)).infer(extractor)
+    sizes = [
+        len(repair)
+        for repair in naive_repairs(extractor, examples, eta)
+        if matches(extractor, [corrected(example, repair) for example in examples])
+    ]
+    assert (None if found is None else len(found)) == min(sizes, default=None)
+    if found is not None:
+        assert matches(extractor, [corrected(example, found) for example in examples])
+
+
+@settings(max_examples=40, deadline=None)
+@given(batches, st.integers(0, 2**24 - 1), st.integers(0, 2))
+def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
+    batch: list[SymbolicMesh], selections: int, eta: int
+) -> None:
+    examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
+    answer = paper_search(examples, LABELS, Watch(600), Options(max_size=3, eta=eta))
+    assume(isinstance(answer, Explained))
+    assert isinstance(answer, Explained)
+    assert matches(answer.extractor, [corrected(example, answer.corrections) for example in examples])
+    for example in examples:
+        assert sum(correction.asset == example.name for correction in answer.corrections) <= eta

@@ -1,0 +1,123 @@
+"""The search of the paper strategy: order, counts, layers, limits and the nearest miss."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count
+
+import pytest
+
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask, size
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.options import Layers, Options
+from meshforge.synthesis.paper import Explained, paper_search
+from meshforge.synthesis.paper.partial import Grammar, Hole, Open
+from meshforge.synthesis.paper.worklist import Worklist
+from meshforge.synthesis.search import Answer, Hit, Miss, Unfinished
+from meshforge.synthesis.search.miss import NearMiss
+from meshforge.synthesis.watch import Watch
+from tests.synthesis_boxes import table
+
+LABELS = ("panel", "leg", "drawer", "handle", "misc")
+EXACT = Options(repair=False)
+CONTACT = Options(repair=False, layers="S+T", max_size=3)
+TABLES = (table(), table(drawers=3, litter=2), table(legs=5, knob=0.9))
+
+
+def masked(mesh: SymbolicMesh, *names: str) -> int:
+    return sum(1 << mesh.index[name] for name in names)
+
+
+def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
+    return [Example(f"table {k}", mesh, select_mask(extractor, mesh)) for k, mesh in enumerate(meshes)]
+
+
+def run(examples: list[Example], options: Options = EXACT) -> Answer | Explained:
+    return paper_search(examples, LABELS, Watch(60), options)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "layers"),
+    [
+        (All(), "S"),
+        (Is("leg"), "S"),
+        (Geo(Is("panel"), "+Z"), "S+G"),
+        (Attach(Is("handle"), Is("drawer")), "S+T"),
+        (Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), "S+T+G"),
+    ],
+)
+def test_it_finds_what_was_shown_on_all_tables(wanted: Extractor, layers: Layers) -> None:
+    answer = run(shown(wanted, *TABLES), replace(EXACT, layers=layers))
+    assert isinstance(answer, Hit)
+    assert answer.extractor == wanted
+    assert answer.tried.size == size(wanted) - 1
+
+
+def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_then_sets() -> None:
+    first: list[Extractor] = []
+    worklist, grammar = Worklist(3), Grammar(("a",), "S+T+G")
+    worklist.put(Hole())
+    while popped := worklist.pop():
+        partial = popped[1]
+        if isinstance(partial, Open):
+            for candidate in grammar.filled(partial):
+                worklist.put(candidate)
+        else:
+            first.append(partial)
+    assert first[:4] == [Is("a"), All(), Geo(Is("a"), "+X"), Geo(All(), "+X")]
+    assert [type(extractor) for extractor in first[14:]] == [Attach] * 4 + [Union] * 4 + [Intersect] * 4 + [Diff] * 4
+    assert first[18:20] == [Union(Is("a"), Is("a")), Union(Is("a"), All())]
+
+
+@pytest.mark.parametrize(("layers", "barred"), [("S", {Attach, Geo}), ("S+T", {Geo}), ("S+G", {Attach})])
+def test_a_layer_left_out_is_not_used(layers: Layers, barred: set[type]) -> None:
+    def parts(extractor: Extractor) -> set[type]:
+        inner = (extractor.left, extractor.right) if isinstance(extractor, Union | Intersect | Diff) else ()
+        return {type(extractor)}.union(*map(parts, inner))
+
+    seen: set[type] = set()
+    worklist, grammar = Worklist(5), Grammar(("a",), layers)
+    worklist.put(Hole())
+    while popped := worklist.pop():
+        partial = popped[1]
+        if isinstance(partial, Open):
+            for candidate in grammar.filled(partial):
+                worklist.put(candidate)
+        else:
+            seen |= parts(partial)
+    assert seen == {All, Is, Attach, Geo, Union, Intersect, Diff} - barred
+
+
+def test_without_the_contact_layer_what_needs_contact_is_missed() -> None:
+    examples = shown(Attach(Is("handle"), Is("drawer")), *TABLES)
+    assert isinstance(run(examples, CONTACT), Hit)
+    assert isinstance(run(examples, replace(CONTACT, layers="S")), Miss)
+
+
+def test_what_nothing_selects_is_a_miss_with_the_nearest() -> None:
+    mesh = table()
+    answer = run([Example("table", mesh, masked(mesh, "handle0", "leg0_low"))], CONTACT)
+    assert isinstance(answer, Miss)
+    assert answer.why == "no extractor of up to 3 nodes matches"
+    assert answer.nearest == NearMiss(Is("handle"), "table", extra=("knob",), missing=("leg0_low",))
+    assert answer.tried.size == 3
+
+
+def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
+    ticks = count()
+    watch = Watch(30, clock=lambda: next(ticks))
+    mesh = table()
+    example = Example("table", mesh, select_mask(Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), mesh))
+    answer = paper_search([example], LABELS, watch, EXACT)
+    assert isinstance(answer, Unfinished)
+    assert answer.nearest is not None
+    assert answer.nearest.extractor == Is("drawer")
+    assert answer.nearest.extra == ("drawer0_bottom",)
+    assert answer.tried.selections + answer.tried.goals < 31
+
+
+def test_when_there_is_no_time_at_all_there_is_no_nearest() -> None:
+    answer = paper_search(shown(Is("leg"), table()), LABELS, Watch(0), EXACT)
+    assert isinstance(answer, Unfinished)
+    assert answer.nearest is None

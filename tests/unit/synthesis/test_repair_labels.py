@@ -1,0 +1,82 @@
+"""How believable labels are, by their source, their confidence and the hulls that are like theirs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from meshforge.geometry import Aabb, Box
+from meshforge.symbolic import Hull, Label, Source, SymbolicMesh
+from meshforge.synthesis.repair import Labels
+from tests.synthesis_boxes import boxes, table
+
+VOCABULARY = ("drawer", "handle", "leg", "misc", "panel")
+
+
+def said(name: str, label: Label | None) -> SymbolicMesh:
+    """A table whose labels come from a model, one hull's label given."""
+    mesh = table()
+    labels: dict[str, Label | None] = {hull.name: Label(hull.label or "", 0.9, "vlm") for hull in mesh.hulls}
+    return mesh.labelled({**labels, name: label})
+
+
+def cost(label: Label | None, to: str, name: str = "leg0_low") -> float:
+    mesh = said(name, label)
+    return Labels({"table": mesh}, [table(), table(legs=3)], VOCABULARY).cost("table", mesh.named(name), to)
+
+
+def test_a_label_that_similar_hulls_have_costs_less() -> None:
+    assert cost(Label("drawer", 0.8, "vlm"), "leg") < cost(Label("drawer", 0.8, "vlm"), "panel")
+    assert cost(Label("drawer", 0.8, "vlm"), "leg") < cost(Label("leg", 0.8, "vlm"), "drawer")
+
+
+def test_a_surer_label_costs_more() -> None:
+    costs = [cost(Label("drawer", sure, "vlm"), "leg") for sure in (0.5, 0.7, 0.9)]
+    assert costs == sorted(costs)
+    assert costs[0] < costs[-1]
+
+
+@pytest.mark.parametrize("source", ["vlm", "propagated", "name", "file"])
+def test_a_persons_label_costs_most(source: Source) -> None:
+    assert cost(Label("drawer", 1.0, "user"), "leg") > cost(Label("drawer", 1.0, source), "leg") + 2
+    assert cost(Label("drawer", 1.0, "repair"), "leg") == cost(Label("drawer", 1.0, "user"), "leg")
+
+
+def test_a_missing_label_is_filled_in_by_what_similar_hulls_have() -> None:
+    assert 0 < cost(None, "leg") < cost(None, "panel")
+
+
+def test_every_correction_costs_something() -> None:
+    assert cost(Label("drawer", 0.0, "vlm"), "leg") > 0
+
+
+def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
+    mesh = table()
+    labels, hull = Labels({"table": mesh}, [], VOCABULARY), mesh.hulls[0]
+    made = Hull("leg0_low~1", "body", Box.filling(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low")
+    assert labels.cost("table", hull, "leg") < math.inf
+    assert labels.cost("table", made, "panel") == math.inf
+    assert labels.cost("table", hull.labelled(Label("leg")), "panel") == math.inf
+    assert labels.cost("table", hull, "unheard of") == math.inf
+    assert labels.cost("another", hull, "leg") == math.inf
+
+
+def test_a_demonstrated_mesh_in_the_batch_is_not_asked_about_itself() -> None:
+    mesh = table()
+    alone, twice = Labels({"table": mesh}, [], VOCABULARY), Labels({"table": mesh}, [mesh], VOCABULARY)
+    for hull in mesh.hulls:
+        assert alone.cost("table", hull, "misc") == twice.cost("table", hull, "misc")
+
+
+def test_a_label_outside_the_vocabulary_and_meshes_without_labels_do_no_harm() -> None:
+    bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "other", (1, 0, 0), (1, 1, 1)))
+    labels = Labels({"bare": bare}, [replace(bare), boxes()], VOCABULARY)
+    for hull in bare.hulls:
+        assert 0 < labels.cost("bare", hull, "leg") < math.inf
+
+
+def test_no_meshes_and_no_labels_are_no_trouble() -> None:
+    assert Labels({}, [], ()).cost("table", table().hulls[0], "leg") == math.inf
+    assert Labels({"none": boxes()}, [], VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf
