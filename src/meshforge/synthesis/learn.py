@@ -34,6 +34,7 @@ def synthesize(
     confirm: Callable[[Repair], bool] | None = None,
     answers: Sequence[Answer] = (),
     rejected: Iterable[Correction] = (),
+    follow: Program | None = None,
     clock: Clock = time.monotonic,
     stop: Callable[[], bool] | None = None,
 ) -> Outcome:
@@ -43,6 +44,7 @@ def synthesize(
     all on the meshes. templates: by the paths that actions name; contact, extremity: thresholds the program is to set.
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
     answers: what a person said to earlier questions; rejected: corrections of labels that a person refused.
+    follow: a program somebody had in mind; the outcome tells what became of each of its rules.
     stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
     where the orientation fails on one of them.
@@ -67,6 +69,7 @@ def synthesize(
             tuple(answers),
             asked.rejected,
             options,
+            follow,
         )
         outcome = Lesson(task, watch, asked.about if confirm else None).outcome()
         if not confirm or not isinstance(outcome, NeedsRepair):

@@ -15,6 +15,7 @@ from meshforge.synthesis.batch import Course
 from meshforge.synthesis.correction import Correction
 from meshforge.synthesis.example import Example
 from meshforge.synthesis.failure import advice
+from meshforge.synthesis.follow import followed, unfollowed
 from meshforge.synthesis.frames import Suggested, suggest_orientation
 from meshforge.synthesis.guidance import hint, question, reading_id
 from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, NoProgram, Outcome, Reading, TimedOut
@@ -43,6 +44,7 @@ class _Shared(TypedDict):
     tried: tuple[Tried, ...]
     seconds: Mapping[str, float]
     stale: tuple[Answer, ...]
+    followed: tuple[str, ...]
 
 
 class Lesson:
@@ -55,6 +57,7 @@ class Lesson:
         self._tried: list[Tried] = []
         self._question: Question | None = None
         self._searching = 0.0
+        self._followed = list(unfollowed(task, task.follow)) if task.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._course.shown, *self._course.others]}
         self._repairs = Repairs(task, meshes, watch)
 
@@ -74,6 +77,8 @@ class Lesson:
             start = self._watch.elapsed
             found = self._answer(agreed, examples, [replay.mesh for replay in rest])
             self._searching += self._watch.elapsed - start
+            if not isinstance(found, tuple):
+                self._follow(agreed, found if isinstance(found, Weighed) else None, names, examples)
             match found:
                 case Weighed():
                     self._take(agreed, found, names)
@@ -131,6 +136,14 @@ class Lesson:
             return found
         search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity)
         return Weighed.alone(search, found.extractor)
+
+    def _follow(
+        self, agreed: Agreed, weighed: Weighed | None, names: Sequence[str], examples: Sequence[Example]
+    ) -> None:
+        wanted = self._task.follow
+        if wanted and agreed.number <= len(wanted.rules):
+            extractor = wanted.rules[agreed.number - 1].extractor
+            self._followed.append(followed(agreed, extractor, weighed, names, examples, self._task))
 
     def _take(self, agreed: Agreed, weighed: Weighed, names: tuple[str, ...]) -> None:
         rule = Rule(weighed.extractor, agreed.action, agreed.label)
@@ -200,6 +213,7 @@ class Lesson:
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": elapsed - self._searching},
             "stale": tuple(self._course.stale),
+            "followed": tuple(self._followed),
         }
 
 

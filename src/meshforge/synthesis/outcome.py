@@ -53,7 +53,8 @@ class _Outcome:
     rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
-    their asset or hulls are gone; hint: what to demonstrate next.
+    their asset or hulls are gone; hint: what to demonstrate next. followed: what became of a program that was to be
+    followed, a sentence each.
     """
 
     rules: tuple[Rule, ...]
@@ -63,6 +64,7 @@ class _Outcome:
     settled: bool = False
     stale: tuple[Answer, ...] = ()
     hint: Hint | None = None
+    followed: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     question: Question | None = None
     nearest: Nearest | None = None

@@ -18,7 +18,8 @@ from meshforge.synthesis.options import Options
 class Task:
     """Demonstrations, the batch they stand for, and what a person said since.
 
-    frame: the program without its rules; rejected: corrections of labels that a person refused.
+    frame: the program without its rules; rejected: corrections of labels that a person refused;
+    follow: a program of which is to be told why it is not what was learned.
     """
 
     rules: tuple[Agreed, ...]
@@ -29,6 +30,7 @@ class Task:
     answers: tuple[Answer, ...]
     rejected: frozenset[Correction]
     options: Options
+    follow: Program | None = None
 
     @property
     def extremity(self) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.fit.descend import descend
+from meshforge.geometry.fit.remember import remembered
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Box, Polytope
 
@@ -17,6 +18,7 @@ _STARTS = 24
 _SAME = 1e-6  # a box that is smaller by less than this share is no better than an upright one
 
 
+@remembered
 def tight_box(points: Floats, *, name: str = "points", thicken: float | None = None) -> Box:
     """The smallest box around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 

@@ -10,6 +10,7 @@ from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.fit.circle import smallest_circle
 from meshforge.geometry.fit.descend import descend
+from meshforge.geometry.fit.remember import remembered
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shapes import Capsule, Cylinder, Polytope, Sphere
 
@@ -17,6 +18,7 @@ _STARTS = 24
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges
 
 
+@remembered
 def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | None = None) -> Cylinder:
     """The smallest cylinder around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 
@@ -33,6 +35,7 @@ def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | Non
     return Cylinder(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
 
 
+@remembered
 def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None = None) -> Capsule | Sphere:
     """The smallest capsule around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 

@@ -1,6 +1,10 @@
 """What believing things costs, in nats, in one place: a program of some size, a label that is wrong.
 
-Measured with `python -m benchmark.learning.repairs`, see there.
+Tuned on seeds 0 to 4 of `python -m benchmark.learning.repairs`; on seeds 100 to 104 (435 rules a setting, two
+demonstrations, a family of 20 to 30 meshes with 8% wrong labels), with one / two errors a demonstrated mesh: 97% / 99%
+of the proposals right and 98% / 93% of the harmed programs recovered where confidences tell something, 98% / 97% and
+91% / 84% where all are 1; without errors 1 proposal in 870 rules. Without a batch around the demonstrations some 90% of
+the proposals are right.
 """
 
 from __future__ import annotations
