@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from itertools import product
 
 from meshforge.language import DIRECTIONS, All, Attach, Base, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.example import Example
 from meshforge.synthesis.search.order import order
 
@@ -47,3 +48,31 @@ def _compounds(sizes: list[Sized], size: int) -> Sized:
         for (x, a), (y, b) in product(sizes[small], sizes[size - 1 - small]):
             made += [(Union(x, y), a | b), (Intersect(x, y), a & b), (Diff(x, y), a & ~b)]
     return made
+
+
+def naive_behaviours(
+    batch: Sequence[SymbolicMesh], selections: Sequence[int], vocabulary: Sequence[str], max_size: int
+) -> dict[tuple[int, ...], int]:
+    """What each extractor of up to that size that agrees with the selections on the first meshes selects on all.
+
+    With the size of the smallest extractor that does so. Of extractors that select the same on all meshes only one
+    is built upon, so that it ends.
+    """
+    examples = [Example(str(k), mesh, 0) for k, mesh in enumerate(batch)]
+    shown = sum(selection << _ROOM * k for k, selection in enumerate(selections))
+    part = (1 << _ROOM * len(selections)) - 1
+    sizes: list[Sized] = [[]]
+    known: dict[int, int] = {}
+    for size in range(1, max_size + 1):
+        fresh: dict[int, Extractor] = {}
+        for extractor, selection in _leaves(examples, vocabulary, size) + _compounds(sizes, size):
+            if selection not in known:
+                fresh.setdefault(selection, extractor)
+        known.update(dict.fromkeys(fresh, size))
+        sizes.append([(extractor, selection) for selection, extractor in fresh.items()])
+    room = (1 << _ROOM) - 1
+    return {
+        tuple(selection >> _ROOM * k & room for k in range(len(batch))): size
+        for selection, size in known.items()
+        if selection & part == shown
+    }

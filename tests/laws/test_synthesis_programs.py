@@ -81,19 +81,38 @@ def possible_cuts(demos: list[Demonstration], short: int) -> list[int]:
     return [cut for cut in range(count + 1) if all(elsewhere[cut:])]
 
 
+_OUTCOMES = """
+import json
+from benchmark.learning.families import VOCABULARIES, family
+from meshforge.language import Delete, Program, select
+from meshforge.symbolic import Label
+from meshforge.synthesis import Demonstration, Step, outcome_json, synthesize
+from tests.unit.synthesis.test_running_example import learned
+
+def ambiguous(mislabelled):
+    meshes = {str(k): mesh for k, mesh in enumerate(family("table", 12, seed=1))}
+    (rule,) = Program.parse("Attach(Is(handle), Is(drawer)) => Delete").rules
+    chosen = {name: select(rule.extractor, mesh) for name, mesh in meshes.items()}
+    name = next(name for name in meshes if chosen[name])
+    mesh = meshes[name]
+    shown = {mesh.hulls[k].name for k in chosen[name]}
+    if mislabelled:
+        mesh = mesh.labelled({min(shown): Label("leg", 0.5, "vlm")})
+    demo = Demonstration(mesh, [Step(1, shown, Delete())], name)
+    return synthesize([demo], {**meshes, name: mesh}, vocabulary=VOCABULARIES["table"])
+
+for outcome in (learned(), ambiguous(False), ambiguous(True)):
+    out = outcome_json(outcome)
+    del out["seconds"]
+    print(json.dumps(out))
+"""
+
+
 def test_the_outcome_does_not_depend_on_the_hash_seed() -> None:
     root = Path(__file__).parents[2]
-    program = """
-import json
-from meshforge.synthesis import outcome_json
-from tests.unit.synthesis.test_running_example import learned
-out = outcome_json(learned())
-del out["seconds"]
-print(json.dumps(out))
-"""
     printed = [
         subprocess.run(
-            [sys.executable, "-c", program],
+            [sys.executable, "-c", _OUTCOMES],
             cwd=root,
             env={**os.environ, "PYTHONHASHSEED": str(seed)},
             capture_output=True,
@@ -102,5 +121,5 @@ print(json.dumps(out))
         ).stdout
         for seed in (1, 2)
     ]
-    assert json.loads(printed[0])["status"] == "found"
+    assert [json.loads(line)["status"] for line in printed[0].splitlines()] == ["found", "ambiguous", "repair"]
     assert printed[0] == printed[1]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from meshforge.formats import labels_beside
 
 if TYPE_CHECKING:
+    from meshforge.project.accepting import Standing
     from meshforge.project.status import AssetStatus
 
 
@@ -28,7 +29,7 @@ def advice(
     assets: Sequence[AssetStatus],
     vocabulary: Sequence[str],
     rules: int | None,
-    outdated: bool,
+    stands: Standing,
     problem: str | None,
 ) -> Advice:
     """The first thing that is missing on the way from assets to edited assets; paths: of the assets by id."""
@@ -38,7 +39,8 @@ def advice(
         _hulls(folder, assets)
         or _labels(folder, paths, assets, vocabulary, rules)
         or _demonstrations(folder, paths, assets, rules)
-        or _program(folder, rules, outdated)
+        or _program(folder, rules, stands.outdated)
+        or _question(folder, assets, stands.question)
         or _output(folder, assets)
         or _review(folder, assets)
     )
@@ -94,8 +96,21 @@ def _program(folder: Path, rules: int | None, outdated: bool) -> Advice | None:
     return None
 
 
+def _question(folder: Path, assets: Sequence[AssetStatus], question: str | None) -> Advice | None:
+    """Nobody is asked who has applied the program as it is."""
+    if not question or not _behind(assets):
+        return None
+    rule, _, asset = question.partition(":")
+    say = f"It is open what rule {rule} does on {asset}: answer the question, or apply the program as it is."
+    return Advice(say, f"meshforge synthesize {_word(folder)}")
+
+
+def _behind(assets: Sequence[AssetStatus]) -> list[AssetStatus]:
+    return [asset for asset in assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
+
+
 def _output(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
-    behind = [asset for asset in assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
+    behind = _behind(assets)
     if behind:
         return Advice(f"Apply the program: {_these(behind)} not up to date.", f"meshforge apply {_word(folder)}")
     failed = [asset for asset in assets if asset.output == "failed"]

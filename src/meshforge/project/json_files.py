@@ -35,7 +35,7 @@ def read_json(path: Path, model: type[Model]) -> Model | None:
 
 def write_json(path: Path, content: BaseModel) -> None:
     """Write a JSON file, readable and fit for git."""
-    write_atomically(path, content.model_dump_json(indent=2) + "\n")
+    write_atomically(path, content.model_dump_json(indent=2, by_alias=True) + "\n")
 
 
 def invalid(path: Path, error: ValidationError) -> ProjectError:

@@ -38,6 +38,16 @@ class Layout:
         return self.folder / "program.mf"
 
     @property
+    def answers(self) -> Path:
+        """What a person said while the program was learned."""
+        return self.folder / "answers.json"
+
+    @property
+    def questions(self) -> Path:
+        """Pictures of the question that is being asked."""
+        return self.folder / STATE / "questions"
+
+    @property
     def learned(self) -> Path:
         """What the program was learned from."""
         return self.folder / STATE / "learned.json"

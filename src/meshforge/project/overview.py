@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
+from meshforge.project.accepting import Standing, standing
 from meshforge.project.advice import advice
 from meshforge.project.applying import jobs, task
 from meshforge.project.demonstrating import astray
-from meshforge.project.learning import is_outdated
 from meshforge.project.reviewing import Review, output_digest
 from meshforge.project.status import AssetStatus, State, Status
 from meshforge.project.survey import Facts, survey
@@ -27,10 +27,20 @@ def status(project: Project, workers: int | None, progress: Callable[[], None] |
     facts = survey(project.found, project.layout, workers=workers, progress=progress)
     program, what, problem = _program(project, work)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    outdated = program is not None and is_outdated(project, program)
+    stands = standing(project, program) if program else Standing()
     rules = len(program.rules) if program else None
-    advised = advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, outdated, problem)
-    return Status(settings.name, assets, settings.vocabulary, rules, outdated, problem, _lost(project), advised)
+    advised = advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, stands, problem)
+    return Status(
+        settings.name,
+        assets,
+        settings.vocabulary,
+        rules,
+        stands.outdated,
+        problem,
+        _lost(project),
+        advised,
+        stands.question,
+    )
 
 
 def _program(project: Project, work: tuple[AssetJob, ...]) -> tuple[Program | None, Task | None, str | None]:

@@ -15,16 +15,20 @@ from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
 from meshforge.preparation import Preparation, cut_hull, read_preparation, read_prepared
 from meshforge.project import (
+    accepting,
+    answering,
     applying,
     correcting,
     decomposing,
     demonstrating,
     labelling,
     learning,
+    meeting,
     overview,
     preparing,
     reviewing,
 )
+from meshforge.project.answers_file import AnswersFile
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
 from meshforge.project.preparing import Prepared
@@ -40,7 +44,7 @@ from meshforge.project.settings import (
 )
 from meshforge.project.status import Status
 from meshforge.symbolic import Label, LabelFile, Source, SymbolicMesh, follow_labels, read_labels
-from meshforge.synthesis import Demonstration, Options, Step
+from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
 from meshforge.synthesis import Outcome as Lesson
 
 
@@ -287,11 +291,70 @@ class Project:
 
     def accept(self, program: Program) -> None:
         """Make it the project's program."""
-        learning.accept(self, program)
+        accepting.accept(self, program)
 
-    def synthesize(self, *, accept: bool = True, options: Options | None = None) -> Lesson:
-        """Learn the program from the demonstrations; accept: what is found becomes the project's program."""
-        return learning.learn(self, accept, options)
+    def synthesize(
+        self,
+        *,
+        accept: bool = True,
+        options: Options | None = None,
+        confirm: Callable[[Repair], bool] | None = None,
+        stop: Callable[[], bool] | None = None,
+        answers: Sequence[Answer] = (),
+        meshes: Mapping[str, SymbolicMesh] | None = None,
+    ) -> Lesson:
+        """Learn the program from the demonstrations and from what a person said since.
+
+        accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
+        confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
+        meshes: the assets by id, where they are in memory already (`Family`); else they are read.
+        """
+        how = learning.Lessons(
+            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes
+        )
+        return learning.learn(self, how)
+
+    def met(
+        self, asset: str, rule: int, program: Program, meshes: Mapping[str, SymbolicMesh] | None = None
+    ) -> SymbolicMesh:
+        """An asset as a rule of a program meets it: turned, and edited by the rules before."""
+        return meeting.met(self, asset, rule, program, meshes)
+
+    # What a person said while it was learned
+
+    def answers(self) -> AnswersFile:
+        """All answers to questions, and all repairs of labels that were confirmed or refused."""
+        return answering.answers(self)
+
+    def answer(self, question: Question, choice: int | None) -> str:
+        """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`."""
+        return self.add_answer(question.answered(choice))
+
+    def add_answer(self, answer: Answer) -> str:
+        """The same for any selection, whether it was asked for or not. Raises ProjectError: no such asset or rule."""
+        return answering.answer(self, answer)
+
+    def confirm(self, repair: Repair) -> str:
+        """Repair a label as proposed; give the repair's id `ASSET#HULL=LABEL`.
+
+        Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
+        """
+        return answering.confirm(self, repair.correction)
+
+    def reject(self, repair: Repair) -> str:
+        """Refuse a repair, so that it is not proposed again; give its id."""
+        return answering.reject(self, repair.correction)
+
+    def take_back(self, said: str) -> str | None:
+        """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
+
+        Gives a sentence where that label was changed since, and is left alone. Raises ProjectError for an unknown id.
+        """
+        return answering.take_back(self, said)
+
+    def forget_answers(self) -> tuple[str, ...]:
+        """Take back everything; gives the sentences about labels that are left alone."""
+        return answering.forget(self)
 
     def apply(
         self,

@@ -48,6 +48,7 @@ class Status:
     demonstrations, labels or settings than there are now. problem: why the program cannot be applied at all.
 
     lost: ids that have labels, demonstrations or corrections, but no asset.
+    question: the id of the one that was open when the program was learned.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Status:
     problem: str | None
     lost: tuple[str, ...]
     next: Advice
+    question: str | None = None
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
         """How many assets a condition holds for."""
@@ -70,6 +72,7 @@ class Status:
             "vocabulary": list(self.vocabulary),
             "rules": self.rules,
             "outdated": self.outdated,
+            "question": self.question,
             "problem": self.problem,
             "assets": [_asset_json(asset) for asset in self.assets],
             "lost": list(self.lost),

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain
 
 from meshforge.language import Extractor
 from meshforge.symbolic import mask_of
 from meshforge.synthesis.search.bank import Bank
-from meshforge.synthesis.search.completion import Goal, Opening, meeting, openings
+from meshforge.synthesis.search.completion import Goal, Opening, meeting, meets, openings
 from meshforge.synthesis.search.order import Key
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.term import Term
@@ -26,6 +25,10 @@ class Consistent:
     terms: tuple[Term, ...]
     size: int
     complete: bool
+
+
+Draft = tuple[int, Key, Opening | None, Term]
+"""What a term selects, its place in the order, and the term; or a set operator over it, still to be put together."""
 
 
 class _Enough(Exception):  # noqa: N818 (not an error: the way out of an endless task)
@@ -67,15 +70,14 @@ class _Collector:
 
     def exactly(self, size: int, known: Container[int]) -> dict[int, Term]:
         """The consistent terms of that size which select something that no known one does, each the first to do so."""
-        leaves = [(leaf.bits, leaf.key, None, leaf) for leaf in self._bank.leaves(size)]
-        best: dict[int, tuple[Key, Opening | None, Term]] = {}
-        for bits, key, opening, term in chain(leaves, self._compounds(self._goal, size)):
-            if bits & self._shown == self._need and bits not in known and (bits not in best or key < best[bits][0]):
-                best[bits] = (key, opening, term)
-        return {bits: opening.closed(term) if opening else term for bits, (_, opening, term) in best.items()}
+        drafts = (d for d in self._drafts(self._goal, size) if d[0] & self._shown == self._need and d[0] not in known)
+        return {term.bits: term for term in _firsts(drafts)}
 
-    def _compounds(self, goal: Goal, size: int) -> Iterator[tuple[int, Key, Opening | None, Term]]:
-        """Every set operator of that size that meets a goal: what it selects, its place, and its operands."""
+    def _drafts(self, goal: Goal, size: int) -> Iterator[Draft]:
+        """Everything of that size that meets a goal."""
+        for leaf in self._bank.leaves(size):
+            if meets(leaf.bits, goal):
+                yield leaf.bits, leaf.key, None, leaf
         for small in range(1, (size - 1) // 2 + 1):
             self._watch.check()
             for opening in openings(self._bank.level(small), goal, helpful=False):
@@ -86,7 +88,7 @@ class _Collector:
         """The terms of that size that meet a goal, one for each way of selecting."""
         if size > self._stored:
             if (goal, size) not in self._known:
-                self._known[goal, size] = self._made(goal, size)
+                self._known[goal, size] = _firsts(self._drafts(goal, size))
             found: Iterable[Term] = self._known[goal, size]
         else:
             found = meeting(self._bank.level(size), goal)
@@ -96,9 +98,11 @@ class _Collector:
                 raise _Enough
             yield term
 
-    def _made(self, goal: Goal, size: int) -> tuple[Term, ...]:
-        best: dict[int, tuple[Key, Opening | None, Term]] = {}
-        for bits, key, opening, term in self._compounds(goal, size):
-            if bits not in best or key < best[bits][0]:
-                best[bits] = (key, opening, term)
-        return tuple(opening.closed(term) if opening else term for _, opening, term in best.values())
+
+def _firsts(drafts: Iterable[Draft]) -> tuple[Term, ...]:
+    """One term for each way of selecting, the first in the order."""
+    best: dict[int, tuple[Key, Opening | None, Term]] = {}
+    for bits, key, opening, term in drafts:
+        if bits not in best or key < best[bits][0]:
+            best[bits] = (key, opening, term)
+    return tuple(opening.closed(term) if opening else term for _, opening, term in best.values())

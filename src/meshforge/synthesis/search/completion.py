@@ -69,7 +69,7 @@ class Completion:
         """The first term of that size that meets the goal. Raises OutOfTime."""
         if not self._shortcuts.complete:
             return _first_in(self._bank.level(size), goal)
-        leaves = [leaf for leaf in self._bank.leaves(size) if _meets(leaf.bits, goal)]
+        leaves = [leaf for leaf in self._bank.leaves(size) if meets(leaf.bits, goal)]
         return first([*leaves, *self._compounds(goal, size)])
 
     def _operand(self, goal: Goal, size: int) -> Term | None:
@@ -90,7 +90,8 @@ class Completion:
                     yield opening.closed(other)
 
 
-def _meets(bits: int, goal: Goal) -> bool:
+def meets(bits: int, goal: Goal) -> bool:
+    """Whether a selection meets a goal."""
     return bits & goal.need == goal.need and not bits & goal.avoid
 
 

@@ -1,0 +1,153 @@
+"""What a person says while a program is learned: answers to questions, and repairs of labels, confirmed or refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from meshforge.errors import MeshForgeError, ProjectError, nearest
+from meshforge.language import Each
+from meshforge.project import labelling
+from meshforge.project.answers_file import (
+    AnswerLine,
+    AnswersFile,
+    ConfirmedLine,
+    LabelBefore,
+    RepairLine,
+    repair_id,
+)
+from meshforge.project.json_files import read_json, write_json
+from meshforge.project.steps import action_text
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Answer, Correction, Step
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+def answers(project: Project) -> AnswersFile:
+    """Everything that was said."""
+    return read_json(project.layout.answers, AnswersFile) or AnswersFile()
+
+
+def answer(project: Project, given: Answer) -> str:
+    """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `checked` does."""
+    line = checked(project, given)
+    with project.lock():
+        _write(project, answers(project).adding(line))
+    return line.id
+
+
+def checked(project: Project, given: Answer) -> AnswerLine:
+    """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
+    project.path(given.asset)
+    demonstrated = (asset for asset in project.assets() if project.layout.demonstration(asset).exists())
+    actions = actions_of(map(project.steps, demonstrated))
+    if given.rule not in actions:
+        shown = f"only rules 1 to {max(actions)} are" if actions else "nothing is"
+        raise ProjectError(f"there is no rule {given.rule} to answer for: {shown} demonstrated", where=given.asset)
+    select = None if given.select is None else tuple(sorted(given.select))
+    identity = f"{given.rule}:{given.asset}"
+    return AnswerLine(id=identity, rule=given.rule, asset=given.asset, select=select, action=actions[given.rule])
+
+
+def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
+    """What each rule does, as the first demonstration that shows it says, without `Each`."""
+    found: dict[int, str] = {}
+    for step in (step for steps in demonstrations for step in steps if step.shown):
+        action = step.action.action if isinstance(step.action, Each) else step.action
+        found.setdefault(step.rule, action_text(action, step.label))
+    return dict(sorted(found.items()))
+
+
+def confirm(project: Project, right: Correction) -> str:
+    """Repair a label as a person confirmed it, remembering what was there before; give the id of the repair.
+
+    Raises ProjectError where there is no such asset, hull or label, or where the hull has got another label since.
+    """
+    with project.lock():
+        mesh = project.mesh(right.asset)
+        mended, problem = _mended(project, mesh, right)
+        if problem:
+            raise ProjectError(problem, where=right.asset, remedy="Learn again: meshforge synthesize.")
+        said, identity = answers(project), repair_id(right)
+        known = [line.before for line in said.confirmed if line.id == identity]
+        current = mesh.named(right.hull).annotation
+        before = known[0] if known and current == _given(right) else LabelBefore.of(current)
+        line = ConfirmedLine(id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before)
+        # the record first: killed in between, the repair is merely proposed again
+        _write(project, said.adding(line))
+        labelling.write_merged(project, right.asset, mended)
+    return identity
+
+
+def reject(project: Project, wrong: Correction) -> str:
+    """Remember that a repair was refused, so that it is not proposed again; give its id."""
+    project.path(wrong.asset)
+    identity = repair_id(wrong)
+    line = RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
+    with project.lock():
+        _write(project, answers(project).adding(line))
+    return identity
+
+
+def take_back(project: Project, said: str) -> str | None:
+    """Take back an answer or a repair by its id; of a confirmed repair the hull gets the label it had before.
+
+    Gives the sentence to tell where that label is left alone, since it was changed after the repair.
+    Raises ProjectError, naming the nearest id, where there is no such one.
+    """
+    with project.lock():
+        kept = answers(project)
+        if said not in kept.ids:
+            like = nearest(said, kept.ids)
+            remedy = f"Did you mean {like!r}?" if like else "See what was said: meshforge synthesize --list-answers"
+            raise ProjectError(f"there is no answer or repair {said!r}", where=str(project.folder), remedy=remedy)
+        notes = [_restored(project, line) for line in kept.confirmed if line.id == said]
+        _write(project, kept.without(said))
+    return next(iter(notes), None)
+
+
+def forget(project: Project) -> tuple[str, ...]:
+    """Take back everything; gives the sentences about labels that are left alone."""
+    notes = [take_back(project, said) for said in answers(project).ids]
+    return tuple(note for note in notes if note)
+
+
+def _given(correction: Correction) -> Label:
+    return Label(correction.to, 1.0, "repair")
+
+
+def _mended(project: Project, mesh: SymbolicMesh, right: Correction) -> tuple[SymbolicMesh, str | None]:
+    """The mesh with the label mended, and why that cannot be."""
+    mended, report = labelling.merged(right.asset, mesh, {right.hull: _given(right)}, project.vocabulary)
+    if report.problems:
+        return mesh, report.problems[0]
+    label = mesh.named(right.hull).label
+    if label not in (right.was, right.to):
+        return mesh, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
+    return mended, None
+
+
+def _restored(project: Project, line: ConfirmedLine) -> str | None:
+    """Give a hull the label back that it had before a repair; the sentence to tell where that is not done."""
+    try:
+        mesh = project.mesh(line.asset)
+        current = mesh.named(line.hull).annotation
+    except MeshForgeError as error:
+        return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
+    before = line.before.annotation if line.before else None
+    if current not in (before, _given(line.correction)):
+        said = f"labelled {current.name}" if current else "without a label"
+        return f"{line.hull} in {line.asset} is left {said}, as it was changed after the repair"
+    if current != before:
+        labelling.write_merged(project, line.asset, mesh.labelled({line.hull: before}))
+    return None
+
+
+def _write(project: Project, said: AnswersFile) -> None:
+    """Keep everything that was said; where that is nothing, there is no file."""
+    if said.ids or said.model_extra:
+        write_json(project.layout.answers, said)
+    else:
+        project.layout.answers.unlink(missing_ok=True)

@@ -1,0 +1,132 @@
+"""Questions name what matters, and answers settle it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from benchmark.learning.families import FAMILIES, VOCABULARIES, family
+from benchmark.learning.hidden import hidden
+from meshforge.language import Delete, Extractor, Program, select
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, Outcome, Repair, Step, synthesize
+from tests.synthesis_boxes import Piece, boxes
+
+LAMPS = 20
+
+
+def lamp(draw: st.DrawFn, two: bool) -> SymbolicMesh:
+    """A lamp whose base is one hull, or two of which one stands on the other."""
+    wide, high = draw(st.integers(2, 5)) / 10, draw(st.integers(6, 12)) / 10
+    pieces: list[Piece] = [("foot", "base", (-wide / 2, -wide / 2, 0.0), (wide, wide, 0.1))]
+    if two:
+        pieces.append(("step", "base", (-wide / 4, -wide / 4, 0.1), (wide / 2, wide / 2, 0.1)))
+    cuts = draw(st.integers(1, 3))
+    low = 0.2 if two else 0.1
+    side = (high - low) / cuts
+    pieces += [(f"pole{k}", "pole", (-0.02, -0.02, low + k * side), (0.04, 0.04, side)) for k in range(cuts)]
+    pieces.append(("shade", "shade", (-0.2, -0.2, high), (0.4, 0.4, 0.2)))
+    return boxes(*pieces)
+
+
+@st.composite
+def lamps(draw: st.DrawFn) -> tuple[dict[str, SymbolicMesh], str]:
+    """Twenty lamps by name, and the name of the only one with a base of two hulls."""
+    rare = draw(st.integers(0, LAMPS - 1))
+    return {f"lamp {k}": lamp(draw, k == rare) for k in range(LAMPS)}, f"lamp {rare}"
+
+
+def shown(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], meant: Extractor) -> list[Demonstration]:
+    return [Demonstration(meshes[n], [Step(1, selected(meshes[n], meant), Delete())], n) for n in names]
+
+
+def selected(mesh: SymbolicMesh, meant: Extractor) -> frozenset[str]:
+    return frozenset(mesh.hulls[k].name for k in select(meant, mesh))
+
+
+def taught(
+    meshes: Mapping[str, SymbolicMesh], names: Sequence[str], meant: Extractor, vocabulary: Sequence[str]
+) -> tuple[Outcome, list[Answer]]:
+    """What is learned once no question is left; questions are answered from what is meant, and all labels are right."""
+    demos, answers = shown(meshes, names, meant), list[Answer]()
+    while True:
+        outcome = synthesize(demos, meshes, vocabulary=vocabulary, answers=answers, confirm=lambda _: False)
+        if not isinstance(outcome, Ambiguous):
+            return outcome, answers
+        truth = selected(meshes[outcome.question.asset], meant)
+        offered = [frozenset(choice.select) for choice in outcome.question.choices]
+        answers.append(outcome.question.answered(offered.index(truth) if truth in offered else None))
+
+
+@pytest.mark.parametrize("text", ["Is(base)", "Geo(Is(base), -Z)"])
+@settings(max_examples=12, deadline=None)
+@given(family=lamps(), first=st.integers(0, LAMPS - 1), second=st.integers(0, LAMPS - 1))
+def test_a_rare_variant_is_asked_about_and_one_answer_settles_it(
+    text: str, family: tuple[dict[str, SymbolicMesh], str], first: int, second: int
+) -> None:
+    meshes, rare = family
+    assume(rare not in (f"lamp {first}", f"lamp {second}"))
+    (rule,) = Program.parse(f"{text} => Delete").rules
+    names = list(dict.fromkeys([f"lamp {first}", f"lamp {second}"]))
+    outcome = synthesize(shown(meshes, names, rule.extractor), meshes)
+    assert isinstance(outcome, Ambiguous)
+    assert outcome.question.asset == rare
+    assert {frozenset({"foot"}), frozenset({"foot", "step"})} <= {frozenset(c.select) for c in outcome.question.choices}
+    settled, answers = taught(meshes, names, rule.extractor, ("base", "pole", "shade"))
+    assert isinstance(settled, Found)
+    assert len(answers) == 1
+    assert settled.program.rules == (rule,)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_answers_lead_to_what_is_meant_on_nearly_every_asset(name: str) -> None:
+    meshes = {f"{name} {k}": mesh for k, mesh in enumerate(family(name, 25, seed=7))}
+    right = asked = rules = 0
+    for meant in hidden(name):
+        names = [asset for asset, mesh in meshes.items() if select(meant, mesh)][:1]
+        if not names:
+            continue
+        outcome, answers = taught(meshes, names, meant, VOCABULARIES[name])
+        assert isinstance(outcome, Found)
+        (rule,) = outcome.program.rules
+        right += all(select(rule.extractor, mesh) == select(meant, mesh) for mesh in meshes.values())
+        asked, rules = asked + len(answers), rules + 1
+        for answer in answers:
+            if answer.select is not None:
+                assert selected(meshes[answer.asset], rule.extractor) == answer.select
+    assert right >= 0.9 * rules
+    assert asked <= 1.8 * rules
+
+
+@pytest.mark.parametrize(("name", "text", "hull", "wrong"), [
+    ("table", "Attach(Is(handle), Is(drawer)) => Delete", "drawer", "panel"),
+    ("cabinet", "Diff(Is(frame), Geo(Is(frame), -Z)) => Delete", "frame", "door"),
+    ("lamp", "Diff(Is(pole), Attach(Is(pole), Is(base))) => Delete", "pole", "cord"),
+    ("cup", "Diff(Is(handle), Attach(Is(handle), Is(wall))) => Delete", "handle", "lid"),
+])  # fmt: skip
+def test_a_wrong_label_is_found_out_confirmed_and_forgotten(name: str, text: str, hull: str, wrong: str) -> None:
+    meshes = {f"{name} {k}": mesh for k, mesh in enumerate(family(name, 25, seed=3))}
+    (rule,) = Program.parse(text).rules
+    names = [asset for asset, mesh in meshes.items() if len(select(rule.extractor, mesh)) > 1][:2]
+    demos = shown(meshes, names, rule.extractor)
+    found = 0
+    for mislabelled in [h for h in meshes[names[0]].hulls if h.label == hull]:
+        label = Label(wrong, 0.6, "vlm")
+        mesh = meshes[names[0]].labelled({mislabelled.name: label})
+        asked: list[Repair] = []
+
+        def confirm(repair: Repair, asked: list[Repair] = asked, name: str = mislabelled.name) -> bool:
+            asked.append(repair)
+            return (repair.correction.hull, repair.correction.to) == (name, hull)
+
+        planted = [Demonstration(mesh, demos[0].steps, names[0]), *demos[1:]]
+        outcome = synthesize(planted, {**meshes, names[0]: mesh}, vocabulary=VOCABULARIES[name], confirm=confirm)
+        assert len(asked) == len({repair.correction for repair in asked}), "asked twice"
+        clean = synthesize(demos, meshes, vocabulary=VOCABULARIES[name])
+        if any(confirm(repair) for repair in list(asked)):
+            assert outcome.program == clean.program
+            found += 1
+    assert found or clean.program == outcome.program

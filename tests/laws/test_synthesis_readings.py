@@ -1,0 +1,126 @@
+"""The readings are every way in which a consistent extractor of so many nodes selects on the batch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.language import Extractor, select_mask, size
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.options import Options, Shortcuts
+from meshforge.synthesis.readings import Weighed, every
+from meshforge.synthesis.readings.every import Consistent
+from meshforge.synthesis.search import Hit, Search
+from meshforge.synthesis.watch import Watch
+from tests.strategies import extractors, grid_boxes, meshes
+from tests.synthesis_naive import naive_behaviours
+
+LABELS = ("a", "b", "c")
+TWO = LABELS[:2]
+ON = Shortcuts()
+OTHERWISE = {
+    "group": replace(ON, group=False),
+    "merge": replace(ON, merge=False),
+    "stored": replace(ON, stored=1),
+    "few": replace(ON, few=2),
+    "all at once": replace(ON, few=0),
+}
+batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=2, max_size=4)
+shown_on = st.integers(1, 2)
+
+Behaviour = tuple[int, ...]
+
+
+def searched(
+    batch: Sequence[SymbolicMesh], shown: int, hidden: Extractor, labels: Sequence[str], options: Options
+) -> tuple[Search, Extractor]:
+    """A finished search with the first meshes demonstrated, and its answer."""
+    examples = [Example(f"mesh {k}", mesh, select_mask(hidden, mesh)) for k, mesh in enumerate(batch[:shown])]
+    assume(any(example.selection for example in examples))
+    search = Search(examples, labels, Watch(600), options, batch=batch[shown:])
+    answer = search.run()
+    assert isinstance(answer, Hit)
+    return search, answer.extractor
+
+
+def behaviours(search: Search, found: Consistent) -> dict[Behaviour, int]:
+    """What each reading selects on every mesh, with its size."""
+    count = range(len(search.field.meshes))
+    return {tuple(search.field.on(term.bits, k) for k in count): term.size for term in found.terms}
+
+
+@settings(max_examples=60, deadline=None)
+@given(batches, shown_on, extractors(TWO, max_leaves=2))
+def test_no_reading_is_missing_and_none_is_too_much(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
+    search, answer = searched(batch, shown, hidden, TWO, Options())
+    above = max(0, min(3, 6 - size(answer)))
+    found = every(search, answer, above)
+    assert found.complete
+    naive = naive_behaviours(batch, search.selections, TWO, size(answer) + above)
+    assert behaviours(search, found) == naive
+
+
+@settings(max_examples=60, deadline=None)
+@given(batches, shown_on, extractors(LABELS, max_leaves=3))
+def test_every_reading_selects_what_was_shown_and_what_it_says(
+    batch: list[SymbolicMesh], shown: int, hidden: Extractor
+) -> None:
+    search, answer = searched(batch, shown, hidden, LABELS, Options())
+    weighed = Weighed(search, every(search, answer, 2))
+    seen = set()
+    for term in weighed.terms:
+        chosen = tuple(select_mask(term.extractor, mesh) for mesh in batch)
+        assert chosen[:shown] == search.selections
+        assert chosen == tuple(search.field.on(term.bits, k) for k in range(len(batch)))
+        assert size(term.extractor) == term.size
+        seen.add(chosen)
+    assert len(seen) == len(weighed.terms)
+    assert sum(weighed.beliefs) == pytest.approx(1.0)
+
+
+@settings(max_examples=150, deadline=None)
+@given(batches, shown_on, extractors(LABELS, max_leaves=4))
+def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
+    search, answer = searched(batch, shown, hidden, LABELS, Options())
+    assume(size(hidden) <= size(answer) + 3)
+    found = every(search, answer, 3)
+    assume(found.complete)
+    assert tuple(select_mask(hidden, mesh) for mesh in batch) in behaviours(search, found)
+
+
+@pytest.mark.parametrize("switched", OTHERWISE)
+@settings(max_examples=25, deadline=None)
+@given(batch=batches, shown=shown_on, hidden=extractors(TWO, max_leaves=2))
+def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
+    switched: str, batch: list[SymbolicMesh], shown: int, hidden: Extractor
+) -> None:
+    search, answer = searched(batch, shown, hidden, TWO, Options())
+    above = max(0, min(3, 6 - size(answer)))
+    other, again = searched(batch, shown, hidden, TWO, Options(shortcuts=OTHERWISE[switched]))
+    assert again == answer
+    assert behaviours(other, every(other, again, above)) == behaviours(search, every(search, answer, above))
+
+
+@settings(max_examples=40, deadline=None)
+@given(batches, shown_on, extractors(LABELS, max_leaves=3))
+def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
+    search, answer = searched(batch[:shown], shown, hidden, LABELS, Options())
+    weighed = Weighed(search, every(search, answer, 2))
+    assert weighed.extractor == answer
+    assert weighed.settled
+
+
+@settings(max_examples=40, deadline=None)
+@given(batches, extractors(LABELS, max_leaves=4), st.integers(0, 40))
+def test_effort_that_is_cut_short_leaves_whole_sizes(batch: list[SymbolicMesh], hidden: Extractor, effort: int) -> None:
+    search, answer = searched(batch, 1, hidden, LABELS, Options(effort=effort))
+    found = every(search, answer, 3)
+    whole, _ = searched(batch, 1, hidden, LABELS, Options())
+    below = {b: n for b, n in behaviours(whole, every(whole, answer, 3)).items() if n <= found.size}
+    assert below.items() <= behaviours(search, found).items()
+    assert found.complete or found.size < size(answer) + 3
