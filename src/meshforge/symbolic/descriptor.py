@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from meshforge.geometry import Box, Floats, Ints, Shape, bounds
+from meshforge.geometry import Box, Floats, Ints, Shape
 from meshforge.symbolic.mesh import SymbolicMesh
 
 DESCRIBED = (
@@ -37,7 +37,7 @@ def descriptors(meshes: Sequence[SymbolicMesh]) -> Floats:
     if not hulls:
         return np.zeros((0, len(DESCRIBED)))
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.hulls) for mesh in meshes])
-    low, high = bounds([hull.shape.aabb for hull in hulls])
+    low, high = (np.concatenate([mesh.corners[end] for mesh in meshes]) for end in (0, 1))
     foot, top = _around(low, high, owner, len(meshes))
     size = np.maximum(np.linalg.norm(top - foot, axis=1), 1e-300)[owner]
     spread = np.maximum(_spreads([_points(hull.shape) for hull in hulls]), _LEAST * size[:, None])

@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import dist
 
+import numpy as np
+
 from meshforge.asset import Asset, Geom
 from meshforge.errors import MeshForgeError
-from meshforge.geometry import Aabb, bounds
+from meshforge.geometry import Aabb, Floats, bounds
 from meshforge.symbolic.contact import NEAR_MISS, ContactGraph, contact_graph
 from meshforge.symbolic.hull import Hull
 from meshforge.symbolic.labels import Label
@@ -46,11 +48,18 @@ class SymbolicMesh:
         return Aabb.union(h.aabb for h in self.hulls) if self.hulls else None
 
     @cached_property
+    def corners(self) -> tuple[Floats, Floats]:
+        """The lowest and the highest corners of the AABBs of all hulls, each (hulls, 3) [m]."""
+        if not self.hulls:
+            return np.zeros((0, 3)), np.zeros((0, 3))
+        return bounds([hull.shape.aabb for hull in self.hulls])
+
+    @cached_property
     def diagonal(self) -> float:
         """The diagonal of the AABB of all hulls [m], 0 where there is none."""
         if not self.hulls:
             return 0.0
-        low, high = bounds([hull.shape.aabb for hull in self.hulls])
+        low, high = self.corners
         return dist(low.min(axis=0).tolist(), high.max(axis=0).tolist())
 
     @property

@@ -8,7 +8,6 @@ from math import dist
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.geometry import bounds
 from meshforge.language import DIRECTIONS, SLACK, All, Attach, Base, Geo, Is, length
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.search.leaves import Leaf
@@ -28,8 +27,9 @@ class Hulls:
         self.counts = np.array([len(mesh.hulls) for mesh in meshes], dtype=np.int64)
         self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
         self._owner = np.repeat(np.arange(len(meshes)), self.counts)
-        boxes = [hull.shape.aabb for mesh in meshes for hull in mesh.hulls]
-        self._low, self._high = bounds(boxes) if boxes else (np.zeros((0, 3)), np.zeros((0, 3)))
+        none = np.zeros((0, 3))
+        self._low = np.concatenate([none, *(mesh.corners[0] for mesh in meshes)])
+        self._high = np.concatenate([none, *(mesh.corners[1] for mesh in meshes)])
         self._labels = [hull.label for mesh in meshes for hull in mesh.hulls]
         self._slack = np.array([SLACK * length(mesh) for mesh in meshes])
         pairs = [
@@ -41,7 +41,7 @@ class Hulls:
 
     def table(self, leaves: Sequence[Leaf], extremity: float) -> Bools:
         """Whether each leaf selects each hull: (leaves, hulls)."""
-        bases = {leaf: self._base(leaf) for leaf in leaves if isinstance(leaf, All | Is)}
+        bases = self._bases([leaf for leaf in leaves if isinstance(leaf, All | Is)])
         touching: dict[Base, Bools] = {}
         extreme: dict[Base, Bools] = {}
         table = np.zeros((len(leaves), len(self._labels)), dtype=np.bool_)
@@ -59,10 +59,16 @@ class Hulls:
                     table[row] = extreme[base][DIRECTIONS.index(direction)]
         return table
 
-    def _base(self, base: Base) -> Bools:
-        if isinstance(base, All):
-            return np.ones(len(self._labels), dtype=np.bool_)
-        return np.fromiter((label == base.label for label in self._labels), np.bool_, len(self._labels))
+    def _bases(self, asked: Sequence[Base]) -> dict[Base, Bools]:
+        places: dict[str | None, list[int]] = {}
+        for place, label in enumerate(self._labels):
+            places.setdefault(label, []).append(place)
+        found: dict[Base, Bools] = {}
+        for base in asked:
+            found[base] = np.full(len(self._labels), isinstance(base, All))
+            if isinstance(base, Is):
+                found[base][places.get(base.label, [])] = True
+        return found
 
     def _touching(self, anchor: Bools) -> Bools:
         """The hulls in contact with one of the anchor."""
