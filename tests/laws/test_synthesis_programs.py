@@ -90,7 +90,7 @@ from meshforge.synthesis import Demonstration, Step, outcome_json, synthesize
 from tests.unit.synthesis.test_running_example import learned
 
 def ambiguous(mislabelled):
-    meshes = {str(k): mesh for k, mesh in enumerate(family("table", 12, seed=1))}
+    meshes = {str(k): mesh for k, mesh in enumerate(family("table", 25, seed=1))}
     (rule,) = Program.parse("Attach(Is(handle), Is(drawer)) => Delete").rules
     chosen = {name: select(rule.extractor, mesh) for name, mesh in meshes.items()}
     name = next(name for name in meshes if chosen[name])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from meshforge.errors import MeshForgeError, ProjectError, nearest
+from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
 from meshforge.language import Each
 from meshforge.project import labelling
 from meshforge.project.answers_file import (
@@ -19,7 +19,7 @@ from meshforge.project.answers_file import (
 from meshforge.project.json_files import read_json, write_json
 from meshforge.project.steps import action_text
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Correction, Step
+from meshforge.synthesis import Answer, Correction, Question, Step
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -36,6 +36,13 @@ def answer(project: Project, given: Answer) -> str:
     with project.lock():
         _write(project, answers(project).adding(line))
     return line.id
+
+
+def chosen(question: Question, choice: int | None) -> Answer:
+    """The answer that takes a choice, counted from 0. Raises UsageError where there is no such choice."""
+    if choice is not None and not 0 <= choice < len(question.choices):
+        raise UsageError(f"the question {question.id} has {len(question.choices)} choices, none at place {choice}")
+    return question.answered(choice)
 
 
 def checked(project: Project, given: Answer) -> AnswerLine:
@@ -69,7 +76,7 @@ def confirm(project: Project, right: Correction) -> str:
         mesh = project.mesh(right.asset)
         mended, problem = _mended(project, mesh, right)
         if problem:
-            raise ProjectError(problem, where=right.asset, remedy="Learn again: meshforge synthesize.")
+            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {project.folder}")
         said, identity = answers(project), repair_id(right)
         known = [line.before for line in said.confirmed if line.id == identity]
         current = mesh.named(right.hull).annotation
@@ -101,7 +108,8 @@ def take_back(project: Project, said: str) -> str | None:
         kept = answers(project)
         if said not in kept.ids:
             like = nearest(said, kept.ids)
-            remedy = f"Did you mean {like!r}?" if like else "See what was said: meshforge synthesize --list-answers"
+            listing = f"See what was said: meshforge synthesize {project.folder} --list-answers"
+            remedy = f"Did you mean {like!r}?" if like else listing
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(project.folder), remedy=remedy)
         notes = [_restored(project, line) for line in kept.confirmed if line.id == said]
         _write(project, kept.without(said))

@@ -49,7 +49,7 @@ class AnswerLine(_Said):
 
 
 class RepairLine(_Said):
-    """A repair of a label `ASSET#HULL=LABEL`. was: the label that was found wrong, null for none; `from` in the file."""
+    """A repair of a label `ASSET#HULL=LABEL`. was, `from` in the file: the wrong label, null for none."""
 
     model_config = ConfigDict(populate_by_name=True)
 

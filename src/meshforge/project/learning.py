@@ -30,7 +30,7 @@ Confirm = Callable[[Repair], bool]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lessons:
+class LessonPlan:
     """How a project is to learn; the fields are those of `Project.synthesize`."""
 
     accept: bool = True
@@ -41,7 +41,7 @@ class Lessons:
     meshes: Mapping[str, SymbolicMesh] | None = None
 
 
-def learn(project: Project, how: Lessons) -> Outcome:
+def learn(project: Project, how: LessonPlan) -> Outcome:
     """What can be learned from the demonstrations. Raises ProjectError where there are none."""
     meshes = dict(project.named_meshes()) if how.meshes is None else how.meshes
     demos = _demonstrations(project, meshes)

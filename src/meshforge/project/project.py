@@ -40,6 +40,7 @@ from meshforge.project.settings import (
     orientation_text,
     parse_orientation,
     read_settings,
+    seen_from,
     write_settings,
 )
 from meshforge.project.status import Status
@@ -83,8 +84,8 @@ class Project:
         parse_orientation(text)
         settings = Settings(
             name=name or folder.name,
-            assets=tuple(_seen_from(folder, str(pattern)) for pattern in assets),
-            base=_seen_from(folder, str(found.base)),
+            assets=tuple(seen_from(folder, str(pattern)) for pattern in assets),
+            base=seen_from(folder, str(found.base)),
             vocabulary=tuple(vocabulary),
             orient=text,
         )
@@ -309,7 +310,7 @@ class Project:
         confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
         meshes: the assets by id, where they are in memory already (`Family`); else they are read.
         """
-        how = learning.Lessons(
+        how = learning.LessonPlan(
             accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes
         )
         return learning.learn(self, how)
@@ -328,7 +329,7 @@ class Project:
 
     def answer(self, question: Question, choice: int | None) -> str:
         """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`."""
-        return self.add_answer(question.answered(choice))
+        return self.add_answer(answering.chosen(question, choice))
 
     def add_answer(self, answer: Answer) -> str:
         """The same for any selection, whether it was asked for or not. Raises ProjectError: no such asset or rule."""
@@ -405,11 +406,3 @@ class Project:
     def status(self, *, workers: int | None = None, progress: Callable[[], None] | None = None) -> Status:
         """How far everything is, what is stale, and the next sensible step."""
         return overview.status(self, workers, progress)
-
-
-def _seen_from(folder: Path, pattern: str) -> str:
-    """A path or glob, given from here, as it is written in a file of that folder."""
-    try:
-        return Path(os.path.relpath(pattern, folder)).as_posix()
-    except ValueError:  # another drive
-        return Path(pattern).absolute().as_posix()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from pathlib import Path
 from typing import Annotated
@@ -119,3 +120,11 @@ def _text(path: Path) -> str:
         raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path)) from error
     except OSError as error:
         raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
+
+
+def seen_from(folder: Path, pattern: str) -> str:
+    """A path or glob, given from here, as it is written in a file of that folder."""
+    try:
+        return Path(os.path.relpath(pattern, folder)).as_posix()
+    except ValueError:  # another drive
+        return Path(pattern).absolute().as_posix()

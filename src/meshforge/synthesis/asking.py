@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from meshforge.errors import DemonstrationError
 from meshforge.synthesis.correction import Correction
 
 
@@ -34,23 +35,41 @@ class Question:
         return f"{self.rule}:{self.asset}"
 
     def answered(self, choice: int | None) -> Answer:
-        """The answer that takes a choice, counted from 0, or None for neither."""
-        offered = tuple(frozenset(c.select) for c in self.choices)
-        return Answer(self.rule, self.asset, None if choice is None else offered[choice])
+        """The answer that takes a choice, counted from 0, or None for neither.
+
+        Raises DemonstrationError where there is no such choice.
+        """
+        if choice is not None and not 0 <= choice < len(self.choices):
+            raise DemonstrationError(f"the question has {len(self.choices)} choices, and none at place {choice}")
+        if choice is None:
+            return Answer(self.rule, self.asset, None, [other.select for other in self.choices])
+        return Answer(self.rule, self.asset, self.choices[choice].select)
 
 
 @dataclass(frozen=True, slots=True, init=False)
 class Answer:
-    """What a person said: the hulls that a rule selects on an asset; None: neither of the choices."""
+    """What a person said: the hulls that a rule selects on an asset; None: neither of the choices.
+
+    refused: where it is neither, the choices there were.
+    """
 
     rule: int
     asset: str
     select: frozenset[str] | None
+    refused: tuple[frozenset[str], ...] = ()
 
-    def __init__(self, rule: int, asset: str, select: Iterable[str] | None) -> None:
+    def __init__(
+        self, rule: int, asset: str, select: Iterable[str] | None, refused: Iterable[Iterable[str]] = ()
+    ) -> None:
+        if isinstance(select, str):
+            raise DemonstrationError(
+                f"rule {rule}: an answer is a set of hull names, not the text {select!r}",
+                remedy=f"Write {{{select!r}}}.",
+            )
         object.__setattr__(self, "rule", rule)
         object.__setattr__(self, "asset", asset)
         object.__setattr__(self, "select", None if select is None else frozenset(select))
+        object.__setattr__(self, "refused", tuple(map(frozenset, refused)))
 
 
 @dataclass(frozen=True, slots=True)

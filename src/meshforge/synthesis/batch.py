@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program, Rule, Template
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.symbolic import Label, SymbolicMesh, mask_of
 from meshforge.synthesis.agreement import Agreed
 from meshforge.synthesis.asking import Answer
 from meshforge.synthesis.correction import Correction
@@ -20,10 +20,13 @@ Batch = Mapping[str, SymbolicMesh]
 
 
 def named_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
-    """The meshes of a batch by name, without those that are demonstrated; by default the name is the file's path."""
+    """The meshes of a batch in the order of their names, without those that are demonstrated.
+
+    By default the name is the file's path.
+    """
     shown, meshes = dict(named(demos)), {id(demo.mesh) for demo in demos}
-    rows = batch.items() if isinstance(batch, Mapping) else _called(batch)
-    return {name: mesh for name, mesh in rows if name not in shown and id(mesh) not in meshes}
+    rows = batch if isinstance(batch, Mapping) else dict(_called(batch))
+    return {name: rows[name] for name in sorted(rows) if name not in shown and id(rows[name]) not in meshes}
 
 
 def _called(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, SymbolicMesh]]:
@@ -40,7 +43,8 @@ def corrected(mesh: SymbolicMesh, name: str, corrections: Iterable[Correction]) 
 class Course:
     """All meshes as the next rule meets them.
 
-    Those of the batch that cannot be oriented, or that an action fails on, leave it: the program would fail there.
+    Those of the batch that have no labels at all, that cannot be oriented or that an action fails on, leave it: the
+    program would fail there.
     """
 
     def __init__(
@@ -53,8 +57,21 @@ class Course:
     ) -> None:
         self._frame, self._templates, self._answers = frame, templates, answers
         self.shown = [begun(name, demo, frame.orient, frame.contact) for name, demo in named(demos)]
-        self.others = [replay for name, mesh in batch.items() if (replay := self._begun(name, mesh))]
-        self.stale = [answer for answer in answers if answer.asset not in {r.name for r in [*self.shown, *self.others]}]
+        bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
+        rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
+        self.others = [replay for name, mesh in rows if (replay := self._begun(name, mesh))]
+        rules = range(1, 1 + max((len(demo.steps) for demo in demos), default=0))
+        self._stale = self._lost(answers) + [answer for answer in answers if answer.rule not in rules]
+
+    @property
+    def stale(self) -> tuple[Answer, ...]:
+        """Answers whose rule, asset or hulls are not there."""
+        return tuple(dict.fromkeys(self._stale))
+
+    def _lost(self, answers: Iterable[Answer]) -> list[Answer]:
+        """Those about assets that are not, or no longer, on their way."""
+        names = {replay.name for replay in [*self.shown, *self.others]}
+        return [answer for answer in answers if answer.asset not in names]
 
     def _begun(self, name: str, mesh: SymbolicMesh) -> Replay | None:
         try:
@@ -65,18 +82,36 @@ class Course:
     def examples(self, rule: Agreed) -> tuple[list[Example], list[Replay]]:
         """What is known about a rule, by demonstrations and answers, and the meshes about which nothing is."""
         examples, open_ = [], []
-        answered = {a.asset: a for a in self._answers if a.rule == rule.number and a.select is not None}
+        answered = {a.asset: a for a in self._answers if a.rule == rule.number}  # the last one counts
         for replay in [*self.shown, *self.others]:
             shown = example(replay, rule)
             answer = answered.get(replay.name)
-            if shown is None and answer:
+            if shown is None and answer and answer.select is not None:
                 shown = _of_answer(replay, answer)
-                self.stale += [] if shown else [answer]
+                self._stale += [] if shown else [answer]
             if shown:
                 examples.append(shown)
             else:
                 open_.append(replay)
+        self._stale += self._lost(answered.values())
         return examples, open_
+
+    def answered(self, rule: int) -> tuple[str, ...]:
+        """The meshes of which an answer, and no demonstration, says what the rule selects."""
+        silent = {replay.name for replay in [*self.shown, *self.others] if not replay.demo.step(rule)}
+        said = {a.asset: a.select for a in self._answers if a.rule == rule}
+        return tuple(name for name, select in said.items() if select is not None and name in silent)
+
+    def refused(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
+        """What a person said is not meant: places in the list of meshes, and hulls there, as bit sets."""
+        places = {id(mesh): place for place, mesh in enumerate(meshes)}
+        met = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
+        return [
+            (places[id(met[answer.asset])], mask_of(met[answer.asset].index[name] for name in names))
+            for answer in {a.asset: a for a in self._answers if a.rule == rule}.values()
+            for names in answer.refused
+            if answer.asset in met and names <= met[answer.asset].index.keys()
+        ]
 
     def take(self, number: int, rule: Rule, last: bool) -> None:
         """Run a rule on all meshes; the last one only on those that are demonstrated."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from meshforge.language import All, Attach, Base, Diff, Extractor, Intersect, Is, Union, show_label
 from meshforge.symbolic import SymbolicMesh
@@ -13,39 +13,51 @@ from meshforge.words import listed
 _MOST = 4  # sentences
 
 
-def advice(miss: NearMiss, examples: Sequence[Example], answered: Iterable[str] = ()) -> tuple[str, ...]:
-    """What a person can look at, the likeliest first; answered: names of meshes that an answer was given for."""
+def advice(miss: NearMiss, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
+    """What a person can look at, the likeliest first; answered: the meshes of which an answer told."""
     example = next(example for example in examples if example.name == miss.asset)
     lines = [*_unlabelled(miss, example), *_nearly_touching(miss, example)]
-    if miss.asset in answered:
-        lines.append(f"an answer was given for {miss.asset}: it can be taken back")
-    lines += _odd_labels(miss, example)
+    if answered:
+        one = len(answered) == 1
+        lines.append(
+            f"{'an answer was' if one else 'answers were'} given for {listed(answered)}: "
+            f"{'it' if one else 'they'} can be taken back"
+        )
+    lines += [*_odd_labels(example, miss.missing, left_out=True), *_odd_labels(example, miss.extra, left_out=False)]
     if len([*miss.extra, *miss.missing]) == 1 and len(example.mesh.hulls) > 1:
         (name,) = [*miss.extra, *miss.missing]
         lines.append(f"if only a part of {name!r} is meant, split the hull (meshforge split)")
     if sum(bool(other.selection) for other in examples) > 1:
-        lines.append("if the two selections follow different rules, make two steps of them")
+        lines.append("if what was shown follows different rules, make two steps of it")
     return tuple(dict.fromkeys(lines))[:_MOST]
 
 
 def _unlabelled(miss: NearMiss, example: Example) -> Iterator[str]:
     bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.named(name).label is None]
     if bare:
-        yield f"no label in {example.name}: {listed(bare)}; give {'it' if len(bare) == 1 else 'them'} one"
+        yield f"{_said(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"
 
 
-def _odd_labels(miss: NearMiss, example: Example) -> Iterator[str]:
-    """Hulls that are left out, or are too much, though what is right has another label."""
+def _odd_labels(example: Example, names: Sequence[str], left_out: bool) -> Iterator[str]:
+    """Hulls that are left out, or are too much, by their labels; left out though what is right has another one."""
     right = {hull.label for k, hull in enumerate(example.mesh.hulls) if example.selection >> k & 1}
-    for name in [*miss.missing, *miss.extra]:
-        label = example.mesh.named(name).label
-        others = right - {label, None}
-        if label and name in miss.missing and others:
-            usual = ", ".join(sorted(show_label(other) for other in others if other))
-            said = f"{name!r} of {example.name} is labelled {show_label(label)}"
-            yield f"{said}, while others that were shown are labelled {usual}: is that right?"
-        elif label:
-            yield f"is {name!r} of {example.name} rightly labelled {show_label(label)}?"
+    by_label: dict[str | None, list[str]] = {}
+    for name in names:
+        by_label.setdefault(example.mesh.named(name).label, []).append(name)
+    for label, alike in by_label.items():
+        if label is None:
+            continue
+        said, verb = _said(alike, example), "is" if len(alike) == 1 else "are"
+        others = sorted(show_label(other) for other in right - {label, None} if other)
+        if left_out and others:
+            usual = f"while others that were shown are labelled {', '.join(others)}"
+            yield f"{said} {verb} labelled {show_label(label)}, {usual}: is that right?"
+        else:
+            yield f"{verb} {said} rightly labelled {show_label(label)}?"
+
+
+def _said(names: Sequence[str], example: Example) -> str:
+    return f"{repr(names[0]) if len(names) == 1 else listed(names)} of {example.name}"
 
 
 def _nearly_touching(miss: NearMiss, example: Example) -> Iterator[str]:

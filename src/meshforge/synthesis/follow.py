@@ -17,6 +17,7 @@ from meshforge.language import (
     labels_used,
     select_mask,
     show,
+    show_label,
     size,
 )
 from meshforge.symbolic import bits
@@ -65,7 +66,7 @@ def _barred(wanted: Extractor, task: Task) -> Iterator[str]:
     """Why it is none of those that are searched."""
     unknown = [label for label in labels_used(wanted) if label not in task.frame.labels]
     if unknown:
-        yield f"the label {unknown[0]} is not in the vocabulary"
+        yield f"the label {show_label(unknown[0])} is not in the vocabulary"
     if size(wanted) > task.options.max_size:
         yield f"it has {size(wanted)} nodes, and the search ends at {task.options.max_size}"
     for kind, letter in ((Attach, "T"), (Geo, "G")):
@@ -88,21 +89,30 @@ def _place(rule: int, wanted: Extractor, weighed: Weighed, names: Sequence[str],
     """Where a consistent extractor stands among the readings."""
     does = weighed.field.bits(wanted)
     place = next((k for k, term in enumerate(weighed.terms) if term.bits == does), None)
+    if place is None and options.strategy == "paper":
+        return f"it selects what was shown, but {show(weighed.extractor)} comes before it"
     if place is None:
         smallest = min(term.size for term in weighed.terms)
         if size(wanted) > smallest + options.above:
-            return f"it selects what was shown, but has {size(wanted)} nodes where {smallest} suffice"
+            enough = f"{smallest} suffice{'s' if smallest == 1 else ''}"
+            return f"it selects what was shown, but has {size(wanted)} nodes where {enough}"
         return "it selects what was shown, but there were too many readings to get that far"
     reading = weighed.terms[place].extractor
     same = "" if reading == wanted else f" as {show(reading)}, which selects the same on every asset"
     if place == 0:
         return f"learned{same}"
+    return f"reading {reading_id(rule, place)}{same}; {_instead(weighed, place, names)}"
+
+
+def _instead(weighed: Weighed, place: int, names: Sequence[str]) -> str:
+    """Why another reading was taken, and what would help."""
     differs = [names[k] for k in weighed.differing(place)]
     first, second = weighed.beliefs[0], weighed.beliefs[place]
+    better = "more believable" if first >= second else "smaller, though less believable"
+    one = "it" if len(differs) == 1 else "one of these"
     return (
-        f"reading {reading_id(rule, place)}{same}; {show(weighed.extractor)} is more believable "
-        f"({first:.0%} against {second:.0%}). They differ on {counted(len(differs), 'asset')}: {listed(differs)}; "
-        "demonstrate one of these, or answer a question about it"
+        f"{show(weighed.extractor)} is {better} ({first:.0%} against {second:.0%}). "
+        f"They differ on {counted(len(differs), 'asset')}: {listed(differs)}; demonstrate {one}"
     )
 
 

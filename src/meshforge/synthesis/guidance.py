@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Collection, Sequence
 
 from meshforge.symbolic import bits
 from meshforge.synthesis.asking import Choice, Hint, Question
@@ -15,13 +15,20 @@ def reading_id(rule: int, place: int) -> str:
     return f"{rule}.{place + 1}"
 
 
-def question(rule: int, weighed: Weighed, names: Sequence[str], declined: Container[str]) -> Question | None:
+BALKED = 4
+"""After so many answers that neither choice is right a rule is not asked about: what is meant is none of its readings,
+or too many labels are wrong."""
+
+
+def question(rule: int, weighed: Weighed, names: Sequence[str], declined: Collection[str]) -> Question | None:
     """The question about one rule that is worth a person's time, None where there is none.
 
     names: of the meshes of the field; declined: those for which a person said that neither choice is right.
     """
     doubt = weighed.doubt
-    split = weighed.split(k for k, name in enumerate(names) if name in declined) if doubt.grave else None
+    if len(declined) >= BALKED or not doubt.grave:
+        return None
+    split = weighed.split(k for k, name in enumerate(names) if name in declined)
     if not split:
         return None
     choices = tuple(

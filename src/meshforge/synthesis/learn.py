@@ -70,11 +70,12 @@ def synthesize(
             asked.rejected,
             options,
             follow,
+            confirmed,
         )
-        outcome = Lesson(task, watch, asked.about if confirm else None).outcome()
+        outcome = Lesson(task, watch, asked.again if confirm else None).outcome()
         if not confirm or not isinstance(outcome, NeedsRepair):
             return outcome
-        confirmed += tuple(repair.correction for repair in outcome.repairs if asked.again(repair))
+        confirmed += asked.confirmed(outcome.repairs)
 
 
 class _Asked:
@@ -90,6 +91,21 @@ class _Asked:
         refused = {correction for correction, right in self._said.items() if not right}
         return frozenset(refused.union(c.reverse for c, right in self._said.items() if right and c.reverse))
 
+    def confirmed(self, repairs: Iterable[Repair]) -> tuple[Correction, ...]:
+        """Those that are confirmed; of a rule's repairs none is asked about after one that is refused.
+
+        They explain the rule together, so without one the others may be pointless; if not, they are proposed again.
+        """
+        right, refused = list[Correction](), set[int]()
+        for repair in repairs:
+            if repair.rule in refused:
+                continue
+            if self.again(repair):
+                right.append(repair.correction)
+            else:
+                refused.add(repair.rule)
+        return tuple(right)
+
     def again(self, repair: Repair) -> bool:
         """Whether a repair is confirmed."""
         assert self._confirm
@@ -97,7 +113,3 @@ class _Asked:
             with self._watch.paused():
                 self._said[repair.correction] = self._confirm(repair)
         return self._said[repair.correction]
-
-    def about(self, correction: Correction) -> bool:
-        """The same about a correction of which nothing else is known."""
-        return self.again(Repair(correction, 0, 1.0, "an extractor selects what was shown with it"))

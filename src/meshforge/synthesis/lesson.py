@@ -10,7 +10,7 @@ from meshforge.errors import MeshForgeError
 from meshforge.language import Program, Rule
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.agreement import Agreed
-from meshforge.synthesis.asking import Answer, Question
+from meshforge.synthesis.asking import Answer, Question, Repair
 from meshforge.synthesis.batch import Course
 from meshforge.synthesis.correction import Correction
 from meshforge.synthesis.example import Example
@@ -21,7 +21,7 @@ from meshforge.synthesis.guidance import hint, question, reading_id
 from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, NoProgram, Outcome, Reading, TimedOut
 from meshforge.synthesis.paper import Explained, paper_search
 from meshforge.synthesis.readings import Weighed, every
-from meshforge.synthesis.repairs import Repairs
+from meshforge.synthesis.repairs import Repairs, inquiry
 from meshforge.synthesis.search import Hit, Miss, Search, Tried, Unfinished
 from meshforge.synthesis.search.miss import NearMiss
 from meshforge.synthesis.task import Task
@@ -50,7 +50,7 @@ class _Shared(TypedDict):
 class Lesson:
     """Learns the rules of a task one after the other, as far as it gets."""
 
-    def __init__(self, task: Task, watch: Watch, confirm: Callable[[Correction], bool] | None = None) -> None:
+    def __init__(self, task: Task, watch: Watch, confirm: Callable[[Repair], bool] | None = None) -> None:
         self._task, self._watch, self._confirm = task, watch, confirm
         self._course = Course(task.demos, task.batch, task.frame, task.templates, task.answers)
         self._learned: list[Learned] = []
@@ -99,7 +99,7 @@ class Lesson:
         """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
         task, watch = self._task, self._watch
         if task.options.strategy == "paper":
-            return self._by_the_paper(agreed, examples)
+            return self._by_the_paper(agreed, examples, rest)
         search = Search(examples, task.frame.labels, watch, task.options, task.extremity, rest)
         found = search.run()
         self._note(agreed, found.tried)
@@ -113,10 +113,11 @@ class Lesson:
             return corrections
         if isinstance(found, Miss):
             return found
-        return Weighed(search, every(search, found.extractor, task.options.above))
+        refused = self._course.refused(agreed.number, search.field.meshes)
+        return Weighed(search, every(search, found.extractor, task.options.above), refused)
 
     def _by_the_paper(
-        self, agreed: Agreed, examples: Sequence[Example]
+        self, agreed: Agreed, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> Weighed | Miss | Unfinished | tuple[Correction, ...]:
         task = self._task
         found = paper_search(
@@ -125,7 +126,7 @@ class Lesson:
             self._watch,
             task.options,
             task.extremity,
-            self._confirm,
+            inquiry(agreed.number, self._confirm) if self._confirm else None,
             task.rejected,
             self._repairs.spent,
         )
@@ -134,7 +135,7 @@ class Lesson:
             return self._repairs.inferred(agreed.number, found)
         if not isinstance(found, Hit):
             return found
-        search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity)
+        search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity, rest)
         return Weighed.alone(search, found.extractor)
 
     def _follow(
@@ -159,7 +160,7 @@ class Lesson:
         ahead = hint([(learned.weighed, learned.names) for learned in self._learned])
         if self._question:
             return Ambiguous(program=program, question=self._question, hint=ahead, **self._shared())
-        settled = bool(task.batch) and all(learned.weighed.settled for learned in self._learned)
+        settled = bool(self._course.others) and all(learned.weighed.settled for learned in self._learned)
         return Found(program=program, settled=settled, hint=ahead, **self._shared())
 
     def _repaired(self) -> Outcome:
@@ -169,7 +170,7 @@ class Lesson:
         nearest, repairs = _placed(agreed.number, miss.nearest), self._repairs.found
         if repairs:
             return NeedsRepair(repairs=repairs, nearest=nearest, **self._shared())
-        answered = {a.asset for a in self._task.answers if a.rule == agreed.number}
+        answered = self._course.answered(agreed.number)
         return NoProgram(
             why=miss.why,
             nearest=nearest,
@@ -212,7 +213,7 @@ class Lesson:
             ),
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": elapsed - self._searching},
-            "stale": tuple(self._course.stale),
+            "stale": self._course.stale,
             "followed": tuple(self._followed),
         }
 

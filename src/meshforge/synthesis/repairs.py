@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 
 from meshforge.language import show
@@ -17,6 +17,11 @@ from meshforge.synthesis.repair import Labels, explain
 from meshforge.synthesis.search import Hit, Miss
 from meshforge.synthesis.task import Task
 from meshforge.synthesis.watch import Watch
+
+
+def inquiry(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[Correction], bool]:
+    """Asks about corrections of which nothing is known but that an extractor of the rule matches with them."""
+    return lambda correction: confirm(Repair(correction, rule, 1.0, "an extractor selects what was shown with it"))
 
 
 class Repairs:
@@ -35,8 +40,8 @@ class Repairs:
 
     @property
     def spent(self) -> Mapping[str, int]:
-        """How many corrections there are on each mesh."""
-        return Counter(correction.asset for correction in self._found)
+        """How many corrections there are on each mesh, those included that a person confirmed before."""
+        return Counter(correction.asset for correction in [*self._found, *self._task.confirmed])
 
     def explaining(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
@@ -60,7 +65,8 @@ class Repairs:
 
     def inferred(self, rule: int, explained: Explained) -> tuple[Correction, ...]:
         """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
-        why = f"with it, {show(explained.extractor)} selects what was shown"
+        alone = len(explained.corrections) == 1
+        why = f"with {'it' if alone else 'all corrections'}, {show(explained.extractor)} selects what was shown"
         self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
         return explained.corrections
 

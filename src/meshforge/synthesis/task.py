@@ -19,6 +19,7 @@ class Task:
     """Demonstrations, the batch they stand for, and what a person said since.
 
     frame: the program without its rules; rejected: corrections of labels that a person refused;
+    confirmed: those that were made, as a person said that they are right;
     follow: a program of which is to be told why it is not what was learned.
     """
 
@@ -31,6 +32,7 @@ class Task:
     rejected: frozenset[Correction]
     options: Options
     follow: Program | None = None
+    confirmed: tuple[Correction, ...] = ()
 
     @property
     def extremity(self) -> float:

@@ -10,12 +10,12 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from benchmark.speed import __main__ as bench
+from benchmark import __main__ as bench
+from benchmark.clock import in_turns
+from benchmark.report import Goal, Result, Table, as_text
 from benchmark.speed import apply, contact, geometry, load, save
 from benchmark.speed.assets import multi_hull
-from benchmark.speed.clock import in_turns
 from benchmark.speed.contact import near_pairs, one_mesh
-from benchmark.speed.report import Goal, Result, Table, as_text
 from meshforge.geometry import Box, Pose
 from meshforge.samples import TABLES
 

@@ -10,16 +10,19 @@ import pytest
 
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
-from meshforge.synthesis import Step
+from meshforge.synthesis import Answer, Correction, Repair, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.tables import FIRST, applied, fresh
+from tests.unit.project.tables import FIRST, THIRD, applied, fresh
 
+REPAIR = Repair(Correction(FIRST, "crumb", "misc", "leg"), 1, 1.0, "it looks like one")
 CHANGES: dict[str, Callable[[Project], object]] = {
     "vocabulary": lambda p: p.set_vocabulary(["top", "leg", "misc", "more"]),
     "labels": lambda p: p.set_labels(FIRST, {"crumb": "leg"}),
     "demonstration": lambda p: p.demonstrate(FIRST, [Step(1, {"crumb"}, Delete())]),
     "correction": lambda p: p.correct(FIRST, ["top"], Delete()),
+    "answer": lambda p: p.add_answer(Answer(1, THIRD, ["crumb"])),
+    "refused repair": lambda p: p.reject(REPAIR),
     "review": lambda p: p.review(FIRST, "accepted"),
     "program": lambda p: p.accept(Program.parse("labels top\nAll => Merge\n")),
 }
@@ -43,6 +46,30 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path, name: str) -> None:
         assert changed <= {"program.previous.mf"} if renames else not changed
     assert died
     assert kept(project) != before
+
+
+@needs_fork
+def test_a_killed_repair_can_be_done_again_and_taken_back(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    before = project.labels(FIRST).labels["crumb"]
+    for _ in deaths(lambda: project.confirm(REPAIR)):
+        assert project.labels(FIRST).labels["crumb"] == before
+    assert project.labels(FIRST).labels["crumb"].source == "repair"
+    for _ in deaths(lambda: project.take_back("table0/model.obj#crumb=leg")):
+        assert project.answers().ids
+    assert project.labels(FIRST).labels["crumb"] == before
+    assert not project.answers().ids
+
+
+def test_answers_at_one_time_are_all_kept(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    given = [Answer(rule, asset, None) for rule in (1, 2) for asset in project.assets()]
+    threads = [threading.Thread(target=lambda one=one: Project.open(project.folder).add_answer(one)) for one in given]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [line.answer for line in project.answers().answers] == given
 
 
 def test_writers_at_one_time_lose_nothing(tmp_path: Path) -> None:

@@ -8,7 +8,19 @@ from meshforge.language import Attach, Delete, Is, Merge
 from meshforge.synthesis import Demonstration, Found, NoProgram, Step, outcome_json, synthesize
 from tests.synthesis_boxes import boxes
 
-KEYS = ["status", "program", "settled", "readings", "repairs", "question", "nearest", "demonstrate_next", "seconds"]
+KEYS = [
+    "status",
+    "program",
+    "settled",
+    "readings",
+    "repairs",
+    "question",
+    "nearest",
+    "demonstrate_next",
+    "stale_answers",
+    "followed",
+    "seconds",
+]
 TWINS = boxes(
     ("left", "leg", (0, 0, 0), (1, 1, 1)),
     ("middle", "leg", (2, 0, 0), (1, 1, 1)),
@@ -32,6 +44,8 @@ def test_a_found_program_as_json() -> None:
         "question": None,
         "nearest": None,
         "demonstrate_next": None,
+        "stale_answers": [],
+        "followed": [],
     }
 
 

@@ -33,21 +33,30 @@ CROWD = 1.0
 """For each doubling or halving of the number of selected hulls, against the demonstrated ones."""
 STRANGE, STRANGEST = 0.32, 9.0
 """Times how unlike the demonstrated hulls the selected ones are, at most so much."""
+NEITHER = 3.0
+"""For each asset where a person refused what it selects: it is not meant, or a label is wrong there."""
 FEW = 5
 """What the batch says counts n / (n + FEW) with n assets that are not demonstrated."""
 LARGER = 2.0
 """A reading that is larger than the smallest is taken where it is believed so many times as much."""
 
 
-def beliefs(terms: Sequence[Term], found: Sequence[Evidence], shown: int, assets: int) -> tuple[float, ...]:
+def beliefs(
+    terms: Sequence[Term], found: Sequence[Evidence], shown: int, assets: int, refused: Sequence[int] | None = None
+) -> tuple[float, ...]:
     """The belief in each of the consistent terms of a rule, in 0..1, in all 1.
 
     found: what the batch says of each; shown: the groups of demonstrated hulls; assets: that are not demonstrated.
+    refused: on how many assets a person refused what each of the terms selects.
     """
     share, leaves = assets / (assets + FEW), dict[Extractor, float]()
     nats = [
-        NODE * term.size + _doubts(term, leaves) + UNTRIED * untried(term, shown) + share * _evidence(facts)
-        for term, facts in zip(terms, found, strict=True)
+        NODE * term.size
+        + _doubts(term, leaves)
+        + UNTRIED * untried(term, shown)
+        + share * _evidence(facts)
+        + NEITHER * against
+        for term, facts, against in zip(terms, found, refused or [0] * len(terms), strict=True)
     ]
     least = min(nats)
     weights = [math.exp(least - nat) for nat in nats]

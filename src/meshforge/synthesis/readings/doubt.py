@@ -22,7 +22,8 @@ _NOTHING = 1e-9  # less harm than this is none
 class Split:
     """An asset on which readings differ.
 
-    asset: its place; choices: places of the most believed reading of each choice, the most believed choice first.
+    asset: its place; choices: places of the most believed reading of each choice, the most believed choice first; what
+    the program does is one of them.
     left: the expected harm that stays after the answer.
     """
 
@@ -75,7 +76,9 @@ class Doubt:
             heads = part[np.argmax(self._beliefs[part])] if kind else 0
             left += float(self._beliefs[part] @ self.differs[heads][part])
             weighed.append((-float(self._beliefs[part].sum()), int(heads)))
-        return Split(asset, tuple(head for _, head in sorted(weighed)[:CHOICES]), left)
+        ours, *others = weighed
+        choices = sorted([ours, *sorted(others)[: CHOICES - 1]])
+        return Split(asset, tuple(head for _, head in choices), left)
 
 
 def _numbered(column: Sequence[object]) -> list[int]:

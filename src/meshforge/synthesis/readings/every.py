@@ -38,17 +38,18 @@ class _Enough(Exception):  # noqa: N818 (not an error: the way out of an endless
 def every(search: Search, answer: Extractor, above: int) -> Consistent:
     """All consistent terms over the field of a search, from those as small as its `answer` to `above` nodes more.
 
-    Sizes that take more than `options.effort` operands are left out, and those above them; so are all that the time
-    does not suffice for.
+    None is larger than `options.max_size`: it could not be learned once a person says that it is meant. Sizes that
+    take more than `options.effort` operands are left out, and those above them; so are all that the time does not
+    suffice for.
     """
     first, collector = search.field.term(answer), _Collector(search)
-    found = {first.bits: first}
-    for size in range(first.size, first.size + above + 1):
+    found, last = {first.bits: first}, min(first.size + above, search.options.max_size)
+    for size in range(first.size, last + 1):
         try:
             found.update(collector.exactly(size, found))
         except (_Enough, OutOfTime):
             return Consistent(_sorted(found), size - 1, False)
-    return Consistent(_sorted(found), first.size + above, True)
+    return Consistent(_sorted(found), last, True)
 
 
 def _sorted(found: dict[int, Term]) -> tuple[Term, ...]:

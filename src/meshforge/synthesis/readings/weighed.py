@@ -20,14 +20,18 @@ COMPARED = 64
 
 
 class Weighed:
-    """Consistent terms over the field of a search: first the one that the rule takes, then the more believable."""
+    """Consistent terms over the field of a search: first the one that the rule takes, then the more believable.
 
-    def __init__(self, search: Search, consistent: Consistent) -> None:
+    refused: places of meshes, and hulls on them that a person said are not what is meant, as bit sets.
+    """
+
+    def __init__(self, search: Search, consistent: Consistent, refused: Sequence[tuple[int, int]] = ()) -> None:
         terms, field = consistent.terms, search.field
         many = len(terms) > 1
         found = evidence(field, search.selections, [term.bits for term in terms]) if many else ()
         assets = len(field.meshes) - len(search.examples)
-        shares = beliefs(terms, found, (1 << search.width) - 1, assets) if many else (1.0,)
+        against = [sum(field.on(term.bits, mesh) == mask for mesh, mask in refused) for term in terms]
+        shares = beliefs(terms, found, (1 << search.width) - 1, assets, against) if many else (1.0,)
         head = taken(terms, shares)
         order = sorted(range(len(terms)), key=lambda k: (k != head, -shares[k], k))
         self.field, self.consistent, self.examples = field, consistent, search.examples
@@ -56,8 +60,8 @@ class Weighed:
 
     @property
     def settled(self) -> bool:
-        """Whether all believable readings do the same on the whole batch."""
-        return len(self.believable) == 1
+        """Whether all believable readings do the same on the whole batch; never where not all are known."""
+        return self.consistent.complete and len(self.believable) == 1
 
     def differing(self, reading: int) -> tuple[int, ...]:
         """Places of the meshes on which a reading selects something else than the one that is taken."""

@@ -1,0 +1,78 @@
+"""Two tables teach three rules that leave something open; answers from a file settle them."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from meshforge.language import Program, Rule
+from meshforge.project import Project
+from meshforge.samples import TABLES
+from meshforge.synthesis import Step
+from tests.loop.command import meshforge
+
+TAUGHT = Program.read(TABLES / "tables.mf")
+MEANT = replace(TAUGHT, rules=(TAUGHT.rules[0], TAUGHT.rules[1], TAUGHT.rules[4]))
+"""Crumbs go, the highest panels become a box, handles on drawers capsules."""
+SHOWN = ("table_01.obj", "table_08.obj")
+"""Neither has a panel below its top, so that the top might be all panels."""
+
+
+@pytest.fixture(scope="module")
+def tables(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the bundled tables and a project, in which two of them are demonstrated."""
+    folder = tmp_path_factory.mktemp("tables")
+    (folder / "assets").mkdir()
+    for source in TABLES.glob("table_*"):
+        shutil.copyfile(source, folder / "assets" / source.name)
+    project = Project.create(
+        folder / "tables", [folder / "assets"], vocabulary=TAUGHT.labels, orient="+Z: Is(leg) -> Is(panel)"
+    )
+    project.label_from_files()
+    for asset in SHOWN:
+        steps = enumerate(_meant(folder, asset), 1)
+        project.demonstrate(asset, [Step(k, names, rule.action) for k, (names, rule) in steps])
+    return folder
+
+
+def _meant(folder: Path, asset: str) -> list[tuple[list[str], Rule]]:
+    """What each rule is meant to select on a table, with the rule."""
+    mesh = Project.open(folder / "tables").mesh(asset)
+    return [(list(trace.selected), rule) for trace, rule in zip(MEANT.run(mesh).trace, MEANT.rules, strict=True)]
+
+
+def test_questions_are_answered_from_a_file_until_all_is_settled(tables: Path) -> None:
+    learned = meshforge("synthesize", "tables", "--json", cwd=tables).json
+    assert learned["status"] == "ambiguous"
+    given: list[dict[str, object]] = []
+    while learned["question"]:
+        question = learned["question"]
+        right = set(_meant(tables, question["asset"])[question["rule"] - 1][0])
+        choices = [set(choice["select"]) for choice in question["choices"]]
+        assert right in choices
+        given.append({"question": question["id"], "choice": choices.index(right) + 1})
+        assert len(given) <= 4
+        (tables / "given.json").write_text(json.dumps(given[-1:]))
+        learned = meshforge("synthesize", "tables", "--json", "--answers", "given.json", cwd=tables).json
+    assert Program.read(tables / "tables" / "program.mf") == MEANT
+    assert any(entry["question"] == "2:table_03.obj" for entry in given)
+
+
+def test_more_answers_settle_what_is_not_asked(tables: Path) -> None:
+    """Answers need not be asked for: what is left of doubt is settled by saying what is meant."""
+    given = [
+        {"rule": number, "asset": path.name, "select": names}
+        for path in sorted(TABLES.glob("*.obj"))
+        if path.name not in SHOWN
+        for number, (names, _) in enumerate(_meant(tables, path.name), 1)
+    ]
+    (tables / "all.json").write_text(json.dumps(given))
+    done = meshforge("synthesize", "tables", "--answers", "all.json", cwd=tables)
+    assert Program.parse(done.out) == MEANT
+    assert "settled: all believable readings agree on your 14 assets" in done.err
+    status = Project.open(tables / "tables").status(workers=0)
+    assert (status.outdated, status.question) == (False, None)

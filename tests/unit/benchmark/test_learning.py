@@ -1,0 +1,110 @@
+"""The learning benchmark runs, its draws are the same every time, and what it says is so; no time is asserted."""
+
+from __future__ import annotations
+
+import json
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from benchmark import __main__ as bench
+from benchmark.clock import in_turns
+from benchmark.learning import asking, calibrate, growth
+from benchmark.learning.asking_programs import taught
+from benchmark.learning.asking_rules import asked
+from benchmark.learning.boxes import SIZED, boxes, boxes_case
+from benchmark.learning.calibrate import WEIGHTS
+from benchmark.learning.cases import cases, learned
+from benchmark.learning.contest import HAS_CVC5
+from benchmark.learning.programs import wanted, wanted_tables
+from benchmark.learning.tables import DEMONSTRATED, bundled, stretched
+from benchmark.report import Result, as_text
+from meshforge.language import size
+from meshforge.synthesis.readings import belief
+
+
+def silent(_: str) -> None:
+    """Takes no notice of progress."""
+
+
+@pytest.mark.parametrize("part", [growth, asking, calibrate])
+def test_a_part_runs_quickly(part: ModuleType) -> None:
+    result = part.measure(silent, True)
+    assert isinstance(result, Result)
+    assert all(table.rows for table in result.tables)
+    assert all(len(row) == len(table.columns) for table in result.tables for row in table.rows)
+    assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
+
+
+def test_the_contest_runs_and_all_find_what_is_smallest(tmp_path: Path) -> None:
+    assert bench.main(["search", "--quick", "--out", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "learning-search.json").read_text("utf-8"))
+    reached = {goal["what"]: goal["reached"] for goal in data["goals"]}
+    assert reached["same smallest size as the paper's, where it finished, %"]
+    assert {"cvc5" in row["seconds"] for row in data["details"]} == {HAS_CVC5}
+    assert any("cvc5 is not installed" in note for note in data["notes"]) is not HAS_CVC5
+    page = (tmp_path / "learning.md").read_text("utf-8")
+    assert page.startswith("# Learning\n")
+    assert "A quick run" in page
+    assert "cvc5 " in page.split("Machine: ")[1].splitlines()[0]
+
+
+def test_what_takes_long_has_one_turn_and_it_counts() -> None:
+    seen: list[str] = []
+    turns = {who: partial(partial, seen.append, who) for who in "ab"}
+    times = in_turns(turns, 2, slow=0.0)
+    assert "".join(seen) == "ab"
+    assert [len(seconds) for seconds in times.values()] == [1, 1]
+
+
+def test_draws_are_the_same_every_time_and_longer_rows_begin_with_shorter_ones() -> None:
+    one, other = (next(cases([100], 2, ("cup",))) for _ in range(2))
+    assert one.shown == other.shown
+    assert all(one.masks[k] for k in one.shown)
+    assert boxes(1)[0].labels == boxes(2)[0].labels
+    assert list(stretched(16))[:14] == list(bundled())
+
+
+@pytest.mark.parametrize("nodes", SIZED)
+def test_the_extractors_on_boxes_have_their_sizes(nodes: int) -> None:
+    assert size(SIZED[nodes]) == nodes
+
+
+def test_the_case_of_the_goal_needs_all_its_nodes() -> None:
+    found = learned(boxes_case(9, 12, 12).search())
+    assert found.consistent.terms[0].size == 9
+
+
+def test_a_rule_that_no_question_is_open_about_is_right() -> None:
+    row = asked(next(cases([100], 3, ("cup",))), 3)
+    assert row.among
+    assert row.right == (row.wrong == 0.0)
+    assert row.neither <= row.answers
+
+
+def test_a_program_is_taught_by_answers() -> None:
+    (row,) = taught(wanted(100, ("lamp",))[0], 100, 2)
+    assert row.status == "found"
+    assert (row.rules, row.refused) == (3, 0)
+    assert row.wrong == 0.0
+
+
+def test_the_bundled_demonstrations_are_what_their_program_does() -> None:
+    task, shown = wanted_tables(14)
+    assert shown == DEMONSTRATED
+    place = Path(str(next(iter(task.meshes.values())).asset.path)).parent  # type: ignore[union-attr]
+    for name in shown:
+        steps = json.loads((place / "demonstrations" / f"{name}.obj.json").read_text("utf-8"))["steps"]
+        assert [set(step["select"]) for step in steps] == [set(chosen) for chosen in task.right[name]]
+
+
+def test_features_are_what_the_weights_multiply() -> None:
+    """With the weights in use they give the beliefs that a lesson has."""
+    case = next(cases([0], 1, ("table",)))
+    rule = calibrate._rule(case)
+    assert rule is not None
+    used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
+    assert sorted(rule.shares(used)) == pytest.approx(sorted(learned(case.search()).beliefs))

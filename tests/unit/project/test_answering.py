@@ -1,0 +1,165 @@
+"""What a person says while a program is learned is kept, read again, and can be taken back."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import ProjectError, UsageError
+from meshforge.project import Project
+from meshforge.symbolic import Label
+from meshforge.synthesis import Answer, Choice, Correction, Question, Repair
+from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
+
+WRONG = Correction(PLAIN, "knob", "leg", "knob")
+REPAIR = Repair(WRONG, 1, 0.9, "it looks like one")
+QUESTION = Question(1, SHELVED, (Choice("1.1", ("top", "shelf")), Choice("1.2", ("top",))), 0.5, 0.0)
+MACHINE = Label("leg", 0.75, "vlm")
+
+
+def knob(project: Project) -> Label | None:
+    return project.mesh(PLAIN).named("knob").annotation
+
+
+def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    assert project.answer(QUESTION, 1) == "1:rack2.obj"
+    assert json.loads((project.folder / "answers.json").read_text()) == {
+        "answers": [{"id": "1:rack2.obj", "rule": 1, "asset": SHELVED, "select": ["top"], "action": "Delete"}],
+        "confirmed": [],
+        "rejected": [],
+    }
+    assert [line.answer for line in project.answers().answers] == [Answer(1, SHELVED, ["top"])]
+
+
+def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.add_answer(Answer(1, "rack4.obj", ()))
+    project.answer(QUESTION, 0)
+    project.answer(QUESTION, None)
+    said = [(line.asset, line.select) for line in project.answers().answers]
+    assert said == [(SHELVED, None), ("rack4.obj", ())]
+
+
+def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.answer(QUESTION, 0)
+    path = project.folder / "answers.json"
+    data = json.loads(path.read_text())
+    data["author"] = "me"
+    data["answers"][0]["when"] = "today"
+    path.write_text(json.dumps(data))
+    project.add_answer(Answer(1, "rack4.obj", None))
+    data = json.loads(path.read_text())
+    assert data["author"] == "me" and data["answers"][0]["when"] == "today"
+    project.forget_answers()
+    assert json.loads(path.read_text())["author"] == "me"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "b", "select": null}]}', "the id of this entry is '1:b'"),
+        ('{"answers": [{"id": "0:a", "rule": 0, "asset": "a", "select": null}]}', "answers.0.rule"),
+        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "a"}]}', "answers.0.select"),
+        ('{"rejected": [{"id": "a#h=x", "asset": "a", "hull": "h", "to": "x"}]}', "rejected.0.from"),
+        ("[", "JSON"),
+    ],
+)
+def test_a_damaged_file_is_named_with_the_field(tmp_path: Path, text: str, message: str) -> None:
+    project = ambiguous(tmp_path)
+    (project.folder / "answers.json").write_text(text)
+    with pytest.raises(ProjectError, match=message) as caught:
+        project.answers()
+    assert "answers.json" in caught.value.message
+
+
+def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    with pytest.raises(ProjectError, match=r"no asset 'rack\.obj'"):
+        project.add_answer(Answer(1, "rack.obj", None))
+    with pytest.raises(ProjectError, match="no rule 2 to answer for: only rules 1 to 1 are demonstrated"):
+        project.add_answer(Answer(2, SHELVED, None))
+    with pytest.raises(UsageError, match="2 choices, none at place 2"):
+        project.answer(QUESTION, 2)
+    assert not (project.folder / "answers.json").exists()
+
+
+def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    assert project.confirm(REPAIR) == "rack0.obj#knob=knob"
+    assert knob(project) == Label("knob", 1.0, "repair")
+    (line,) = json.loads((project.folder / "answers.json").read_text())["confirmed"]
+    assert (line["from"], line["to"]) == ("leg", "knob")
+    assert line["before"] == {"label": "leg", "source": "vlm", "confidence": 0.75}
+    project.confirm(REPAIR)
+    assert project.take_back("rack0.obj#knob=knob") is None
+    assert knob(project) == MACHINE
+    assert not (project.folder / "answers.json").exists()
+
+
+def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    project.set_labels(PLAIN, {"knob": None})
+    said = project.confirm(Repair(Correction(PLAIN, "knob", None, "knob"), 1, 0.9, ""))
+    assert knob(project) == Label("knob", 1.0, "repair")
+    project.take_back(said)
+    assert knob(project) is None
+
+
+def test_a_label_that_a_person_changed_after_the_repair_stays(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    said = project.confirm(REPAIR)
+    project.set_labels(PLAIN, {"knob": "board"})
+    note = project.take_back(said)
+    assert note == "knob in rack0.obj is left labelled board, as it was changed after the repair"
+    assert knob(project) == Label("board", 1.0, "user")
+
+
+def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    said = project.confirm(REPAIR)
+    (tmp_path / "assets" / PLAIN).unlink()
+    project = Project.open(project.folder)
+    assert "there is no asset" in (project.take_back(said) or "")
+    assert not project.answers().ids
+
+
+def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    with pytest.raises(ProjectError, match="no hull 'nob'; did you mean 'knob'"):
+        project.confirm(Repair(Correction(PLAIN, "nob", "leg", "knob"), 1, 0.9, ""))
+    with pytest.raises(ProjectError, match="not in the vocabulary"):
+        project.confirm(Repair(Correction(PLAIN, "knob", "leg", "handle"), 1, 0.9, ""))
+    project.set_labels(PLAIN, {"knob": "board"})
+    with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
+        project.confirm(REPAIR)
+    assert not project.answers().ids
+
+
+def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    project.reject(REPAIR)
+    project.confirm(REPAIR)
+    assert project.answers().ids == ("rack0.obj#knob=knob",)
+    assert len(project.answers().confirmed) == 1
+
+
+def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    with pytest.raises(ProjectError, match="--list-answers"):
+        project.take_back("1:rack2.obj")
+    project.answer(QUESTION, 0)
+    with pytest.raises(ProjectError, match=r"Did you mean '1:rack2\.obj'"):
+        project.take_back("1:rack2.ob")
+
+
+def test_everything_can_be_forgotten(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    project.answer(QUESTION, 0)
+    project.confirm(REPAIR)
+    project.reject(Repair(Correction(OTHER, "left", "leg", "knob"), 1, 0.9, ""))
+    assert project.forget_answers() == ()
+    assert project.answers().ids == () and knob(project) == MACHINE

@@ -1,0 +1,154 @@
+"""A project learns from its demonstrations and from what a person said since."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from meshforge.language import Delete, Merge, Program
+from meshforge.project import Family, Project
+from meshforge.symbolic import Label
+from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
+from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
+
+ALL, HIGHEST = (f"labels board, leg, knob\n\n{rule} => Delete\n" for rule in ("Is(board)", "Geo(Is(board), +Z)"))
+
+
+def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    outcome = project.synthesize()
+    assert isinstance(outcome, Ambiguous)
+    assert str(project.program()) == ALL
+    assert outcome.question.id == project.status(workers=0).question
+    say = project.status(workers=0).next.say
+    assert say == "It is open what rule 1 does on rack2.obj: answer the question, or apply the program as it is."
+    (choice,) = (k for k, c in enumerate(outcome.question.choices) if c.select == ("top",))
+    project.answer(outcome.question, choice)
+    assert project.status(workers=0).outdated
+    outcome = project.synthesize()
+    assert isinstance(outcome, Found) and outcome.settled
+    assert str(project.program()) == HIGHEST
+    status = project.status(workers=0)
+    assert (status.outdated, status.question) == (False, None)
+
+
+def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.synthesize()
+    list(project.apply(workers=0))
+    status = project.status(workers=0)
+    assert status.question and (status.next.command or "").startswith("meshforge check")
+
+
+def test_an_answer_taken_back_is_asked_for_again(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    said = project.add_answer(Answer(1, SHELVED, ["top"]))
+    project.synthesize()
+    project.take_back(said)
+    assert project.status(workers=0).outdated
+    assert isinstance(project.synthesize(), Ambiguous)
+
+
+def test_labels_of_an_answered_asset_are_learned_from(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.add_answer(Answer(1, SHELVED, ["top"]))
+    project.synthesize()
+    project.set_labels("rack4.obj", {"knob": "leg"})
+    assert not project.status(workers=0).outdated
+    project.set_labels(SHELVED, {"knob": "leg"})
+    assert project.status(workers=0).outdated
+
+
+def test_answers_for_one_lesson_are_not_kept(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    outcome = project.synthesize(accept=False, answers=[Answer(1, SHELVED, ["top"])])
+    assert str(outcome.program) == HIGHEST
+    assert project.program() is None and not project.answers().ids
+
+
+def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.add_answer(Answer(1, "rack6.obj", ["top"]))
+    project.add_answer(Answer(1, "rack5.obj", ["board"]))
+    (tmp_path / "assets" / "rack6.obj").unlink()
+    project = Project.open(project.folder)
+    outcome = project.synthesize()
+    assert outcome.program
+    assert {answer.asset for answer in outcome.stale} == {"rack6.obj", "rack5.obj"}
+
+
+def test_an_answer_is_not_taken_for_one_to_another_rule(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    answer = Answer(1, SHELVED, ["top"])
+    project.add_answer(answer)
+    for asset in (PLAIN, OTHER):
+        project.demonstrate(asset, [Step(1, {"left", "right"}, Merge()), Step(2, {"top"}, Delete())])
+    outcome = project.synthesize()
+    assert outcome.program and outcome.stale == (answer,)
+
+
+def test_a_confirmed_repair_is_kept_before_the_program_is(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    asked: list[Repair] = []
+
+    def yes(repair: Repair) -> bool:
+        asked.append(repair)
+        return True
+
+    outcome = project.synthesize(confirm=yes)
+    assert isinstance(outcome, Found) and len(asked) == 1
+    assert project.mesh(PLAIN).named("knob").annotation == Label("knob", 1.0, "repair")
+    assert not project.status(workers=0).outdated
+    again = project.synthesize(confirm=yes)
+    assert again.program == outcome.program and len(asked) == 1
+
+
+def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    outcome = project.synthesize()
+    assert isinstance(outcome, NeedsRepair)
+    assert not isinstance(project.synthesize(confirm=lambda _: False), NeedsRepair)
+    assert project.answers().ids == ("rack0.obj#knob=knob",)
+    assert not isinstance(project.synthesize(), NeedsRepair)
+    project.forget_answers()
+    assert project.synthesize().repairs == outcome.repairs
+
+
+def test_a_trial_keeps_no_repair(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    assert project.synthesize(accept=False, confirm=lambda _: True).program
+    assert project.mesh(PLAIN).named("knob").label == "leg" and not project.answers().ids
+
+
+def test_learning_can_be_stopped(tmp_path: Path) -> None:
+    project = mislabelled(tmp_path)
+    assert isinstance(project.synthesize(stop=lambda: True), TimedOut)
+    assert project.program() is None
+
+
+def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.synthesize()
+    project.add_answer(Answer(1, SHELVED, ["left"]))
+    project.add_answer(Answer(1, "rack3.obj", ["right", "knob"]))
+    outcome = project.synthesize()
+    assert isinstance(outcome, NoProgram)
+    assert str(project.program()) == ALL
+
+
+def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    family = Family(project)
+    before = family.meshes()
+    project.set_labels(SHELVED, {"shelf": None, "knob": "leg"})
+    after = family.meshes()
+    assert [name for name in before if before[name] is not after[name]] == [SHELVED]
+    assert after[SHELVED].labels == project.mesh(SHELVED).labels
+    assert [a.shape for a in before[SHELVED].hulls] == [b.shape for b in after[SHELVED].hulls]
+
+
+def test_an_asset_is_shown_as_the_rule_meets_it(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    program = Program.parse("labels board, leg, knob\nIs(leg) => Merge\nIs(board) => Delete\n")
+    assert {hull.name for hull in project.met(SHELVED, 2, program).hulls} == {"top", "shelf", "knob", "left~1"}
+    assert project.met(SHELVED, 1, program).index == project.mesh(SHELVED).index
+    assert "left" in project.met(PLAIN, 2, program).index  # there it was shown that the rule does not take it

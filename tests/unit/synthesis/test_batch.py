@@ -1,0 +1,192 @@
+"""The meshes that a program is learned for: their names, and which of them stay away."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import meshforge as mf
+from meshforge.language import Delete, Is, LandmarkPair, Orient, Program, Template
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import (
+    Ambiguous,
+    Answer,
+    Demonstration,
+    Found,
+    Options,
+    Outcome,
+    Step,
+    outcome_json,
+    synthesize,
+)
+from meshforge.synthesis.agreement import agreed_rules
+from meshforge.synthesis.batch import Course, corrected, named_batch
+from meshforge.synthesis.correction import Correction
+from tests.synthesis_boxes import boxes
+from tests.synthesis_cupboards import cupboard, cupboards, shown
+
+HANDLES = "Is(handle) => Delete"
+MESHES = cupboards()
+DEMOS = shown(MESHES, ["c0"], HANDLES)
+EMPTY = SymbolicMesh(())
+
+
+def shape(outcome: Outcome) -> dict[str, Any]:
+    """The outcome as JSON, without times."""
+    return {**json.loads(json.dumps(outcome_json(outcome))), "seconds": None}
+
+
+def at(size: float) -> SymbolicMesh:
+    """A cupboard of that size."""
+    return boxes(
+        ("case", "body", (0, 0, 0), (4 * size, 4 * size, 4 * size)),
+        ("drawer", "drawer", (0, -size, 0), (4 * size, size, 2 * size)),
+        ("pull", "handle", (size, -2 * size, 0), (size, size, 0.5 * size)),
+    )
+
+
+def test_meshes_made_in_memory_are_counted_from_one() -> None:
+    named = named_batch([cupboard(), cupboard(True)], DEMOS)
+    assert list(named) == ["mesh 1", "mesh 2"]
+
+
+def test_meshes_of_files_are_called_by_their_paths(tmp_path: Path) -> None:
+    paths = [tmp_path / f"{name}.obj" for name in ("b", "a")]
+    for path in paths:
+        path.write_text("o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    meshes = [mf.load(path) for path in paths]
+    demo = Demonstration(meshes[1], [Step(1, [], Delete())])
+    assert list(named_batch(meshes, DEMOS)) == [str(paths[1]), str(paths[0])]
+    assert list(named_batch((mf.load(path) for path in paths), [demo])) == [str(paths[0])]
+
+
+def test_demonstrated_meshes_are_left_out_by_name_and_by_identity() -> None:
+    assert "c0" not in named_batch({**MESHES, "c0": cupboard()}, DEMOS)
+    assert "again" not in named_batch({**MESHES, "again": MESHES["c0"]}, DEMOS)
+    unnamed = Demonstration(MESHES["c0"], DEMOS[0].steps)
+    assert sorted(named_batch(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
+
+
+def test_one_mesh_under_two_names_is_two_assets() -> None:
+    assert list(named_batch({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
+
+
+@pytest.mark.parametrize("batch", [(), [], {}, iter(())])
+def test_without_a_batch_one_reading_is_enough_and_nothing_is_settled(batch: Any) -> None:
+    outcome = synthesize(DEMOS, batch)
+    assert isinstance(outcome, Found)
+    assert not outcome.settled
+    assert (outcome.hint, len(outcome.readings)) == (None, 1)
+
+
+def test_a_generator_is_read_once_and_does_what_a_list_does() -> None:
+    others = list(MESHES.values())
+    assert shape(synthesize(DEMOS, (mesh for mesh in others))) == shape(synthesize(DEMOS, others))
+
+
+def test_the_order_of_a_mapping_does_not_matter() -> None:
+    forth, back = (synthesize(DEMOS, dict(rows)) for rows in (MESHES.items(), list(MESHES.items())[::-1]))
+    assert isinstance(forth, Ambiguous)
+    assert shape(forth) == shape(back)
+    assert forth.question == back.question
+
+
+def test_learning_twice_gives_the_same() -> None:
+    assert shape(synthesize(DEMOS, MESHES)) == shape(synthesize(DEMOS, MESHES))
+
+
+def test_meshes_that_cannot_be_oriented_leave_the_batch() -> None:
+    up = Orient((LandmarkPair("+Z", Is("foot"), Is("body")),))
+    meshes = {name: mesh for name, mesh in MESHES.items() if name != "c2"}
+    outcome = synthesize(shown(MESHES, ["c2"], HANDLES), meshes, orient=up)
+    footless = {"c0", "c3", "c6"}
+    assert {name for reading in outcome.readings for name in reading.differs_on} <= meshes.keys() - footless
+    only = synthesize(shown(MESHES, ["c2"], HANDLES), {name: MESHES[name] for name in footless}, orient=up)
+    assert isinstance(only, Found)
+    assert not only.settled, "no mesh was left to look at"
+    assert only.hint is None
+
+
+def test_meshes_that_a_rule_cannot_edit_leave_the_batch_after_it() -> None:
+    meshes = {**MESHES, "huge": at(1e60)}
+    demos = shown(MESHES, ["c0"], f"Is(drawer) => Scale(all, 1e60)\n{HANDLES}")
+    answer = Answer(2, "huge", {"pull"})
+    outcome = synthesize(demos, meshes, answers=[answer], options=Options(repair=False))
+    assert isinstance(outcome, Found | Ambiguous)
+    assert not any("huge" in reading.differs_on for reading in outcome.readings if reading.rule == 2)
+    assert outcome.stale == (answer,)
+
+
+def test_a_mesh_without_hulls_is_no_obstacle_and_never_asked_about() -> None:
+    with_empty, without = (synthesize(DEMOS, {**MESHES, **more}) for more in ({"empty": EMPTY}, {}))
+    assert isinstance(with_empty, Ambiguous)
+    assert [rule.extractor for rule in with_empty.rules] == [rule.extractor for rule in without.rules]
+    assert not any("empty" in reading.differs_on for reading in with_empty.readings)
+    only = synthesize(DEMOS, {"empty": EMPTY})
+    assert isinstance(only, Found)
+    assert only.hint is None
+
+
+def test_labels_of_the_batch_are_part_of_the_vocabulary_unless_it_is_given() -> None:
+    odd = cupboard().labelled({"case": Label("carcass")})
+    assert "carcass" in synthesize_program(synthesize(DEMOS, {"odd": odd})).labels
+    given = ("body", "drawer", "handle")
+    assert synthesize_program(synthesize(DEMOS, {"odd": odd}, vocabulary=given)).labels == given
+
+
+def synthesize_program(outcome: Outcome) -> Program:
+    assert outcome.program
+    return outcome.program
+
+
+def test_settled_means_that_no_believable_reading_differs() -> None:
+    for program in (HANDLES, "Is(drawer) => Delete", "Is(body) => Delete", "All => Delete"):
+        for names in (["c0"], ["c1"], ["c1", "c2"], ["c4", "c5", "c7"]):
+            outcome = synthesize(shown(MESHES, names, program), MESHES)
+            differing = [reading for reading in outcome.readings if reading.differs_on and reading.belief >= 0.005]
+            assert outcome.settled is not bool(differing)
+
+
+@pytest.mark.parametrize("effort", [0, 5])
+def test_nothing_is_settled_where_readings_were_left_out(effort: int) -> None:
+    outcome = synthesize(shown(MESHES, ["c0", "c1", "c4"], HANDLES), MESHES, options=Options(effort=effort))
+    whole = synthesize(shown(MESHES, ["c0", "c1", "c4"], HANDLES), MESHES)
+    assert not outcome.settled
+    assert whole.settled
+
+
+def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
+    options = Options(strategy="paper", repair=False)
+    outcome = synthesize(DEMOS, MESHES, options=options)
+    assert isinstance(outcome, Found)
+    assert (outcome.settled, outcome.question) == (False, None)
+    assert [rule.extractor for rule in outcome.rules] == [Is("handle")]
+    assert outcome.hint is not None
+
+
+def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
+    program = Program.parse(HANDLES)
+    course = Course(DEMOS, named_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    (rule,) = agreed_rules(DEMOS)
+    examples, rest = course.examples(rule)
+    assert [example.name for example in examples] == ["c0"]
+    assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
+    course.take(1, program.rules[0], last=True)
+    assert "pull" not in course.shown[0].mesh.index
+    assert all("pull" in replay.mesh.index for replay in course.others)
+    before_another = Course(DEMOS, named_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    before_another.take(1, program.rules[0], last=False)
+    assert len(before_another.others) == 7
+    assert not any("pull" in replay.mesh.index for replay in before_another.others)
+
+
+def test_corrections_of_other_meshes_and_of_hulls_that_are_gone_change_nothing() -> None:
+    mesh = MESHES["c1"]
+    assert corrected(mesh, "c1", [Correction("c2", "pull", "handle", "door")]) is mesh
+    after = corrected(mesh, "c1", [Correction("c1", "pull", "handle", "door"), Correction("c1", "gone", None, "door")])
+    assert (after.named("pull").label, after.named("pull").source) == ("door", "repair")
+    assert mesh.named("pull").label == "handle"
+    assert {hull.name for hull in after.hulls} == {hull.name for hull in mesh.hulls}

@@ -1,0 +1,98 @@
+"""How believable readings are, and which one a program takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import pytest
+
+from meshforge.language import parse_extractor
+from meshforge.synthesis.readings.belief import FEW, LARGER, beliefs, taken
+from meshforge.synthesis.readings.evidence import NO_EVIDENCE, Evidence
+from meshforge.synthesis.search.field import Field
+from meshforge.synthesis.search.term import Term
+from tests.synthesis_boxes import boxes
+
+FIELD = Field(
+    [
+        boxes(
+            ("top", "panel", (0, 0, 1), (9, 1, 1)),
+            ("left", "leg", (0, 0, 0), (1, 1, 1)),
+            ("right", "leg", (8, 0, 0), (1, 1, 1)),
+        )
+    ],
+    ("leg", "panel", "misc"),
+)
+SHOWN = (1 << FIELD.width) - 1
+
+
+def terms(*texts: str) -> list[Term]:
+    return [FIELD.term(parse_extractor(text)) for text in texts]
+
+
+def believed(*texts: str, found: Sequence[Evidence] = (), assets: int = 0) -> tuple[float, ...]:
+    return beliefs(terms(*texts), found or [NO_EVIDENCE] * len(texts), SHOWN, assets)
+
+
+@pytest.mark.parametrize("texts", [["All"], ["Is(leg)", "Attach(Is(leg), Is(panel))", "Diff(Is(leg), Is(misc))"]])
+def test_beliefs_are_shares_of_a_whole(texts: list[str]) -> None:
+    shares = believed(*texts)
+    assert math.fsum(shares) == pytest.approx(1.0)
+    assert all(0 < share <= 1 for share in shares)
+
+
+@pytest.mark.parametrize(
+    ("likely", "unlikely"),
+    [
+        ("Is(leg)", "All"),
+        ("Is(leg)", "Geo(Is(leg), -Z)"),
+        ("Is(leg)", "Attach(Is(leg), Is(panel))"),
+        ("Geo(Is(leg), +Z)", "Geo(Is(leg), +X)"),
+        ("Geo(Is(leg), -Z)", "Geo(All, -Z)"),
+        ("Attach(Is(leg), Is(panel))", "Attach(Is(leg), Is(leg))"),
+        ("Attach(Is(leg), Is(panel))", "Attach(Is(leg), All)"),
+        ("Attach(Is(leg), All)", "Attach(All, All)"),
+        ("Union(Is(leg), Is(panel))", "Union(Is(leg), Is(misc))"),
+        ("Union(Is(leg), Is(panel))", "Union(Is(leg), Geo(Is(panel), +X))"),
+    ],
+)
+def test_what_people_rather_mean_is_believed_more(likely: str, unlikely: str) -> None:
+    more, less = believed(likely, unlikely)
+    assert more > less
+
+
+@pytest.mark.parametrize("worse", [Evidence(1.0, 0.0, 0.0), Evidence(0.0, 1.0, 0.0), Evidence(0.0, 0.0, 4.0)])
+def test_every_kind_of_evidence_counts_and_the_more_the_larger_the_batch(worse: Evidence) -> None:
+    shares = [
+        believed("Is(leg)", "Is(panel)", found=[NO_EVIDENCE, worse], assets=assets)[1] for assets in (0, 1, FEW, 1000)
+    ]
+    assert shares[0] == pytest.approx(0.5)
+    assert shares == sorted(shares, reverse=True)
+    assert len(set(shares)) == 4
+
+
+def test_evidence_however_strange_leaves_numbers_that_can_be_compared() -> None:
+    worst = Evidence(1.0, 60.0, 1e300)
+    shares = believed("Is(leg)", "All", found=[NO_EVIDENCE, worst], assets=10**6)
+    assert all(map(math.isfinite, shares))
+    assert shares[0] == pytest.approx(1.0)
+    assert math.fsum(believed("Is(leg)", "All", found=[worst, worst], assets=10**6)) == pytest.approx(1.0)
+
+
+def test_the_smallest_is_taken_unless_a_larger_one_is_believed_twice_as_much() -> None:
+    rows = terms("Is(leg)", "Attach(Is(leg), Is(panel))")
+    assert taken(rows, [0.5, 0.5 * LARGER - 1e-9]) == 0
+    assert taken(rows, [0.5, 0.5 * LARGER]) == 1
+
+
+def test_of_the_smallest_the_most_believed_is_taken_and_of_equals_the_first() -> None:
+    assert taken(terms("Is(leg)", "Is(panel)", "All"), [0.3, 0.5, 0.2]) == 1
+    assert taken(terms("Is(leg)", "Is(panel)"), [0.5, 0.5]) == 0
+    assert taken(terms("Is(leg)"), [1.0]) == 0
+
+
+def test_a_larger_one_is_held_against_the_smallest_that_is_believed_most() -> None:
+    rows = terms("Is(leg)", "Is(panel)", "Geo(Is(leg), -Z)")
+    assert taken(rows, [0.1, 0.4, 0.5]) == 1
+    assert taken(rows, [0.05, 0.15, 0.8]) == 2

@@ -1,0 +1,81 @@
+"""What is at stake between readings, and which question settles most of it."""
+
+from __future__ import annotations
+
+import pytest
+
+from meshforge.synthesis.readings.doubt import CHOICES, HARM, HARMED, Doubt
+
+
+def test_readings_that_agree_everywhere_do_no_harm_and_raise_no_question() -> None:
+    doubt = Doubt([["a", "b"], ["a", "b"]], [0.6, 0.4])
+    assert (doubt.harm, doubt.grave, doubt.best(range(2)), doubt.gains(0)) == (0.0, False, None, {})
+
+
+def test_one_reading_alone_does_no_harm() -> None:
+    doubt = Doubt([["a", "b"]], [1.0])
+    assert (doubt.harm, doubt.grave, doubt.best(range(2))) == (0.0, False, None)
+
+
+def test_without_assets_nothing_is_at_stake() -> None:
+    doubt = Doubt([[], []], [0.5, 0.5])
+    assert (doubt.harm, doubt.grave, doubt.best([]), doubt.gains(0)) == (0.0, False, None, {})
+
+
+def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_program() -> None:
+    doubt = Doubt([[1, 1, 1, 1], [1, 1, 2, 2], [9, 9, 9, 9]], [0.7, 0.2, 0.1])
+    assert doubt.harm == pytest.approx(0.2 * 0.5 + 0.1 * 1.0)
+
+
+def test_the_harm_counts_from_the_programs_reading_even_where_another_is_believed_more() -> None:
+    assert Doubt([[1], [2]], [0.25, 0.75]).harm == pytest.approx(0.75)
+
+
+@pytest.mark.parametrize("assets", [1, 5, 16, 200])
+def test_a_question_is_worth_asking_above_a_share_and_a_number_of_assets(assets: int) -> None:
+    least = max(HARM, HARMED / assets)
+    for belief, grave in ((least * 0.99, False), (least * 1.01, True)):
+        assert Doubt([["a"] * assets, ["b"] * assets], [1 - belief, belief]).grave is grave
+
+
+def test_the_best_question_leaves_least_harm_and_of_equals_is_about_the_first_asset() -> None:
+    selections = [["a", "a", "a", "a"], ["a", "b", "b", "b"], ["a", "a", "c", "c"]]
+    doubt = Doubt(selections, [0.5, 0.3, 0.2])
+    best = doubt.best(range(4))
+    assert best is not None
+    assert (best.asset, best.left) == (2, 0.0)
+    assert doubt.best([3, 1]) == doubt.best([1, 3])
+    other = doubt.best([1])
+    assert other is not None
+    assert other.left == pytest.approx(0.2 * 0.5)
+    assert doubt.best([0]) is None
+
+
+def test_choices_are_told_apart_the_most_believed_first_and_each_stands_for_its_most_believed_reading() -> None:
+    best = Doubt([["a"], ["b"], ["a"], ["b"], ["c"]], [0.1, 0.15, 0.25, 0.3, 0.2]).best([0])
+    assert best is not None
+    assert best.choices == (3, 0, 4), "the program's own reading stands for its choice, whatever is believed"
+
+
+def test_a_person_compares_three_pictures_at_most() -> None:
+    best = Doubt([[k] for k in range(7)], [0.4, *[0.1] * 6]).best([0])
+    assert best is not None
+    assert best.choices == (0, 1, 2)
+    assert len(best.choices) == CHOICES
+
+
+def test_gains_are_of_assets_from_a_place_on_where_an_answer_spares_harm() -> None:
+    doubt = Doubt([["a", "a", "a"], ["b", "a", "b"]], [0.75, 0.25])
+    assert doubt.gains(1) == {2: pytest.approx(doubt.harm)}
+    assert sorted(doubt.gains(0)) == [0, 2]
+
+
+def test_what_is_selected_may_be_anything_that_can_be_compared() -> None:
+    as_sets = Doubt([[frozenset({1, 2})], [frozenset({2, 1})], [frozenset()]], [0.5, 0.3, 0.2])
+    as_masks = Doubt([[6], [6], [0]], [0.5, 0.3, 0.2])
+    assert as_sets.harm == as_masks.harm == pytest.approx(0.2)
+    assert as_sets.best([0]) == as_masks.best([0])
+
+
+def test_masks_wider_than_a_machine_word_are_told_apart() -> None:
+    assert Doubt([[1 << 300], [1 << 301]], [0.5, 0.5]).harm == pytest.approx(0.5)

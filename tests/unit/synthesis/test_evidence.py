@@ -1,0 +1,121 @@
+"""What the batch says about a reading: idle, crowded, strange; and operands that nothing was shown of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+
+from meshforge.language import parse_extractor, select_mask
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.readings.evidence import NO_EVIDENCE, STRANGE_LABEL, Evidence, evidence, untried
+from meshforge.synthesis.search.field import Field
+from tests.synthesis_boxes import boxes
+
+LABELS = ("leg", "panel", "misc")
+NONE_AT_ALL = SymbolicMesh(())
+
+
+def row(legs: int, misc: int = 0) -> SymbolicMesh:
+    """Legs in a row under a panel, all alike, and litter."""
+    return boxes(
+        ("top", "panel", (0, 0, 1), (9, 1, 1)),
+        *((f"leg{k}", "leg", (2 * k, 0, 0), (1, 1, 1)) for k in range(legs)),
+        *((f"bit{k}", "misc", (2 * k, 5, 0), (1, 1, 1)) for k in range(misc)),
+    )
+
+
+def said(
+    texts: Sequence[str], shown: Sequence[SymbolicMesh], batch: Sequence[SymbolicMesh], rule: str = "Is(leg)"
+) -> tuple[Evidence, ...]:
+    """The evidence on some extractors, where a rule was demonstrated."""
+    field = Field([*shown, *batch], LABELS)
+    selections = [select_mask(parse_extractor(rule), mesh) for mesh in shown]
+    return evidence(field, selections, [field.bits(parse_extractor(text)) for text in texts])
+
+
+@pytest.mark.parametrize("batch", [[], [NONE_AT_ALL], [NONE_AT_ALL, NONE_AT_ALL]])
+def test_without_other_hulls_there_is_no_evidence(batch: list[SymbolicMesh]) -> None:
+    assert said(["Is(leg)", "All"], [row(2)], batch) == (NO_EVIDENCE, NO_EVIDENCE)
+
+
+def test_where_nothing_was_selected_there_is_nothing_to_compare_with() -> None:
+    assert said(["Is(leg)"], [row(0)], [row(2)]) == (NO_EVIDENCE,)
+
+
+def test_no_readings_have_no_evidence() -> None:
+    assert said([], [row(2)], [row(2)]) == ()
+
+
+def test_a_reading_is_idle_on_the_share_of_assets_where_it_selects_nothing() -> None:
+    (legs,) = said(["Is(leg)"], [row(2)], [row(0), row(2), row(2), row(2)])
+    assert legs.idle == 0.25
+
+
+def test_a_mesh_without_hulls_is_one_where_nothing_is_selected() -> None:
+    for batch in ([NONE_AT_ALL, row(2)], [row(2), NONE_AT_ALL]):
+        (legs,) = said(["Is(leg)"], [row(2)], batch)
+        assert (legs.idle, legs.crowd) == (0.5, 0.0)
+        assert legs.strange == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_reading_that_never_selects_is_idle_and_nothing_else() -> None:
+    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (Evidence(1.0, 0.0, 0.0),)
+
+
+@pytest.mark.parametrize(("legs", "crowd"), [(1, 1.0), (2, 0.0), (4, 1.0)])
+def test_doubling_and_halving_crowd_alike(legs: int, crowd: float) -> None:
+    (found,) = said(["Is(leg)"], [row(2)], [row(legs), row(0)])
+    assert found.crowd == pytest.approx(crowd)
+
+
+def test_the_usual_number_is_the_middle_of_those_demonstrated_where_something_was() -> None:
+    (found,) = said(["Is(leg)"], [row(1), row(4), row(0)], [row(2)])
+    assert found.crowd == pytest.approx(0.0)
+
+
+def test_hulls_like_those_demonstrated_are_not_strange_and_others_are_the_more_the_less_alike() -> None:
+    alike, label, both = said(["Is(leg)", "Is(misc)", "All"], [row(2, 1)], [row(2, 1)])
+    assert alike.strange == pytest.approx(0.0, abs=1e-9)
+    assert label.strange >= STRANGE_LABEL**2
+    assert alike.strange < both.strange
+
+
+def test_a_hull_without_a_label_is_not_foreign_where_such_a_one_was_shown() -> None:
+    bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "leg", (5, 0, 0), (1, 1, 1)))
+    (found,) = said(["Diff(All, Is(leg))"], [bare], [bare], rule="Diff(All, Is(leg))")
+    assert found.strange == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_evidence_does_not_depend_on_the_unit_of_length() -> None:
+    def scaled(mesh: SymbolicMesh, factor: float) -> SymbolicMesh:
+        pieces = [(h.name, h.label, h.aabb.min * factor, (h.aabb.max - h.aabb.min) * factor) for h in mesh.hulls]
+        return boxes(*((name, label, low.tolist(), size.tolist()) for name, label, low, size in pieces))
+
+    meshes = [row(2, 1), row(3, 2), row(4)]
+    (metres,) = said(["All"], meshes[:1], meshes[1:])
+    (microns,) = said(["All"], [scaled(meshes[0], 1e6)], [scaled(mesh, 1e6) for mesh in meshes[1:]])
+    assert microns.strange == pytest.approx(metres.strange)
+    assert (microns.idle, microns.crowd) == (metres.idle, metres.crowd)
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("Is(leg)", 0),
+        ("Union(Is(leg), Is(panel))", 0),
+        ("Union(Is(leg), Is(misc))", 1),
+        ("Union(Is(leg), Is(leg))", 1),
+        ("Intersect(Is(leg), All)", 1),
+        ("Intersect(All, Geo(All, +Z))", 1),
+        ("Intersect(Is(leg), Geo(Is(leg), -X))", 1),
+        ("Diff(Is(leg), Geo(Is(leg), -X))", 0),
+        ("Diff(Is(leg), Is(misc))", 1),
+        ("Diff(Is(leg), Is(panel))", 1),
+        ("Union(Is(panel), Diff(Is(leg), Is(misc)))", 1),
+        ("Union(Union(Is(misc), Is(leg)), Diff(Is(leg), Is(misc)))", 3),
+    ],
+)
+def test_operands_that_make_no_difference_where_it_was_shown_are_untried(text: str, count: int) -> None:
+    field = Field([row(2), row(2, 2)], LABELS)
+    assert untried(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1) == count

@@ -1,0 +1,109 @@
+"""What a person is asked, and which asset is best demonstrated next."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pytest
+
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Ambiguous, Found, Hint, Options, Outcome, synthesize
+from meshforge.synthesis.guidance import hint, reading_id
+from tests.synthesis_boxes import boxes
+from tests.synthesis_cupboards import cupboard, cupboards, shown
+
+ALIKE = "believable readings of the rules differ there"
+
+
+def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> Outcome:
+    return synthesize(shown(meshes, names, program), meshes, options=Options(repair=False))
+
+
+def test_readings_are_counted_from_one_within_their_rule() -> None:
+    assert [reading_id(2, place) for place in (0, 9)] == ["2.1", "2.10"]
+    outcome = learned(cupboards(), ["c0"], "Is(drawer) => Delete\nIs(handle) => Delete\n")
+    for rule in (1, 2):
+        ids = [reading.id for reading in outcome.readings if reading.rule == rule]
+        assert ids == [f"{rule}.{place}" for place in range(1, len(ids) + 1)]
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "Is(handle) => Delete",
+        "Attach(Is(handle), Is(drawer)) => Delete",
+        "Diff(All, Is(body)) => Delete",
+        "All => Delete",
+        "Is(body) => Delete\nIs(handle) => Delete",
+    ],
+)
+def test_a_question_has_two_or_three_choices_that_differ_and_is_about_an_asset_nobody_spoke_of(program: str) -> None:
+    meshes = cupboards(12)
+    outcome = learned(meshes, ["c2"], program)
+    assert isinstance(outcome, Ambiguous)
+    question = outcome.question
+    assert question.asset in meshes.keys() - {"c2"}
+    assert len({frozenset(choice.select) for choice in question.choices}) == len(question.choices) in (2, 3)
+    assert question.harm > question.left >= 0
+    assert {choice.reading for choice in question.choices} <= {reading.id for reading in outcome.readings}
+
+
+@pytest.mark.parametrize(("order", "rule"), [(("Is(body)", "Is(handle)"), 2), (("Is(handle)", "Is(body)"), 1)])
+def test_a_question_is_about_the_first_rule_whose_doubt_is_worth_it(order: tuple[str, str], rule: int) -> None:
+    outcome = learned(cupboards(), ["c0"], "".join(f"{extractor} => Delete\n" for extractor in order))
+    assert isinstance(outcome, Ambiguous)
+    assert outcome.question.rule == rule
+    assert outcome.question.id == f"{rule}:{outcome.question.asset}"
+
+
+def test_the_choices_of_a_question_are_what_its_readings_differ_by() -> None:
+    outcome = learned(cupboards(), ["c0"], "Is(handle) => Delete")
+    assert isinstance(outcome, Ambiguous)
+    assert [set(choice.select) for choice in outcome.question.choices] == [{"pull", "knob"}, {"pull"}, {"knob"}]
+    for choice in outcome.question.choices[1:]:
+        (reading,) = [reading for reading in outcome.readings if reading.id == choice.reading]
+        assert outcome.question.asset in reading.differs_on
+
+
+def test_a_faint_doubt_is_reported_but_not_asked_about() -> None:
+    usual = cupboard(feet=1)
+    meshes = {"shown": cupboard(feet=1), **{f"c{k}": usual for k in range(60)}, "odd": cupboard(True, 1)}
+    outcome = learned(meshes, ["shown"], "Is(handle) => Delete")
+    assert isinstance(outcome, Found)
+    assert max(reading.belief for reading in outcome.readings if reading.differs_on == ("odd",)) > 0.1
+    assert not outcome.settled
+
+
+def test_where_readings_differ_the_asset_that_tells_most_is_best_demonstrated() -> None:
+    outcome = learned(cupboards(), ["c0"], "Is(handle) => Delete")
+    assert outcome.hint == Hint("c7", ALIKE)
+
+
+def test_what_all_rules_gain_counts_together() -> None:
+    meshes = {
+        "plain": cupboard(),
+        "door": cupboard(True),
+        "feet": cupboard(False, 2),
+        "both": cupboard(True, 2),
+    }
+    outcome = learned(meshes, ["plain"], "Is(handle) => Delete\nDiff(All, Is(drawer)) => Delete\n")
+    assert outcome.hint == Hint("both", ALIKE)
+
+
+@pytest.mark.parametrize(("more", "why"), [
+    (0, None),
+    (1, "it has 1 hull unlike any that was demonstrated"),
+    (2, "it has 2 hulls unlike any that was demonstrated"),
+])  # fmt: skip
+def test_where_readings_agree_the_asset_with_most_hulls_unlike_those_shown_is_named(more: int, why: str | None) -> None:
+    first = [("a", "x", (0, 0, 0), (1, 1, 1)), ("b", "y", (3, 0, 0), (1, 1, 1))]
+    new = [(f"n{k}", f"new {k}", (3, 5, 5 * k), (1, 1, 1)) for k in range(more)]
+    meshes = {"first": boxes(*first), "same": boxes(*first), "other": boxes(*first, *new)}
+    demos = shown(meshes, ["first"], "Is(y) => Delete")
+    outcome = synthesize(demos, meshes, options=Options(layers="S", above=0, repair=False))
+    assert outcome.hint == (Hint("other", why) if why else None)
+
+
+def test_without_other_assets_there_is_no_hint() -> None:
+    assert learned({"c0": cupboard()}, ["c0"], "Is(handle) => Delete").hint is None
+    assert hint([]) is None
