@@ -41,6 +41,7 @@ def read_given(path: Path, project: Project) -> Given:
             case {"rule": int(rule), "asset": str(asset), "select": list() | None as select, **rest} if rest.keys() <= {
                 "id",
                 "action",
+                "refused",
             } and all(isinstance(name, str) for name in select or ()):
                 project.path(asset)
                 direct.append(Answer(rule, asset, select))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from meshforge.cli.interruption import interruptible
 
 if TYPE_CHECKING:
+    from meshforge.language import Program
     from meshforge.project import Family, Project
     from meshforge.symbolic import SymbolicMesh
     from meshforge.synthesis import Answer, Options, Outcome, Repair
@@ -20,13 +21,15 @@ class Lessons:
     """Learns as often as it is asked to.
 
     keep: whether programs, answers and repairs are kept in the project. stopped: whether a person ended the last
-    lesson; answers: how many it took into account; given: answers that are not kept.
+    lesson; answers: how many it took into account; given: answers that are not kept; follow: a program to tell
+    about.
     """
 
     project: Project
     options: Options
     keep: bool = True
     stopped: bool = False
+    follow: Program | None = None
     given: dict[tuple[int, str], Answer] = field(default_factory=dict)
 
     def learn(self, confirm: Callable[[Repair], bool] | None = None) -> Outcome:
@@ -40,6 +43,7 @@ class Lessons:
                 stop=stop,
                 answers=tuple(self.given.values()),
                 meshes=meshes,
+                follow=self.follow,
             )
             self.stopped = stop()
         return outcome
@@ -56,6 +60,13 @@ class Lessons:
         from meshforge.project import Family
 
         return Family(self.project)
+
+    @property
+    def looked_at(self) -> tuple[str, ...]:
+        """The ids of the assets to learn from."""
+        from meshforge.project import looked_at
+
+        return looked_at(self.project)
 
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets that can be read."""

@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 class About:
     """What there is to tell besides the outcome.
 
-    folder: of the project, as a person types it; assets, readable: how many there are, and can be read; answers,
-    repairs: how many were said so far; kept: whether the program was kept; stopped: whether a person ended the search.
+    folder: of the project, as a person types it; assets, looked_at, readable: how many there are, are learned from,
+    and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
+    stopped: whether a person ended the search.
     """
 
     folder: Path
     assets: int
+    looked_at: int
     readable: int
     answers: int = 0
     repairs: int = 0
@@ -75,8 +77,9 @@ def _used(about: About) -> str:
 
 def _settled(outcome: Found | Ambiguous, about: About) -> Iterator[str]:
     if outcome.settled:
-        all_ = "your one asset" if about.assets == 1 else f"your {about.assets} assets"
-        seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that can be read"
+        all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
+        part = "were looked at" if about.looked_at < about.assets else "can be read"
+        seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
         yield f"settled: all believable readings agree on {seen}"
         return
     if outcome.question:

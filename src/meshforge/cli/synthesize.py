@@ -41,6 +41,10 @@ def synthesize(
         Literal["S", "S+T", "S+G", "S+T+G"],
         typer.Option("--layers", help="What rules may ask for: labels (S), touching (T), directions (G)."),
     ] = "S+T+G",
+    follow: Annotated[
+        Path | None,
+        typer.Option("--follow", help="A program you had in mind: say of each rule why it was learned or not."),
+    ] = None,
     no_repair: Annotated[bool, typer.Option("--no-repair", help="Take all labels for right.")] = False,
     budget: Annotated[float, typer.Option("--budget", min=0.1, help="Seconds to search.")] = 120.0,
     dry_run: Annotated[
@@ -60,6 +64,7 @@ def synthesize(
     from meshforge.cli.output import print_json
     from meshforge.cli.scripted import check_all_asked, scripted
     from meshforge.errors import UsageError
+    from meshforge.language import Program
     from meshforge.project import Project
     from meshforge.synthesis import Options, outcome_json
 
@@ -73,7 +78,7 @@ def synthesize(
         said.list_answers(opened, project, json)
         return
     options = Options(strategy=strategy, layers=layers, repair=not no_repair, budget=budget)
-    lessons = Lessons(opened, options, keep=not dry_run)
+    lessons = Lessons(opened, options, keep=not dry_run, follow=Program.read(follow) if follow else None)
     given = read_given(answers, opened) if answers else None
     verdict = accept_repairs if accept_repairs or reject_repairs else None
     asks = is_interactive() and not (json or dry_run) and given is None and verdict is None
@@ -99,6 +104,8 @@ def _print(outcome: Outcome, lessons: Lessons, folder: Path, asked: bool) -> Non
 
     about = _about(lessons, folder, outcome)
     typer.echo(result(outcome, about))
+    if outcome.followed:
+        typer.echo("\n" + "\n".join(outcome.followed))
     more = remarks(outcome, about)
     if more:
         remark(f"\n{more}")
@@ -113,6 +120,7 @@ def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
     return About(
         folder,
         assets=len(lessons.project.assets()),
+        looked_at=len(lessons.looked_at),
         readable=len(lessons.meshes()),
         answers=len(said.answers) + len(lessons.given) - len(outcome.stale),
         repairs=len(said.confirmed),

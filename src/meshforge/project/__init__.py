@@ -2,7 +2,7 @@
 
 from meshforge.project.advice import Advice
 from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLine, RepairLine
-from meshforge.project.family import Family
+from meshforge.project.family import Family, looked_at
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
 from meshforge.project.preparing import Prepared
@@ -27,4 +27,5 @@ __all__ = [
     "Settings",
     "Status",
     "Verdict",
+    "looked_at",
 ]

@@ -55,7 +55,9 @@ def checked(project: Project, given: Answer) -> AnswerLine:
         raise ProjectError(f"there is no rule {given.rule} to answer for: {shown} demonstrated", where=given.asset)
     select = None if given.select is None else tuple(sorted(given.select))
     identity = f"{given.rule}:{given.asset}"
-    return AnswerLine(id=identity, rule=given.rule, asset=given.asset, select=select, action=actions[given.rule])
+    refused = tuple(tuple(sorted(choice)) for choice in given.refused)
+    action = actions[given.rule]
+    return AnswerLine(id=identity, rule=given.rule, asset=given.asset, select=select, action=action, refused=refused)
 
 
 def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:

@@ -28,7 +28,8 @@ class _Said(JsonFile):
 
 
 class AnswerLine(_Said):
-    """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there, null for neither of the choices.
+    """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there, null for neither of the choices,
+    which are in `refused`.
 
     action: what the rule does, in the language's own text without `Each`, so that an answer is not taken for one to
     another rule when steps are put in or left out later.
@@ -38,6 +39,7 @@ class AnswerLine(_Said):
     asset: str
     select: tuple[str, ...] | None
     action: str | None = None
+    refused: tuple[tuple[str, ...], ...] = ()
 
     @property
     def proper_id(self) -> str:
@@ -45,7 +47,7 @@ class AnswerLine(_Said):
 
     @property
     def answer(self) -> Answer:
-        return Answer(self.rule, self.asset, self.select)
+        return Answer(self.rule, self.asset, self.select, self.refused)
 
 
 class RepairLine(_Said):

@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from meshforge.errors import ProjectError
+from meshforge.language import Program
 from meshforge.project import accepting
 from meshforge.project.answering import actions_of, answers, checked, confirm, reject
 from meshforge.project.answers_file import AnswerLine, AnswersFile
+from meshforge.project.family import Family
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -39,11 +41,12 @@ class LessonPlan:
     stop: Callable[[], bool] | None = None
     answers: Sequence[Answer] = ()
     meshes: Mapping[str, SymbolicMesh] | None = None
+    follow: Program | None = None
 
 
 def learn(project: Project, how: LessonPlan) -> Outcome:
     """What can be learned from the demonstrations. Raises ProjectError where there are none."""
-    meshes = dict(project.named_meshes()) if how.meshes is None else how.meshes
+    meshes = Family(project).meshes() if how.meshes is None else how.meshes
     demos = _demonstrations(project, meshes)
     lesson = accepting.lesson_digest(project)
     said = answers(project)
@@ -63,6 +66,7 @@ def learn(project: Project, how: LessonPlan) -> Outcome:
         confirm=asked or how.confirm,
         answers=fitting,
         rejected=_rejected(said),
+        follow=how.follow,
         stop=how.stop,
     )
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *outcome.stale])))

@@ -176,9 +176,9 @@ class Project:
         """All assets with their labels, one after the other; those that cannot be read are left out."""
         return (mesh for _, mesh in self.named_meshes())
 
-    def named_meshes(self) -> Iterator[tuple[str, SymbolicMesh]]:
-        """The same with their ids."""
-        for asset in self.assets():
+    def named_meshes(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
+        """The same with their ids, of some assets only."""
+        for asset in self.assets() if assets is None else assets:
             try:
                 yield asset, self.mesh(asset)
             except MeshForgeError:
@@ -303,15 +303,23 @@ class Project:
         stop: Callable[[], bool] | None = None,
         answers: Sequence[Answer] = (),
         meshes: Mapping[str, SymbolicMesh] | None = None,
+        follow: Program | None = None,
     ) -> Lesson:
         """Learn the program from the demonstrations and from what a person said since.
 
         accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
         confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
-        meshes: the assets by id, where they are in memory already (`Family`); else they are read.
+        meshes: the assets by id, where they are in memory already (`Family`); else they are read, of very many some.
+        follow: a program somebody had in mind; the outcome tells what became of it.
         """
         how = learning.LessonPlan(
-            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes
+            accept=accept,
+            options=options,
+            confirm=confirm,
+            stop=stop,
+            answers=answers,
+            meshes=meshes,
+            follow=follow,
         )
         return learning.learn(self, how)
 
