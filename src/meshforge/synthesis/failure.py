@@ -52,8 +52,12 @@ def _odd_labels(example: Example, names: Sequence[str], left_out: bool) -> Itera
         if left_out and others:
             usual = f"while others that were shown are labelled {', '.join(others)}"
             yield f"{said} {verb} labelled {show_label(label)}, {usual}: is that right?"
-        else:
+        elif left_out:
             yield f"{verb} {said} rightly labelled {show_label(label)}?"
+        else:
+            one = len(alike) == 1
+            meant = f"if {said} {'is' if one else 'are'} meant, too, show {'it' if one else 'them'}"
+            yield f"{meant}; if not, is the label {show_label(label)} right?"
 
 
 def _said(names: Sequence[str], example: Example) -> str:

@@ -29,6 +29,10 @@ from meshforge.synthesis.verify import verify
 from meshforge.synthesis.watch import OutOfTime, Watch
 
 
+PLAIN = 7
+"""Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
+
+
 @dataclass(frozen=True, slots=True)
 class Learned:
     """One rule, its readings, and the names of the meshes in their field."""
@@ -187,7 +191,7 @@ class Lesson:
                 task.rules,
                 task.frame,
                 task.templates,
-                task.options,
+                replace(task.options, max_size=min(task.options.max_size, PLAIN)),
                 self._watch,
                 None,
                 list(task.batch.values()),

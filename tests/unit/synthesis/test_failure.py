@@ -40,11 +40,12 @@ def told(
 
 
 @pytest.mark.parametrize(("extra", "missing", "said"), [
-    (["a"], [], ("is 'a' of row rightly labelled leg?",
+    (["a"], [], ("if 'a' of row is meant, too, show it; if not, is the label leg right?",
                  "if only a part of 'a' is meant, split the hull (meshforge split)")),
-    (["a", "b"], [], ("are a, b of row rightly labelled leg?",)),
-    (["a", "c"], [], ("is 'a' of row rightly labelled leg?", "is 'c' of row rightly labelled bar?")),
-    (["e"], [], ("is 'e' of row rightly labelled \"all of it\"?",
+    (["a", "b"], [], ("if a, b of row are meant, too, show them; if not, is the label leg right?",)),
+    (["a", "c"], [], ("if 'a' of row is meant, too, show it; if not, is the label leg right?",
+                      "if 'c' of row is meant, too, show it; if not, is the label bar right?")),
+    (["e"], [], ("if 'e' of row is meant, too, show it; if not, is the label \"all of it\" right?",
                  "if only a part of 'e' is meant, split the hull (meshforge split)")),
     (["d"], [], ("'d' of row has no label",
                  "if only a part of 'd' is meant, split the hull (meshforge split)")),
@@ -74,7 +75,9 @@ def test_missing_labels_come_first_all_in_one_sentence() -> None:
 def test_of_many_hulls_the_first_are_named_and_the_others_counted() -> None:
     many = boxes(*((f"h{k}", "leg", (2 * k, 0, 0), (1, 1, 1)) for k in range(40)))
     said = told([f"h{k}" for k in range(40)], [], example("many", many))
-    assert said == ("are h0, h1, h2, h3, h4 and 35 more of many rightly labelled leg?",)
+    assert said == (
+        "if h0, h1, h2, h3, h4 and 35 more of many are meant, too, show them; if not, is the label leg right?",
+    )
 
 
 def test_a_contact_that_is_missed_by_little_is_named_with_its_distance() -> None:
@@ -110,7 +113,9 @@ def test_what_was_shown_on_several_meshes_may_be_two_rules() -> None:
 def test_no_more_is_said_than_a_person_reads_and_nothing_twice() -> None:
     assert len(told(["a", "c", "d", "e"], [], example("row", ROW, "b"), example("other", ROW, "b"))) == 4
     single = boxes(("only", "leg", (0, 0, 0), (1, 1, 1)))
-    assert told(["only"], [], example("single", single)) == ("is 'only' of single rightly labelled leg?",)
+    assert told(["only"], [], example("single", single)) == (
+        "if 'only' of single is meant, too, show it; if not, is the label leg right?",
+    )
 
 
 def test_an_outcome_without_a_program_carries_the_advice_and_names_answers_of_that_rule_only() -> None:
