@@ -117,8 +117,9 @@ def lamp(make: Builder) -> None:
     pole = 0.03 if not hanging else 0.3
     make.box("pole", (-0.02, -0.02, pole), (0.04, 0.04, high - pole), make.number(1, 4))
     middle = high if not hanging else 0.3
-    for x, y, w, d in ((-0.2, -0.2, 0.4, 0.02), (-0.2, 0.18, 0.4, 0.02), (-0.2, -0.18, 0.02, 0.36), (0.18, -0.18, 0.02, 0.36)):
-        make.box("shade", (x, y, middle - 0.1), (w, d, 0.25), make.number(1, 2), 2)
+    long, across = (0.4, 0.02), (0.02, 0.36)
+    for x, y, (w, d) in ((-0.2, -0.2, long), (-0.2, 0.18, long), (-0.2, -0.18, across), (0.18, -0.18, across)):
+        make.box("shade", (x, y, middle - 0.1), (w, d, 0.25), make.number(1, 2))
     make.box("bulb", (-0.04, -0.04, middle if not hanging else middle - 0.08), (0.08, 0.08, 0.08))
     if make.chance(0.4):
         make.box("cord", (0.15, -0.01, low), (make.length(0.1, 0.4), 0.01, 0.01), make.number(1, 3), 0)

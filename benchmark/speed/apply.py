@@ -10,8 +10,8 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
+from benchmark.report import Cell, Result, Table, Tell
 from benchmark.speed.assets import corpus
-from benchmark.speed.report import Cell, Result, Table, Tell
 from benchmark.speed.watch import Watched, watched
 from meshforge.batch import common_folder
 from meshforge.errors import MeshForgeError

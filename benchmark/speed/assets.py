@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmark.speed.report import Tell
+from benchmark.report import Tell
 from meshforge.errors import MeshForgeError
 from meshforge.formats import SUFFIXES, read
 from meshforge.geometry import digest

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from benchmark.clock import Run, in_turns, medians
+from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.speed.assets import multi_hull
-from benchmark.speed.clock import Run, in_turns, medians
-from benchmark.speed.report import Cell, Goal, Result, Table, Tell
 from benchmark.speed.rivals import Bullet, Coal, Fcl, Pairs, Trimesh
 from meshforge.geometry import Polytope, distance
 from meshforge.symbolic import Hull, SymbolicMesh

@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from benchmark.speed.clock import in_turns, medians
-from benchmark.speed.report import Result, Table, Tell
+from benchmark.clock import in_turns, medians
+from benchmark.report import Result, Table, Tell
 from meshforge.geometry import Floats, Ints, convex_hull, pieces
 
 _ROUNDS = 3

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from benchmark.clock import in_turns, medians, once
+from benchmark.report import Goal, Result, Table, Tell
 from benchmark.speed.assets import corpus_files, name_of
-from benchmark.speed.clock import in_turns, medians, once
-from benchmark.speed.report import Goal, Result, Table, Tell
 from meshforge.formats import read
 from meshforge.formats.triangles import read_triangles
 from meshforge.samples import TABLES

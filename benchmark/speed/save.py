@@ -10,9 +10,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from benchmark.clock import Run, in_turns, medians, once
+from benchmark.report import Goal, Result, Table, Tell
 from benchmark.speed.assets import multi_hull
-from benchmark.speed.clock import Run, in_turns, medians, once
-from benchmark.speed.report import Goal, Result, Table, Tell
 from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.errors import AssetError
 from meshforge.formats import save

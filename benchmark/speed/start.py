@@ -10,8 +10,8 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-from benchmark.speed.clock import once
-from benchmark.speed.report import Goal, Result, Table, Tell
+from benchmark.clock import once
+from benchmark.report import Goal, Result, Table, Tell
 
 _COMMANDS = {
     "python -c pass": [sys.executable, "-c", "pass"],

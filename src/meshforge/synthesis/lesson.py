@@ -28,7 +28,6 @@ from meshforge.synthesis.task import Task
 from meshforge.synthesis.verify import verify
 from meshforge.synthesis.watch import OutOfTime, Watch
 
-
 PLAIN = 7
 """Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
 
