@@ -50,5 +50,5 @@ class Options:
     max_size: int = 13
     budget: float = 120.0
     above: int = 3
-    effort: int = 300_000
+    effort: int = 100_000
     shortcuts: Shortcuts = Shortcuts()

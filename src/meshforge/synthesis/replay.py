@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from meshforge.errors import DemonstrationError, MeshForgeError, nearest
 from meshforge.language import (
     EXTREMITY,
+    Applied,
     Each,
     Orient,
     Rule,
@@ -20,6 +21,7 @@ from meshforge.symbolic import SymbolicMesh, components, mask_of
 from meshforge.synthesis.agreement import Agreed
 from meshforge.synthesis.demonstration import Demonstration
 from meshforge.synthesis.example import Example
+from meshforge.synthesis.remember import remembered
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -38,7 +40,7 @@ class Replay:
 def begun(name: str, demo: Demonstration, orient: Orient | None, contact: float | None) -> Replay:
     """A demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
     try:
-        mesh, _ = stage(demo.mesh, orient, contact)
+        mesh = remembered(demo.mesh, (orient, contact), SymbolicMesh, lambda: stage(demo.mesh, orient, contact)[0])
     except MeshForgeError as error:
         raise error.at(name) from None
     return Replay(name, demo, mesh)
@@ -66,10 +68,19 @@ def advanced(
     delta = EXTREMITY if extremity is None else extremity
     mask = _shown(replay, number) if said else select_mask(rule.extractor, replay.mesh, delta)
     try:
-        applied = apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
+        applied = _applied(replay, mask, rule, templates)
     except MeshForgeError as error:
         raise error.at(f"{replay.name}, rule {number}") from None
     return replace(replay, mesh=applied.mesh, used=applied.used)
+
+
+def _applied(replay: Replay, mask: int, rule: Rule, templates: Mapping[str, Template]) -> Applied:
+    def applied() -> Applied:
+        return apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
+
+    if not mask or rule.action.templates:  # nothing to do, or files that may change
+        return applied()
+    return remembered(replay.mesh, (mask, rule.action, rule.label, replay.used), Applied, applied)
 
 
 def _shown(replay: Replay, number: int) -> int:

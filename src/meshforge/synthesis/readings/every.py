@@ -27,6 +27,8 @@ class Consistent:
     complete: bool
 
 
+LOOKUP = 8
+"""What it takes to look for operands, in operands."""
 Draft = tuple[int, Key, Opening | None, Term]
 """What a term selects, its place in the order, and the term; or a set operator over it, still to be put together."""
 
@@ -93,6 +95,7 @@ class _Collector:
             found: Iterable[Term] = self._known[goal, size]
         else:
             found = meeting(self._bank.level(size), goal)
+        self._left -= LOOKUP
         for term in found:
             self._left -= 1
             if self._left < 0:

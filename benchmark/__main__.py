@@ -1,0 +1,63 @@
+"""Runs parts of the benchmark by name, and writes what they find into the results.
+
+Usage: script/bench [PART ...] [--quick] [--out FOLDER]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from benchmark.machine import machine
+from benchmark.pages import PAGES, Page, page_of, text_of
+from benchmark.report import Result, as_text
+from meshforge.files import write_atomically
+
+RESULTS = Path(__file__).resolve().parent / "results"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the parts that are named; where none is, all but those that are for a special occasion."""
+    every = [part for page in PAGES for part in page.all_parts]
+    parser = argparse.ArgumentParser(prog="script/bench", description="Measures how fast and how well MeshForge does.")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(every)}; without any, those of a run")
+    parser.add_argument("--quick", action="store_true", help="few cases, one round: to see that it works")
+    parser.add_argument("--out", type=Path, default=RESULTS, help="the folder of the results")
+    options = parser.parse_args(arguments)
+    if unknown := [part for part in options.parts if part not in every]:
+        parser.error(f"there is no part {unknown[0]!r}, only {', '.join(every)}")
+    for part in options.parts or [part for page in PAGES for part in page.parts]:
+        page = page_of(part)
+        result = run(page, part, options.quick)
+        _write(options.out, page, result, options.quick)
+        print(as_text(result), flush=True)
+    return 0
+
+
+def run(page: Page, part: str, quick: bool = False) -> Result:
+    """The result of one part."""
+    result = import_module(f"benchmark.{page.name}.{part}").measure(_tell, quick)
+    _tell("")
+    assert isinstance(result, Result)
+    return result
+
+
+def _tell(line: str) -> None:
+    print(f"\r\033[K{line}" if sys.stderr.isatty() else line, end="" if sys.stderr.isatty() else "\n", file=sys.stderr)
+
+
+def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
+    """Write one result, and its page anew from all results there are."""
+    out.mkdir(parents=True, exist_ok=True)
+    data = {"machine": machine(page.packages), "quick": quick, **result.to_json()}
+    write_atomically(out / f"{page.name}-{result.part}.json", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+    files = [out / f"{page.name}-{part}.json" for part in page.all_parts]
+    found = [json.loads(f.read_text("utf-8")) for f in files if f.is_file()]
+    write_atomically(out / f"{page.name}.md", text_of(page, found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,108 @@
+"""The contestants on one rule: the default strategy, alone and with all it does besides, the paper's, and cvc5."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from importlib.util import find_spec
+from statistics import median
+from typing import Any
+
+from benchmark.clock import Run, in_turns
+from benchmark.learning.cases import Case, learned, name_of
+from benchmark.learning.sygus import cvc5_problem
+from meshforge.language import Extractor, show, size
+from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.options import Options
+from meshforge.synthesis.paper import paper_search
+from meshforge.synthesis.readings import Weighed, every
+from meshforge.synthesis.repair import Explanation, Labels, explain
+from meshforge.synthesis.search import Hit
+from meshforge.synthesis.watch import Watch
+
+ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and readings", "MeshForge, repair on"
+PAPER, PAPER_REPAIR, CVC5 = "the paper's, repair off", "the paper's, repair on", "cvc5"
+LIMIT = Options().budget
+"""Seconds for one rule."""
+_SLOW = 0.3  # seconds of a turn that is not taken again
+HAS_CVC5 = find_spec("cvc5") is not None
+
+
+@dataclass(eq=False)
+class Contest:
+    """One rule for all contestants; answers: what each has found, nothing where its time was out."""
+
+    case: Case
+    limit: float = LIMIT
+    answers: dict[str, Extractor | None] = field(default_factory=dict)
+    alarms: int = 0
+
+    def seconds(self, rounds: int) -> dict[str, float]:
+        """The median of each contestant; who has not finished counts as having taken the limit at least."""
+        works: dict[str, Callable[[], Extractor | None]] = {
+            ALONE: self._alone,
+            READINGS: lambda: _smallest(learned(self.case.search())),
+            REPAIR: self._with_repair,
+            PAPER: partial(self._paper, False),
+            PAPER_REPAIR: partial(self._paper, True),
+        }
+        turns: dict[str, Run] = {name: self._noted(name, work) for name, work in works.items()}
+        if HAS_CVC5:
+            turns[CVC5] = self._cvc5
+        times = {name: median(seconds) for name, seconds in in_turns(turns, rounds, slow=_SLOW).items()}
+        return {name: t if self.answers[name] else max(t, self.limit) for name, t in times.items()}
+
+    def sizes(self) -> dict[str, int | None]:
+        """The sizes of what was found."""
+        return {name: size(found) if found else None for name, found in self.answers.items()}
+
+    def to_json(self, seconds: dict[str, float]) -> dict[str, Any]:
+        found = {name: show(extractor) if extractor else None for name, extractor in self.answers.items()}
+        return {"problem": self.case.family, "hidden": show(self.case.hidden), "seconds": seconds, "found": found}
+
+    def _noted(self, name: str, work: Callable[[], Extractor | None]) -> Run:
+        def run() -> None:
+            self.answers[name] = work()
+
+        return lambda: run
+
+    def _alone(self) -> Extractor | None:
+        """The smallest extractor, without a look at the meshes that are not demonstrated."""
+        found = self.case.search(batch=False).run()
+        return found.extractor if isinstance(found, Hit) else None
+
+    def _with_repair(self) -> Extractor | None:
+        """All that a lesson does for a rule: what label repair finds on right labels is a false alarm."""
+        search = self.case.search()
+        found = search.run()
+        assert isinstance(found, Hit)
+        self.alarms = bool(self._explained(found.extractor))
+        return _smallest(Weighed(search, every(search, found.extractor, search.options.above)))
+
+    def _explained(self, exact: Extractor) -> Explanation | None:
+        case = self.case
+        known, rest = {name_of(k): case.meshes[k] for k in case.shown}, [case.meshes[k] for k in case.rest()]
+        labels = Labels(known, rest, case.vocabulary)
+        return explain(case.examples(), case.vocabulary, labels, Options(), Watch(self.limit), exact=exact)
+
+    def _paper(self, repair: bool) -> Extractor | None:
+        """With repair on it asks about every label it would correct, and the answer is no: all are right."""
+        if repair and not self.answers[PAPER]:
+            return None  # what it does not finish without repair it does not finish with it
+        options = Options(strategy="paper", repair=repair)
+        examples, vocabulary = self.case.examples(), self.case.vocabulary
+        found = paper_search(examples, vocabulary, Watch(self.limit), options, confirm=_no)
+        return found.extractor if isinstance(found, Hit) else None
+
+    def _cvc5(self) -> Callable[[], object]:
+        solve = cvc5_problem(self.case.examples(), self.case.vocabulary, seconds=self.limit)
+        return self._noted(CVC5, solve)()
+
+
+def _smallest(weighed: Weighed) -> Extractor:
+    return weighed.consistent.terms[0].extractor
+
+
+def _no(_: Correction) -> bool:
+    return False

@@ -1,0 +1,53 @@
+"""Learning with a person who knows what is wanted: answers questions by the truth, refuses to correct right labels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from benchmark.learning.programs import Wanted
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, Options, Outcome, Repair, synthesize
+
+_MOST = 30  # answers, should it never end
+
+
+@dataclass(frozen=True, eq=False)
+class Talk:
+    """How it went; first: the outcome before any answer, last: after all; refused: proposals to correct a label."""
+
+    first: Outcome
+    last: Outcome
+    answers: tuple[Answer, ...]
+    refused: int
+
+    @property
+    def neither(self) -> int:
+        """How many answers were that no choice is right."""
+        return sum(answer.select is None for answer in self.answers)
+
+
+def talk(task: Wanted, demos: Sequence[Demonstration], options: Options) -> Talk:
+    """Learn from demonstrations, and answer until nothing is asked any more."""
+    answers: list[Answer] = []
+    refused: list[Repair] = []
+
+    def refuse(repair: Repair) -> bool:
+        refused.append(repair)
+        return False
+
+    def learned() -> Outcome:
+        labels, meshes = task.program.labels, task.meshes
+        return synthesize(demos, meshes, vocabulary=labels, options=options, confirm=refuse, answers=answers)
+
+    last = first = learned()
+    while isinstance(last, Ambiguous) and len(answers) < _MOST:
+        answers.append(_answer(task, last))
+        last = learned()
+    return Talk(first, last, tuple(answers), len({repair.correction for repair in refused}))
+
+
+def _answer(task: Wanted, outcome: Ambiguous) -> Answer:
+    """The choice that is what is wanted, or neither."""
+    asks = outcome.question
+    meant = task.meant(asks.asset, asks.rule, outcome)
+    return asks.answered(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))

@@ -1,0 +1,57 @@
+"""The pages of results: which parts each has, and how it opens."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from benchmark.report import Result, as_text
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A page, named as the folder of its parts is.
+
+    parts: those of a whole run; aside: those that run only when they are named; packages: whose versions matter.
+    """
+
+    name: str
+    head: str
+    parts: tuple[str, ...]
+    packages: tuple[str, ...]
+    aside: tuple[str, ...] = ()
+
+    @property
+    def all_parts(self) -> tuple[str, ...]:
+        return (*self.parts, *self.aside)
+
+
+PAGES = (
+    Page(
+        "speed",
+        "# Speed\n\nWritten by `script/bench` from the JSON files beside it. Medians; contestants take turns.\n",
+        ("contact", "load", "save", "apply", "geometry", "start"),
+        ("numpy", "scipy", "coal", "manifold3d", "trimesh", "python-fcl", "pybullet", "mujoco", "lxml"),
+    ),
+    Page(
+        "learning",
+        "# Learning\n\nWritten by `script/bench` from the JSON files beside it. All draws are seeded: but for the "
+        "times, every run gives the same figures.\n",
+        ("search", "growth", "asking"),
+        ("numpy", "scipy", "coal", "cvc5"),
+        aside=("calibrate",),
+    ),
+)
+
+
+def page_of(part: str) -> Page:
+    """The page that a part is on."""
+    return next(page for page in PAGES if part in page.all_parts)
+
+
+def text_of(page: Page, results: Sequence[Mapping[str, Any]]) -> str:
+    """The page on some results."""
+    listed = "Machine: " + ", ".join(f"{name} {value}" for name, value in results[-1]["machine"].items()) + ".\n"
+    quick = "**A quick run: few files, one round.**\n" if any(result["quick"] for result in results) else ""
+    return "\n".join(filter(None, [page.head, listed, quick, *(as_text(Result.of_json(r)) for r in results)]))

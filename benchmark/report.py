@@ -1,0 +1,92 @@
+"""What a part of the benchmark finds: tables, figures to reach, notes; and how these are written down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+Tell = Callable[[str], None]
+"""Called with a line about how far the work is."""
+Cell = str | int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of cells under columns; floats are shown with three digits."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A figure to reach: at least or at most `wanted`."""
+
+    what: str
+    sense: str
+    wanted: float
+    measured: float
+
+    @property
+    def reached(self) -> bool:
+        return self.measured >= self.wanted if self.sense == "at least" else self.measured <= self.wanted
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """All that one part has found; details: figures for the JSON only."""
+
+    part: str
+    title: str
+    tables: tuple[Table, ...]
+    goals: tuple[Goal, ...] = ()
+    notes: tuple[str, ...] = ()
+    details: tuple[dict[str, Any], ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        goals = [{**asdict(goal), "reached": goal.reached} for goal in self.goals]
+        return {**asdict(self), "goals": goals}
+
+    @staticmethod
+    def of_json(data: Mapping[str, Any]) -> Result:
+        tables = [Table(t["title"], tuple(t["columns"]), tuple(map(tuple, t["rows"]))) for t in data["tables"]]
+        goals = [Goal(g["what"], g["sense"], g["wanted"], g["measured"]) for g in data["goals"]]
+        details = tuple(data["details"])
+        return Result(data["part"], data["title"], tuple(tables), tuple(goals), tuple(data["notes"]), details)
+
+
+def shown(cell: Cell) -> str:
+    """A cell as text."""
+    return (
+        f"{cell:.3g}"
+        if isinstance(cell, float) and abs(cell) < 1000
+        else f"{cell:,.0f}"
+        if isinstance(cell, float)
+        else str(cell)
+    )
+
+
+def as_text(result: Result) -> str:
+    """A result in Markdown."""
+    parts = [f"## {result.title}\n"]
+    if result.goals:
+        rows = tuple((g.what, f"{g.sense} {shown(g.wanted)}", shown(g.measured), _verdict(g)) for g in result.goals)
+        parts.append(_grid(Table("To reach", ("figure", "to reach", "measured", ""), rows)))
+    parts += [_grid(table) for table in result.tables]
+    if result.notes:
+        parts.append("".join(f"- {note}\n" for note in result.notes))
+    return "\n".join(parts)
+
+
+def _verdict(goal: Goal) -> str:
+    return "reached" if goal.reached else "**not reached**"
+
+
+def _grid(table: Table) -> str:
+    lines = [table.columns, *(tuple(shown(cell).replace("|", "/") for cell in row) for row in table.rows)]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(table.columns))]
+    text = ["| " + " | ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)) + " |" for line in lines]
+    rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
+    return "\n".join([f"**{table.title}**\n", text[0], rule, *text[1:]]) + "\n"
