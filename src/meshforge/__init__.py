@@ -14,10 +14,11 @@ if TYPE_CHECKING:
     from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
     from meshforge.project import Project
     from meshforge.symbolic import Hull, Label, SymbolicMesh
-    from meshforge.synthesis import Demonstration, Step, synthesize
+    from meshforge.synthesis import Answer, Demonstration, Options, Step, synthesize
 
 __all__ = [
     "Add",
+    "Answer",
     "Delete",
     "Demonstration",
     "Each",
@@ -25,6 +26,7 @@ __all__ = [
     "Label",
     "Merge",
     "MeshForgeError",
+    "Options",
     "Program",
     "Project",
     "Replace",
@@ -45,7 +47,7 @@ _ROOMS = {
     "language": ("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
     "project": ("Project",),
     "symbolic": ("Hull", "Label", "SymbolicMesh"),
-    "synthesis": ("Demonstration", "Step", "synthesize"),
+    "synthesis": ("Answer", "Demonstration", "Options", "Step", "synthesize"),
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names}
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.errors import ProjectError, UsageError
-from meshforge.project import Project
+from meshforge.project import Project, family, looked_at
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Choice, Correction, Question, Repair
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -27,11 +27,34 @@ def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     assert project.answer(QUESTION, 1) == "1:rack2.obj"
     assert json.loads((project.folder / "answers.json").read_text()) == {
-        "answers": [{"id": "1:rack2.obj", "rule": 1, "asset": SHELVED, "select": ["top"], "action": "Delete"}],
+        "answers": [
+            {"id": "1:rack2.obj", "rule": 1, "asset": SHELVED, "select": ["top"], "action": "Delete", "refused": []}
+        ],
         "confirmed": [],
         "rejected": [],
     }
     assert [line.answer for line in project.answers().answers] == [Answer(1, SHELVED, ["top"])]
+
+
+def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.answer(QUESTION, None)
+    (line,) = project.answers().answers
+    assert line.answer == QUESTION.answered(None)
+    assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
+
+
+def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_was_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = ambiguous(tmp_path)
+    assert looked_at(project) == project.assets()
+    monkeypatch.setattr(family, "MOST", 2)
+    shown = set(project.demonstrations())
+    project.add_answer(Answer(1, project.assets()[-1], ()))
+    some = looked_at(project)
+    assert shown | {project.assets()[-1], project.assets()[0]} <= set(some) < set(project.assets())
+    assert list(some) == [asset for asset in project.assets() if asset in some]
 
 
 def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
