@@ -38,7 +38,7 @@ PAGES = (
         "learning",
         "# Learning\n\nWritten by `script/bench` from the JSON files beside it. All draws are seeded: but for the "
         "times, every run gives the same figures.\n",
-        ("search", "growth", "asking"),
+        ("search", "growth", "asking", "repairs"),
         ("numpy", "scipy", "coal", "cvc5"),
         aside=("calibrate",),
     ),

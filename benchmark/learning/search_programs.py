@@ -23,7 +23,8 @@ _SEED, _ROUNDS = 100, 3
 @dataclass(frozen=True, slots=True)
 class Timed:
     """One program [s]: search and readings of all its rules on meshes given with their contacts; what `synthesize`
-    says that it took to search, contacts and label repair included, and to replay; and all of that once more, as after an answer.
+    says that it took to search, contacts and label repair included, and to replay; and all once more, as after an
+    answer.
     """
 
     name: str

@@ -12,7 +12,7 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark.clock import in_turns
-from benchmark.learning import asking, calibrate, growth
+from benchmark.learning import asking, calibrate, growth, repairs
 from benchmark.learning.asking_programs import taught
 from benchmark.learning.asking_rules import asked
 from benchmark.learning.boxes import SIZED, boxes, boxes_case
@@ -30,7 +30,7 @@ def silent(_: str) -> None:
     """Takes no notice of progress."""
 
 
-@pytest.mark.parametrize("part", [growth, asking, calibrate])
+@pytest.mark.parametrize("part", [growth, asking, calibrate, repairs])
 def test_a_part_runs_quickly(part: ModuleType) -> None:
     result = part.measure(silent, True)
     assert isinstance(result, Result)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -23,7 +24,6 @@ class Polytope(Shape):
     _vertices: Floats
     _faces: Ints
     _aabb: Aabb = field(init=False)
-    _moments: tuple[float, Floats] = field(init=False)
 
     def __post_init__(self) -> None:
         vertices = frozen_floats(self._vertices, (-1, 3))
@@ -31,8 +31,6 @@ class Polytope(Shape):
         object.__setattr__(self, "_vertices", vertices)
         object.__setattr__(self, "_faces", faces)
         object.__setattr__(self, "_aabb", Aabb.of_points(vertices))
-        with np.errstate(invalid="ignore", over="ignore"):  # what is not finite shows in the volume
-            object.__setattr__(self, "_moments", volume_and_centroid(vertices, faces))
 
     @property
     def vertices(self) -> Floats:
@@ -45,6 +43,11 @@ class Polytope(Shape):
     @property
     def aabb(self) -> Aabb:
         return self._aabb
+
+    @cached_property
+    def _moments(self) -> tuple[float, Floats]:
+        with np.errstate(invalid="ignore", over="ignore"):  # what is not finite shows in the volume
+            return volume_and_centroid(self._vertices, self._faces)
 
     @property
     def volume(self) -> float:
