@@ -1,0 +1,64 @@
+"""Random extractors, demonstrated on two of the bundled tables: found, never larger, and among the readings."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from meshforge.formats import load
+from meshforge.language import Extractor, Program, select_mask, size, stage
+from meshforge.samples import TABLES
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.example import Example
+from meshforge.synthesis.options import Options
+from meshforge.synthesis.paper import paper_search
+from meshforge.synthesis.readings import every
+from meshforge.synthesis.search import Hit, Search
+from meshforge.synthesis.watch import Watch
+from tests.strategies import extractors
+
+LABELS = ("panel", "leg", "handle", "drawer", "misc")
+places = st.integers(0, 13)
+
+
+@cache
+def tables() -> tuple[SymbolicMesh, ...]:
+    """The bundled tables with their labels, upright."""
+    orient = Program.read(TABLES / "tables.mf").orient
+    paths = sorted(TABLES.glob("table_*.obj"))
+    return tuple(stage(load(path, path.with_suffix(".labels.json")), orient)[0] for path in paths)
+
+
+def examples(hidden: Extractor, shown: tuple[int, int]) -> list[Example]:
+    found = [Example(f"table {k}", tables()[k], select_mask(hidden, tables()[k])) for k in dict.fromkeys(shown)]
+    assume(any(example.selection for example in found))
+    return found
+
+
+@settings(max_examples=120, deadline=None)
+@given(extractors(LABELS, max_leaves=4), st.tuples(places, places))
+def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extractor, shown: tuple[int, int]) -> None:
+    known = examples(hidden, shown)
+    rest = [table for k, table in enumerate(tables()) if k not in shown]
+    search = Search(known, LABELS, Watch(600), Options(max_size=19), batch=rest)
+    answer = search.run()
+    assert isinstance(answer, Hit)
+    assert [select_mask(answer.extractor, e.mesh) for e in known] == [e.selection for e in known]
+    assert size(answer.extractor) <= size(hidden)
+    found = every(search, answer.extractor, 3)
+    if found.complete and size(hidden) <= size(answer.extractor) + 3:
+        assert search.field.bits(hidden) in {term.bits for term in found.terms}
+
+
+@settings(max_examples=30, deadline=None)
+@given(extractors(LABELS, max_leaves=2), st.tuples(places, places))
+def test_the_strategy_of_the_paper_finds_nothing_smaller(hidden: Extractor, shown: tuple[int, int]) -> None:
+    known = examples(hidden, shown)
+    answer = Search(known, LABELS, Watch(600), Options()).run()
+    assert isinstance(answer, Hit)
+    assume(size(answer.extractor) <= 5)
+    paper = paper_search(known, LABELS, Watch(600), Options(strategy="paper", repair=False, max_size=5))
+    assert isinstance(paper, Hit)
+    assert size(paper.extractor) == size(answer.extractor)
