@@ -101,7 +101,9 @@ class _Case:
         return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.extremity)
 
     def _left(self, example: Example) -> int:
-        """Corrections that the mesh has left."""
+        """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
+        if not any(hull.label for hull in example.mesh.hulls):
+            return 0
         return self.options.eta - self.spent.get(example.name, 0)
 
     def _candidates(self, variants: Variants) -> list[Candidate]:

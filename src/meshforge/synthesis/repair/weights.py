@@ -25,7 +25,7 @@ SUREST = 5.0
 UNLABELLED = 1.5
 """Filling in a label where the hull has none, before look-alikes are asked."""
 
-BELIEVED = 0.6
+BELIEVED = 0.75
 """A proposal is made when each of its corrections is so probable."""
 
 BELIEVED_WITHOUT = 0.3
