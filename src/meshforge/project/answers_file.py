@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, model_validator
@@ -23,8 +24,9 @@ class _Said(JsonFile):
         return self
 
     @property
+    @abstractmethod
     def proper_id(self) -> str:
-        raise NotImplementedError
+        """What it is to be called."""
 
 
 class AnswerLine(_Said):
