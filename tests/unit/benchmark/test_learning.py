@@ -95,7 +95,9 @@ def test_a_program_is_taught_by_answers() -> None:
 def test_the_bundled_demonstrations_are_what_their_program_does() -> None:
     task, shown = wanted_tables(14)
     assert shown == DEMONSTRATED
-    place = Path(str(next(iter(task.meshes.values())).asset.path)).parent  # type: ignore[union-attr]
+    asset = next(iter(task.meshes.values())).asset
+    assert asset
+    place = Path(str(asset.path)).parent
     for name in shown:
         steps = json.loads((place / "demonstrations" / f"{name}.obj.json").read_text("utf-8"))["steps"]
         assert [set(step["select"]) for step in steps] == [set(chosen) for chosen in task.right[name]]

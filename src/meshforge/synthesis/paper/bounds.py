@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from meshforge.language import Base, Diff, Intersect, Union
 from meshforge.synthesis.paper.demo import Demo
-from meshforge.synthesis.paper.partial import BaseHole, Hole, Joint, OpenAttach, OpenGeo, OpenJoint, Partial
+from meshforge.synthesis.paper.partial import BaseHole, Hole, OpenAttach, OpenGeo, OpenJoint, Partial
+from meshforge.synthesis.search.order import Joint
 
 Bounds = tuple[int, int]
 """The hulls selected by every completion, and those selected by any, as bit sets."""

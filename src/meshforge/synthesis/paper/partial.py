@@ -24,8 +24,8 @@ from meshforge.language import (
     size,
 )
 from meshforge.synthesis.options import Layers
+from meshforge.synthesis.search.order import Joint
 
-Joint = type[Union] | type[Intersect] | type[Diff]
 JOINTS: tuple[Joint, ...] = (Union, Intersect, Diff)
 
 

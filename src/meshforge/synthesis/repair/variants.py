@@ -7,16 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry import bounds
-from meshforge.language import SLACK, Diff, Extractor, Intersect, Union, length
+from meshforge.language import SLACK, Extractor, length
 from meshforge.symbolic import mask_of
 from meshforge.synthesis.example import Example
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.repair.relabelings import Relabeling
 from meshforge.synthesis.search.arrays import Hulls
-from meshforge.synthesis.search.leaves import leaves
-from meshforge.synthesis.search.order import leaf_key
-from meshforge.synthesis.search.term import Term
+from meshforge.synthesis.search.groups import Groups
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +36,7 @@ class RelabelledHulls(Hulls):
         self.counts = np.repeat(np.array(sizes, dtype=np.int64), copies)
         self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
         self._owner = np.repeat(np.arange(len(self.counts)), self.counts)
-        corners = [bounds([hull.shape.aabb for hull in example.mesh.hulls]) for example in examples]
+        corners = [example.mesh.corners for example in examples]
         self._low = np.concatenate([np.tile(low, (n, 1)) for (low, _), n in zip(corners, copies, strict=True)])
         self._high = np.concatenate([np.tile(high, (n, 1)) for (_, high), n in zip(corners, copies, strict=True)])
         self._slack = np.repeat([SLACK * length(example.mesh) for example in examples], copies)
@@ -74,30 +71,20 @@ class Variants:
         layers: Layers,
         extremity: float,
     ) -> None:
-        chosen, hulls = leaves(vocabulary, layers), RelabelledHulls(examples, ways)
-        table = hulls.table(chosen, extremity)
-        numbers: dict[bytes, int] = {}
-        groups = [numbers.setdefault(column.tobytes(), len(numbers)) for column in np.packbits(table.T, axis=1)]
-        self.width = len(numbers)
-        firsts = np.unique(np.array(groups, dtype=np.int64), return_index=True)[1]
-        packed = np.packbits(table[:, firsts], axis=1, bitorder="little")
-        places = {label: place for place, label in enumerate(vocabulary)}
-        self.terms = [
-            Term(int.from_bytes(row.tobytes(), "little"), leaf_key(leaf, places), leaf)
-            for leaf, row in zip(chosen, packed, strict=True)
-        ]
+        self._groups = Groups(RelabelledHulls(examples, ways), vocabulary, layers, extremity)
+        self.width, self.terms = self._groups.width, self._groups.terms
         self.by_example: list[list[Variant]] = []
         begin = 0
         for example, some in zip(examples, ways, strict=True):
             size = len(example.mesh.hulls)
-            slices = [groups[begin + k * size : begin + (k + 1) * size] for k in range(len(some))]
+            slices = [self._groups.of[begin + k * size : begin + (k + 1) * size] for k in range(len(some))]
             begin += len(some) * size
             variants = [_variant(example, one, part) for one, part in zip(some, slices, strict=True)]
             self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
 
     def matched(self, extractor: Extractor | None) -> list[list[Relabeling]]:
         """Of each example the relabelings on which an extractor selects what was shown; on all of them for None."""
-        found = None if extractor is None else self._bits(extractor)
+        found = None if extractor is None else self._groups.term(extractor).bits
         return [
             [
                 variant.relabeling
@@ -106,18 +93,6 @@ class Variants:
             ]
             for variants in self.by_example
         ]
-
-    def _bits(self, extractor: Extractor) -> int:
-        """The groups that an extractor over the leaves selects."""
-        match extractor:
-            case Union(left, right):
-                return self._bits(left) | self._bits(right)
-            case Intersect(left, right):
-                return self._bits(left) & self._bits(right)
-            case Diff(left, right):
-                return self._bits(left) & ~self._bits(right)
-            case leaf:
-                return next(term.bits for term in self.terms if term.made == leaf)
 
 
 def _variant(example: Example, relabeling: Relabeling, groups: Sequence[int]) -> Variant:

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 
-import numpy as np
-
-from meshforge.language import EXTREMITY, Diff, Extractor, Intersect, Union
+from meshforge.language import EXTREMITY, Extractor
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.search.arrays import Hulls
-from meshforge.synthesis.search.leaves import leaves
-from meshforge.synthesis.search.order import leaf_key
-from meshforge.synthesis.search.term import Term, joined
+from meshforge.synthesis.search.groups import Groups
+from meshforge.synthesis.search.term import Term
 
 
 class Field:
@@ -34,22 +31,12 @@ class Field:
         group: bool = True,
     ) -> None:
         self.meshes = tuple(meshes)
-        chosen, hulls = leaves(vocabulary, layers), Hulls(meshes)
-        table = hulls.table(chosen, extremity)
-        signatures = [column.tobytes() for column in np.packbits(table.T, axis=1)]
-        numbers: dict[object, int] = {}
-        keys: Sequence[object] = signatures if group else range(len(signatures))
-        groups = [numbers.setdefault(key, len(numbers)) for key in keys]
-        starts: list[int] = hulls.starts.tolist()
-        self.groups = [groups[low:high] for low, high in pairwise(starts)]
-        self._signatures = [signatures[low:high] for low, high in pairwise(starts)]
-        self.width = len(numbers)
-        places = {label: place for place, label in enumerate(vocabulary)}
-        packed = np.packbits(table[:, _firsts(groups)], axis=1, bitorder="little")
-        self.terms = [
-            Term(int.from_bytes(row.tobytes(), "little"), leaf_key(leaf, places), leaf)
-            for leaf, row in zip(chosen, packed, strict=True)
-        ]
+        hulls = Hulls(meshes)
+        self._groups = Groups(hulls, vocabulary, layers, extremity, group)
+        spans = list(pairwise(hulls.starts.tolist()))
+        self.groups = [self._groups.of[low:high] for low, high in spans]
+        self._looks = [self._groups.looks[low:high] for low, high in spans]
+        self.width, self.terms = self._groups.width, self._groups.terms
 
     def width_of(self, count: int) -> int:
         """How many groups the first `count` meshes have."""
@@ -71,19 +58,11 @@ class Field:
 
     def term(self, extractor: Extractor) -> Term:
         """An extractor over the leaves as a term, operands in the order that terms have."""
-        match extractor:
-            case Union(left, right) | Intersect(left, right) | Diff(left, right):
-                return joined(type(extractor), self.term(left), self.term(right))
-            case leaf:
-                return self._leaves[leaf]
+        return self._groups.term(extractor)
 
     def bits(self, extractor: Extractor) -> int:
         """The groups that an extractor over the leaves selects."""
         return self.term(extractor).bits
-
-    @cached_property
-    def _leaves(self) -> dict[Extractor, Term]:
-        return {term.extractor: term for term in self.terms}
 
     def unlike(self, selections: Sequence[int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
         """Two hulls, each as (mesh, hull), that no extractor tells apart though only the first is selected.
@@ -92,17 +71,9 @@ class Field:
         """
         first: dict[tuple[bytes, bool], tuple[int, int]] = {}
         for mesh, mask in enumerate(selections):
-            for hull, signature in enumerate(self._signatures[mesh]):
-                first.setdefault((signature, bool(mask >> hull & 1)), (mesh, hull))
-        for (signature, selected), place in first.items():
-            if selected and (signature, False) in first:
-                return place, first[signature, False]
+            for hull, look in enumerate(self._looks[mesh]):
+                first.setdefault((look, bool(mask >> hull & 1)), (mesh, hull))
+        for (look, selected), place in first.items():
+            if selected and (look, False) in first:
+                return place, first[look, False]
         return None
-
-
-def _firsts(groups: Sequence[int]) -> list[int]:
-    """The place of the first member of each group, in the order of the groups."""
-    places: dict[int, int] = {}
-    for place, group in enumerate(groups):
-        places.setdefault(group, place)
-    return list(places.values())
