@@ -1,0 +1,1 @@
+"""The studio: a web server over a project, and the page that it shows."""

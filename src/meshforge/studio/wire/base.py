@@ -1,0 +1,11 @@
+"""What every message between server and page has in common."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel, ConfigDict
+
+
+class Wire(BaseModel):
+    """A message, or a part of one; the page's TypeScript types are made from these classes by `script/make-wire`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", json_schema_serialization_defaults_required=True)

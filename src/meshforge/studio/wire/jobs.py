@@ -1,0 +1,60 @@
+"""Long work: its progress, and what came of it."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from meshforge.studio.wire.base import Wire
+
+JobKind = Literal["read", "apply", "decompose", "export", "add"]
+
+
+class JobLine(Wire):
+    """What became of one asset in a job."""
+
+    asset: str
+    status: Literal["done", "edited", "unchanged", "failed", "skipped"]
+    text: str = ""
+
+
+class Job(Wire):
+    """Work that takes long. state: how it stands; lines: what became of assets, those that failed first, at most 200.
+
+    message: its result in a sentence; out: the folder that was written.
+    """
+
+    id: str
+    kind: JobKind
+    title: str
+    done: int = 0
+    total: int = 0
+    state: Literal["running", "done", "failed", "cancelled"] = "running"
+    message: str = ""
+    lines: tuple[JobLine, ...] = ()
+    out: str | None = None
+
+
+class ApplyJob(Wire):
+    """Run the program on all assets, or on some."""
+
+    kind: Literal["apply"] = "apply"
+    assets: tuple[str, ...] | None = None
+
+
+class DecomposeJob(Wire):
+    """Make hulls of what has none; method: the tool that does it."""
+
+    kind: Literal["decompose"] = "decompose"
+    assets: tuple[str, ...]
+    method: Literal["coacd", "vhacd"] = "coacd"
+
+
+class ExportJob(Wire):
+    """Copy outputs into a folder: those that were accepted, or all. folder: below the project, or absolute."""
+
+    kind: Literal["export"] = "export"
+    accepted_only: bool = True
+    folder: str = "export"
+
+
+JobRequest = ApplyJob | DecomposeJob | ExportJob

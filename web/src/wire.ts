@@ -1,0 +1,906 @@
+// Made by script/make-wire from meshforge.studio.wire and meshforge.studio.edits; change it there.
+
+export type AnyEdit =
+  | LabelHulls
+  | LabelFromFiles
+  | LabelFromNames
+  | SetVocabulary
+  | RenameLabel
+  | SetSteps
+  | MoveRule
+  | DeleteRule
+  | SetOrientation
+  | AnswerQuestion
+  | SettleRepair
+  | TakeBack
+  | WriteProgram
+  | CutHull
+  | Unprepare
+  | ReviewAssets
+  | CorrectByHand
+  | DropCorrections;
+export type Event =
+  | Hello
+  | CardsChanged
+  | ProjectChanged
+  | HistoryChanged
+  | AssetsChanged
+  | LessonChanged
+  | ReachChanged
+  | ProgramChanged
+  | JobChanged;
+export type JobRequest = ApplyJob | DecomposeJob | ExportJob;
+
+export interface Everything {
+  ActionForm: ActionForm;
+  AnswerQuestion: AnswerQuestion;
+  AnyEdit: AnyEdit;
+  ApplyJob: ApplyJob;
+  Argument: Argument;
+  AssetView: AssetView;
+  AssetsChanged: AssetsChanged;
+  Card: Card;
+  CardsChanged: CardsChanged;
+  CheckRequest: CheckRequest;
+  ChoiceView: ChoiceView;
+  CorrectByHand: CorrectByHand;
+  CorrectionView: CorrectionView;
+  CutHull: CutHull;
+  DecomposeJob: DecomposeJob;
+  DeleteRule: DeleteRule;
+  Done: Done;
+  DropCorrections: DropCorrections;
+  EditedHeader: EditedHeader;
+  Event: Event;
+  ExportJob: ExportJob;
+  FindingView: FindingView;
+  GeneraliseRequest: GeneraliseRequest;
+  Generalised: Generalised;
+  Guess: Guess;
+  Guesses: Guesses;
+  Hello: Hello;
+  HintView: HintView;
+  HistoryChanged: HistoryChanged;
+  HistoryView: HistoryView;
+  HullView: HullView;
+  Job: Job;
+  JobCancel: JobCancel;
+  JobChanged: JobChanged;
+  JobLine: JobLine;
+  JobRequest: JobRequest;
+  LabelFromFiles: LabelFromFiles;
+  LabelFromNames: LabelFromNames;
+  LabelHulls: LabelHulls;
+  LanguageView: LanguageView;
+  LessonChanged: LessonChanged;
+  LessonView: LessonView;
+  Mark: Mark;
+  MoveRule: MoveRule;
+  NearMiss: NearMiss;
+  NearestView: NearestView;
+  Next: Next;
+  OpaqueView: OpaqueView;
+  Operator: Operator;
+  PreviewRequest: PreviewRequest;
+  Problem: Problem;
+  ProgramChanged: ProgramChanged;
+  ProgramCheck: ProgramCheck;
+  ProgramView: ProgramView;
+  ProjectChanged: ProjectChanged;
+  ProjectView: ProjectView;
+  QuestionView: QuestionView;
+  Reach: Reach;
+  ReachChanged: ReachChanged;
+  ReadingView: ReadingView;
+  RenameLabel: RenameLabel;
+  RepairView: RepairView;
+  ReviewAssets: ReviewAssets;
+  RuleLine: RuleLine;
+  RuleView: RuleView;
+  Said: Said;
+  SelectRequest: SelectRequest;
+  Selected: Selected;
+  SetOrientation: SetOrientation;
+  SetSteps: SetSteps;
+  SetVocabulary: SetVocabulary;
+  SettleRepair: SettleRepair;
+  ShapeRow: ShapeRow;
+  ShapesHeader: ShapesHeader;
+  StepText: StepText;
+  StepView: StepView;
+  TakeBack: TakeBack;
+  TraceLine: TraceLine;
+  Unprepare: Unprepare;
+  Uploaded: Uploaded;
+  VocabularyLabel: VocabularyLabel;
+  WriteProgram: WriteProgram;
+}
+/**
+ * An action as a form; usage: how it is written; makes: whether `as LABEL` may follow.
+ */
+export interface ActionForm {
+  name: string;
+  summary: string;
+  usage: string;
+  makes: boolean;
+  arguments: Argument[];
+}
+/**
+ * One argument of an action. kind: `words` are chosen from, a `flag` is there or not, a `file` is a template,
+ * `shape` is a primitive or a template, a `factor` a number above 0.
+ */
+export interface Argument {
+  name: string;
+  kind: "words" | "flag" | "file" | "shape" | "factor";
+  wants: string;
+  choices: string[];
+  required: boolean;
+}
+/**
+ * Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`.
+ */
+export interface AnswerQuestion {
+  kind: "answer";
+  rule: number;
+  asset: string;
+  select: string[] | null;
+  refused?: string[][];
+}
+/**
+ * Label some hulls of an asset; null takes their labels away.
+ */
+export interface LabelHulls {
+  kind: "label";
+  asset: string;
+  hulls: string[];
+  label: string | null;
+}
+/**
+ * Take over the labels files beside the assets.
+ */
+export interface LabelFromFiles {
+  kind: "label-files";
+}
+/**
+ * Label hulls without a label by the words in their names and in the names of their bodies.
+ */
+export interface LabelFromNames {
+  kind: "label-names";
+}
+/**
+ * Set the labels that hulls can have, in the order of their colours.
+ */
+export interface SetVocabulary {
+  kind: "vocabulary";
+  labels: string[];
+}
+/**
+ * Give a label of the vocabulary another name, wherever it is used.
+ */
+export interface RenameLabel {
+  kind: "rename-label";
+  old: string;
+  new: string;
+}
+/**
+ * Set the steps of an asset, one a rule, in order. version: of the steps that were changed.
+ */
+export interface SetSteps {
+  kind: "steps";
+  asset: string;
+  version: string;
+  steps: StepText[];
+}
+/**
+ * One step. select: names of hulls, [] for nothing here, null for open; action: in the language's own text.
+ */
+export interface StepText {
+  select: string[] | null;
+  action: string;
+}
+/**
+ * Put a rule at another place, in all demonstrations; rules count from 1.
+ */
+export interface MoveRule {
+  kind: "move-rule";
+  rule: number;
+  to: number;
+}
+/**
+ * Take a rule away, with its steps in all demonstrations.
+ */
+export interface DeleteRule {
+  kind: "delete-rule";
+  rule: number;
+}
+/**
+ * Set the orientation directive; empty takes it away.
+ */
+export interface SetOrientation {
+  kind: "orient";
+  text: string;
+}
+/**
+ * Confirm or refuse a repair of a label.
+ */
+export interface SettleRepair {
+  kind: "repair";
+  asset: string;
+  hull: string;
+  was: string | null;
+  to: string;
+  accept: boolean;
+}
+/**
+ * Take back an answer or a repair by its id.
+ */
+export interface TakeBack {
+  kind: "take-back";
+  id: string;
+}
+/**
+ * Make a text the project's program. version: of the program that was changed.
+ */
+export interface WriteProgram {
+  kind: "program";
+  text: string;
+  version: string;
+}
+/**
+ * Cut a hull along a plane through `at` [m] across `across`, in the frame that the asset comes in.
+ */
+export interface CutHull {
+  asset: string;
+  kind: "cut";
+  hull: string;
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  at: [number, number, number];
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  across: [number, number, number];
+}
+/**
+ * Take back the last thing that was done to an asset before the program.
+ */
+export interface Unprepare {
+  asset: string;
+  kind: "unprepare";
+}
+/**
+ * Accept or flag the outputs of some assets; null takes that back.
+ */
+export interface ReviewAssets {
+  kind: "review";
+  ids: string[];
+  verdict: ("accepted" | "flagged") | null;
+  note?: string | null;
+}
+/**
+ * Add an edit by hand, on hulls by the names they have after the program and the edits before.
+ */
+export interface CorrectByHand {
+  kind: "correct";
+  asset: string;
+  select: string[];
+  action: string;
+}
+/**
+ * Take all edits by hand away from an asset, so that it is what the program makes of it.
+ */
+export interface DropCorrections {
+  kind: "drop-corrections";
+  asset: string;
+}
+/**
+ * Run the program on all assets, or on some.
+ */
+export interface ApplyJob {
+  kind: "apply";
+  assets?: string[] | null;
+}
+/**
+ * An asset as it is prepared, in the frame it comes in.
+ *
+ * upright: the 16 numbers (row by row) of canonical_T_incoming, null where nothing turns it; unturned: why it cannot
+ * be turned though an orientation is set. version: of steps, to be given back with an edit of them.
+ * contacts: pairs of names. diagonal, contact_distance: [m].
+ */
+export interface AssetView {
+  asset: string;
+  path: string;
+  format: string;
+  up: "y" | "z";
+  bodies: string[];
+  hulls: HullView[];
+  opaque: OpaqueView[];
+  has_visual: boolean;
+  contacts: [string, string][];
+  near_misses: NearMiss[];
+  diagonal: number;
+  contact_distance: number;
+  upright: number[] | null;
+  unturned: string | null;
+  steps: StepView[];
+  version: string;
+  corrections: CorrectionView[];
+  prepared: string[];
+  missing: string[];
+  notes: string[];
+}
+/**
+ * A hull. vertices, faces: how many; primitive: its kind where it is one; source: who gave the label;
+ * parent: the hull of the file that a made hull inherits from.
+ */
+export interface HullView {
+  name: string;
+  body: string;
+  label: string | null;
+  confidence: number | null;
+  source: string | null;
+  volume: number;
+  vertices: number;
+  faces: number;
+  primitive: ("box" | "cylinder" | "capsule" | "sphere" | "ellipsoid") | null;
+  parent: string | null;
+}
+/**
+ * Collision geometry that is no hull, and why; `surface`: whether the packet has triangles of it.
+ */
+export interface OpaqueView {
+  name: string;
+  body: string;
+  reason: string;
+  surface: boolean;
+}
+/**
+ * Two hulls, by name, that are apart, yet by less than three times the contact distance; gap [m].
+ */
+export interface NearMiss {
+  a: string;
+  b: string;
+  gap: number;
+}
+/**
+ * What the asset says about a rule. select: names, [] for nothing here, null for open.
+ *
+ * action: in the language's own text, with `as LABEL` where what is made gets one; error: why it cannot be replayed.
+ * made, removed: names of hulls, where it can.
+ */
+export interface StepView {
+  rule: number;
+  select: string[] | null;
+  action: string;
+  error: string | null;
+  made: string[];
+  removed: string[];
+}
+/**
+ * An edit by hand that is replayed after the program.
+ */
+export interface CorrectionView {
+  select: string[];
+  action: string;
+}
+/**
+ * Assets of which something changed: an open page fetches them anew. shapes: their hulls are others, too.
+ */
+export interface AssetsChanged {
+  kind: "assets";
+  assets: string[];
+  shapes: boolean;
+}
+/**
+ * One asset in the gallery.
+ *
+ * hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
+ * the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure.
+ * after: hulls of the output; stale: what changed since the output was made; corrections: edits by hand, a number.
+ * sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
+ * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
+ */
+export interface Card {
+  asset: string;
+  hulls: number | null;
+  labels: number[];
+  unsure: number[];
+  demonstrated: boolean;
+  output: "none" | "edited" | "unchanged" | "failed";
+  after: number | null;
+  stale: string[];
+  error: string | null;
+  flags: string[];
+  review: ("accepted" | "flagged") | null;
+  note: string | null;
+  corrections: number;
+  sources: number;
+  prepared: string[];
+  picture: string | null;
+  edited_picture: string | null;
+}
+/**
+ * Cards that are other now; gone: ids of assets that are no more.
+ */
+export interface CardsChanged {
+  kind: "cards";
+  cards: Card[];
+  gone: string[];
+}
+/**
+ * Is this text a program?
+ */
+export interface CheckRequest {
+  text: string;
+}
+/**
+ * One way to go on; select: names of hulls as the rule meets them.
+ */
+export interface ChoiceView {
+  reading: string;
+  extractor: string;
+  sentence: string;
+  select: string[];
+}
+/**
+ * Make hulls of what has none; method: the tool that does it.
+ */
+export interface DecomposeJob {
+  kind: "decompose";
+  assets: string[];
+  method?: "coacd" | "vhacd";
+}
+/**
+ * An edit that is on disk; said: what was done, in words. nothing: there was nothing to do.
+ */
+export interface Done {
+  said: string;
+  nothing?: boolean;
+}
+/**
+ * What a packet of an edited asset holds: all hulls there are then, with shapes of those that the asset has not.
+ *
+ * made, removed: names, against the asset as it comes; trace: rule by rule; findings: of the check of legality.
+ * volume: the sum over hulls before and after [m^3].
+ */
+export interface EditedHeader {
+  rows: ShapeRow[];
+  hulls: HullView[];
+  made: string[];
+  removed: string[];
+  note: string | null;
+  trace: TraceLine[];
+  findings: FindingView[];
+  flags: string[];
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  volume: [number, number];
+  contacts: [string, string][];
+}
+/**
+ * One shape of a packet: how many vertices and triangles it has; opacity pieces and visuals have such rows, too.
+ */
+export interface ShapeRow {
+  name: string;
+  vertices: number;
+  faces: number;
+  rgba: [number, number, number, number] | null;
+}
+/**
+ * What one rule did: names selected and made; note: what a user should know.
+ */
+export interface TraceLine {
+  rule: number;
+  selected: string[];
+  made: string[];
+  note: string | null;
+}
+/**
+ * Something that a check has to say about a hull, or, without one, about the mesh.
+ */
+export interface FindingView {
+  severity: "error" | "warning" | "note";
+  text: string;
+  hull: string | null;
+}
+/**
+ * Everything that is known, on connecting. tour: whether the page is to show the guided tour.
+ */
+export interface Hello {
+  kind: "hello";
+  version: string;
+  project: ProjectView;
+  cards: Card[];
+  history: HistoryView;
+  program: ProgramView;
+  lesson: LessonView | null;
+  learning: boolean;
+  reach: Reach[];
+  jobs: Job[];
+  tour: boolean;
+}
+/**
+ * The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
+ *
+ * rules: what is demonstrated, by rule; templates: hull templates that actions can name; problem: why the program
+ * cannot be applied; lost: ids that something is kept for, though there is no such asset.
+ */
+export interface ProjectView {
+  name: string;
+  folder: string;
+  vocabulary: VocabularyLabel[];
+  orient: string;
+  orient_sentence: string;
+  contact: number | null;
+  extremity: number | null;
+  rules: RuleLine[];
+  said: Said[];
+  templates: string[];
+  next: Next;
+  problem: string | null;
+  lost: string[];
+}
+/**
+ * A label of the vocabulary. color: `#rrggbb`, given by its place; used: hulls of the family that have it.
+ */
+export interface VocabularyLabel {
+  name: string;
+  color: string;
+  used: number;
+}
+/**
+ * A rule as the demonstrations have it: the action that is shown first, and the assets that say something.
+ */
+export interface RuleLine {
+  rule: number;
+  action: string;
+  shown: string[];
+  nothing: string[];
+}
+/**
+ * An answer or a repair of a label that was confirmed or refused; id: by which it is taken back.
+ */
+export interface Said {
+  id: string;
+  kind: "answer" | "confirmed" | "rejected";
+  asset: string;
+  text: string;
+}
+/**
+ * The next sensible step: the stage it belongs to, in words, and the asset to go to.
+ */
+export interface Next {
+  stage: "label" | "demonstrate" | "learn" | "review";
+  say: string;
+  asset: string | null;
+}
+/**
+ * What can be undone and redone next, in words; null where there is nothing.
+ */
+export interface HistoryView {
+  undo: string | null;
+  redo: string | null;
+  undoable: number;
+  redoable: number;
+}
+/**
+ * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since.
+ *
+ * version: to be given back with an edit of the text. error: why the file does not parse.
+ */
+export interface ProgramView {
+  text: string;
+  version: string;
+  by_hand: boolean;
+  outdated: boolean;
+  labels: string[];
+  orient_sentence: string;
+  rules: RuleView[];
+  error: string | null;
+}
+/**
+ * A rule of a program: its text and a sentence about it; readings: how many agree with all demonstrations.
+ */
+export interface RuleView {
+  rule: number;
+  text: string;
+  sentence: string;
+  readings: number;
+}
+/**
+ * What a lesson came to. number: counts lessons; program: its text, null where there is none.
+ *
+ * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
+ * where a rule has no extractor. stale: ids of answers that no longer fit.
+ */
+export interface LessonView {
+  number: number;
+  status: "found" | "ambiguous" | "repair" | "none" | "timeout" | "error";
+  program: string | null;
+  rules: RuleView[];
+  settled: boolean;
+  readings: ReadingView[];
+  repairs: RepairView[];
+  question: QuestionView | null;
+  nearest: NearestView | null;
+  hint: HintView | null;
+  why: string | null;
+  advice: string[];
+  suggested_orientation: string | null;
+  stale: string[];
+  error: string | null;
+  seconds: number;
+}
+/**
+ * An extractor that agrees with all demonstrations of a rule; belief: its share in 0..1; differs_on: assets where
+ * it selects something else than the program's.
+ */
+export interface ReadingView {
+  id: string;
+  rule: number;
+  extractor: string;
+  sentence: string;
+  size: number;
+  belief: number;
+  differs_on: string[];
+}
+/**
+ * A label that is probably wrong; was: null for none.
+ */
+export interface RepairView {
+  id: string;
+  rule: number;
+  asset: string;
+  hull: string;
+  was: string | null;
+  to: string;
+  belief: number;
+  why: string;
+}
+/**
+ * Which hulls should a rule select on an asset? harm: share of the assets edited wrongly as things stand.
+ */
+export interface QuestionView {
+  id: string;
+  rule: number;
+  asset: string;
+  choices: ChoiceView[];
+  harm: number;
+  left: number;
+}
+/**
+ * The extractor that came nearest for a rule that has none, and how it differs on one asset.
+ */
+export interface NearestView {
+  rule: number;
+  extractor: string;
+  asset: string;
+  extra: string[];
+  missing: string[];
+}
+/**
+ * The asset that is best demonstrated next, and why.
+ */
+export interface HintView {
+  asset: string;
+  why: string;
+}
+/**
+ * What a program does on one asset: of each rule the positions of the asset's own hulls that it selects, or that
+ * what it selects was made of; and hulls before and after. error: why it does not run there.
+ */
+export interface Reach {
+  asset: string;
+  rules: number[][];
+  before: number;
+  after: number;
+  error: string | null;
+}
+/**
+ * Work that takes long. state: how it stands; lines: what became of assets, those that failed first, at most 200.
+ *
+ * message: its result in a sentence; out: the folder that was written.
+ */
+export interface Job {
+  id: string;
+  kind: "read" | "apply" | "decompose" | "export" | "add";
+  title: string;
+  done: number;
+  total: number;
+  state: "running" | "done" | "failed" | "cancelled";
+  message: string;
+  lines: JobLine[];
+  out: string | null;
+}
+/**
+ * What became of one asset in a job.
+ */
+export interface JobLine {
+  asset: string;
+  status: "done" | "edited" | "unchanged" | "failed" | "skipped";
+  text: string;
+}
+/**
+ * The project as it is now.
+ */
+export interface ProjectChanged {
+  kind: "project";
+  project: ProjectView;
+}
+/**
+ * What can be undone now; said: what was just done, undone or redone, in words, by which page.
+ */
+export interface HistoryChanged {
+  kind: "history";
+  history: HistoryView;
+  did: "edit" | "undo" | "redo";
+  said: string;
+  by: string | null;
+}
+/**
+ * A lesson has begun (`learning`), or its outcome is there.
+ */
+export interface LessonChanged {
+  kind: "lesson";
+  lesson: LessonView | null;
+  learning: boolean;
+}
+/**
+ * What the program does on all assets; lesson: the number of the lesson it belongs to.
+ */
+export interface ReachChanged {
+  kind: "reach";
+  lesson: number;
+  reach: Reach[];
+}
+/**
+ * The accepted program as it is now.
+ */
+export interface ProgramChanged {
+  kind: "program";
+  program: ProgramView;
+}
+/**
+ * A job as it stands.
+ */
+export interface JobChanged {
+  kind: "job";
+  job: Job;
+}
+/**
+ * Copy outputs into a folder: those that were accepted, or all. folder: below the project, or absolute.
+ */
+export interface ExportJob {
+  kind: "export";
+  accepted_only?: boolean;
+  folder?: string;
+}
+/**
+ * What does an extractor select on all assets, as a rule of that number meets them?
+ */
+export interface GeneraliseRequest {
+  extractor: string;
+  rule?: number;
+}
+/**
+ * What an extractor selects on every asset: positions of the asset's own hulls.
+ */
+export interface Generalised {
+  assets: {
+    [k: string]: number[];
+  };
+}
+/**
+ * What the program would select for a rule on an asset, given the steps that were shown before it.
+ */
+export interface Guess {
+  rule: number;
+  action: string;
+  select: string[];
+  sentence: string;
+  error: string | null;
+}
+/**
+ * A guess for each rule.
+ */
+export interface Guesses {
+  asset: string;
+  guesses: Guess[];
+}
+/**
+ * Stop a job.
+ */
+export interface JobCancel {
+  id: string;
+}
+/**
+ * The language: actions (all but Each, which is a switch), operators, directions.
+ */
+export interface LanguageView {
+  actions: ActionForm[];
+  operators: Operator[];
+  directions: string[];
+}
+/**
+ * An extractor's operator and its operands, for completion.
+ */
+export interface Operator {
+  name: string;
+  usage: string;
+  summary: string;
+}
+/**
+ * A place in a text, lines and columns from 1, and what is wrong there.
+ */
+export interface Mark {
+  line: number;
+  column: number;
+  message: string;
+}
+/**
+ * What would an action do? steps: how many of the asset's own steps go before it; result: of the program's output
+ * in place of steps, for edits by hand.
+ */
+export interface PreviewRequest {
+  asset: string;
+  steps?: number;
+  select: string[];
+  action: string;
+  result?: boolean;
+}
+/**
+ * What went wrong: the message, what it is about, and the remedy.
+ *
+ * conflict: the change was made on a state that is no more; the page shows the present one and asks again.
+ */
+export interface Problem {
+  message: string;
+  where: string | null;
+  remedy: string | null;
+  conflict: boolean;
+}
+/**
+ * Whether a text is a program, and its rules in words if so.
+ */
+export interface ProgramCheck {
+  mark: Mark | null;
+  rules: RuleView[];
+  orient_sentence: string;
+}
+/**
+ * What does an extractor select on an asset, after so many of its steps?
+ */
+export interface SelectRequest {
+  asset: string;
+  steps?: number;
+  extractor: string;
+}
+/**
+ * What an extractor selects on an asset (names), or what is wrong with its text.
+ */
+export interface Selected {
+  select: string[];
+  sentence: string;
+  mark: Mark | null;
+}
+/**
+ * What a packet of the asset's own shapes holds: hulls first, then opaque pieces (or the visual surfaces).
+ *
+ * A packet is: length of the header as uint32; the header as UTF-8 JSON, padded with spaces to a multiple of four;
+ * vertices of all rows as float32 (x, y, z) [m]; triangles of all rows as uint32 (three each, counted in their row).
+ * Little-endian, all in the frame that the asset comes in.
+ */
+export interface ShapesHeader {
+  rows: ShapeRow[];
+}
+/**
+ * A template that was taken: the name that actions write; or the paths of asset files that were taken.
+ */
+export interface Uploaded {
+  names: string[];
+}
