@@ -1,6 +1,9 @@
 import react from "@vitejs/plugin-react";
 import { defineConfig } from "vite";
 
+// While the page is developed, a studio that runs at this address answers for it.
+const studio = `127.0.0.1:${process.env.STUDIO_PORT ?? "8765"}`;
+
 // The built page goes into the Python package, which serves it; addresses are relative to where it is served.
 export default defineConfig({
   base: "./",
@@ -10,5 +13,5 @@ export default defineConfig({
     emptyOutDir: true,
     chunkSizeWarningLimit: 2000,
   },
-  server: { proxy: { "/api": "http://127.0.0.1:8765", "/ws": { target: "ws://127.0.0.1:8765", ws: true } } },
+  server: { proxy: { "/api": `http://${studio}`, "/ws": { target: `ws://${studio}`, ws: true } } },
 });

@@ -1,0 +1,54 @@
+// The server's interface, one function a request.
+import type {
+  AnyEdit,
+  AssetView,
+  Done,
+  EditedHeader,
+  Generalised,
+  Guesses,
+  Job,
+  JobRequest,
+  LanguageView,
+  PreviewRequest,
+  ProgramCheck,
+  Selected,
+  SelectRequest,
+  ShapesHeader,
+  Uploaded,
+} from "../wire";
+import { address, getBytes, getJson, postForBytes, postJson, putBytes } from "./http";
+import { opened, openedPicture, type EditedPacket, type ShapesPacket } from "./packet";
+
+export const api = {
+  asset: (asset: string) => getJson<AssetView>("api/asset", { asset }),
+  shapes: async (asset: string): Promise<ShapesPacket> =>
+    opened<ShapesHeader>(await getBytes("api/shapes", { asset })),
+  visual: async (asset: string): Promise<ShapesPacket> =>
+    opened<ShapesHeader>(await getBytes("api/visual", { asset })),
+  stage: async (asset: string, steps: number): Promise<EditedPacket> =>
+    opened<EditedHeader>(await getBytes("api/stage", { asset, steps })),
+  result: async (asset: string, of: "program" | "output"): Promise<EditedPacket> =>
+    opened<EditedHeader>(await getBytes("api/result", { asset, of })),
+  preview: async (request: PreviewRequest, stop?: AbortSignal): Promise<EditedPacket> =>
+    opened<EditedHeader>(await postForBytes("api/preview", request, stop)),
+  select: (request: SelectRequest, stop?: AbortSignal) => postJson<Selected>("api/select", request, stop),
+  generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
+    postJson<Generalised>("api/generalise", { extractor, rule }, stop),
+  guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
+  picture: async (asset: string, rule: number) => openedPicture(await getBytes("api/picture", { asset, rule })),
+  thumbnail: (asset: string, of: "source" | "output", version: string) =>
+    address("api/thumbnail", { asset, of, v: version }),
+  edit: (edit: AnyEdit) => postJson<Done>("api/edit", edit),
+  undo: () => postJson<Done>("api/undo", {}),
+  redo: () => postJson<Done>("api/redo", {}),
+  learn: () => postJson<Done>("api/learn", {}),
+  stopLearning: () => postJson<Done>("api/learn/stop", {}),
+  language: () => getJson<LanguageView>("api/language"),
+  checkProgram: (text: string, stop?: AbortSignal) => postJson<ProgramCheck>("api/program/check", { text }, stop),
+  labelSources: () => getJson<{ files: number; names: number }>("api/labels/sources"),
+  startJob: (request: JobRequest) => postJson<Job>("api/jobs", request),
+  cancelJob: (id: string) => postJson<Job>("api/jobs/cancel", { id }),
+  uploadTemplate: (file: File) => putBytes<Uploaded>("api/templates", { name: file.name }, file),
+  stageAssetFile: (path: string, file: Blob) => putBytes<Uploaded>("api/assets", { path }, file),
+  takeAssets: () => postJson<Uploaded>("api/assets", {}),
+};

@@ -1,0 +1,87 @@
+// Requests to the studio's server; every failure becomes a ServerProblem with a message and, if known, a remedy.
+import type { Problem } from "../wire";
+
+export class ServerProblem extends Error {
+  constructor(
+    readonly problem: Problem,
+    readonly status: number,
+  ) {
+    super(problem.message);
+  }
+}
+
+let token = "";
+export const page = Math.random().toString(36).slice(2, 10);
+
+/** Takes the token of the address, or the one this tab had before. */
+export function useToken(given: string): void {
+  token = given;
+}
+
+/** An address that an <img> or a WebSocket can use. */
+export function address(path: string, query: Record<string, string | number> = {}): string {
+  const words = new URLSearchParams({ ...mapped(query), token });
+  return `${path}?${words}`;
+}
+
+export async function getJson<T>(path: string, query: Record<string, string | number> = {}): Promise<T> {
+  return (await asked(withQuery(path, query), { method: "GET" })).json() as Promise<T>;
+}
+
+export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
+  return (await asked(withQuery(path, query), { method: "GET" })).arrayBuffer();
+}
+
+export async function postJson<T>(path: string, body: unknown, stop?: AbortSignal): Promise<T> {
+  return (await asked(path, posting(body, stop))).json() as Promise<T>;
+}
+
+export async function postForBytes(path: string, body: unknown, stop?: AbortSignal): Promise<ArrayBuffer> {
+  return (await asked(path, posting(body, stop))).arrayBuffer();
+}
+
+export async function putBytes<T>(path: string, query: Record<string, string>, body: Blob): Promise<T> {
+  return (await asked(withQuery(path, query), { method: "PUT", body })).json() as Promise<T>;
+}
+
+function posting(body: unknown, stop?: AbortSignal): RequestInit {
+  const init: RequestInit = { method: "POST", headers: { "Content-Type": "application/json" } };
+  return { ...init, body: JSON.stringify(body), ...(stop ? { signal: stop } : {}) };
+}
+
+function withQuery(path: string, query: Record<string, string | number>): string {
+  const words = new URLSearchParams(mapped(query)).toString();
+  return words ? `${path}?${words}` : path;
+}
+
+function mapped(query: Record<string, string | number>): Record<string, string> {
+  return Object.fromEntries(Object.entries(query).map(([key, value]) => [key, String(value)]));
+}
+
+async function asked(path: string, init: RequestInit): Promise<Response> {
+  const headers = { ...init.headers, Authorization: `Bearer ${token}`, "X-Page": page };
+  let answer: Response;
+  try {
+    answer = await fetch(path, { ...init, headers });
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    throw new ServerProblem(unreachable, 0);
+  }
+  if (!answer.ok) throw new ServerProblem(await problemOf(answer), answer.status);
+  return answer;
+}
+
+const unreachable: Problem = {
+  message: "The studio's server does not answer.",
+  where: null,
+  remedy: "Start it again in the terminal: meshforge studio PROJECT. Nothing that was acknowledged is lost.",
+  conflict: false,
+};
+
+async function problemOf(answer: Response): Promise<Problem> {
+  try {
+    return (await answer.json()) as Problem;
+  } catch {
+    return { message: `The server answered ${answer.status}.`, where: null, remedy: null, conflict: false };
+  }
+}

@@ -1,0 +1,39 @@
+// The WebSocket on which the server tells what changed; it connects again by itself.
+import type { Event } from "../wire";
+import { address } from "./http";
+
+export interface Listener {
+  receive(event: Event): void;
+  connected(is: boolean): void;
+}
+
+/** Listens until the returned function is called. */
+export function listen(listener: Listener): () => void {
+  let socket: WebSocket | null = null;
+  let wait = 250;
+  let stopped = false;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  function connect(): void {
+    const here = new URL(address("ws"), document.baseURI);
+    here.protocol = here.protocol.replace("http", "ws");
+    socket = new WebSocket(here);
+    socket.onopen = () => {
+      wait = 250;
+      listener.connected(true);
+    };
+    socket.onmessage = (message: MessageEvent<string>) => listener.receive(JSON.parse(message.data) as Event);
+    socket.onclose = () => {
+      if (stopped) return;
+      listener.connected(false);
+      timer = setTimeout(connect, wait);
+      wait = Math.min(2 * wait, 4000);
+    };
+  }
+  connect();
+  return () => {
+    stopped = true;
+    clearTimeout(timer);
+    socket?.close();
+  };
+}

@@ -1,0 +1,173 @@
+// What the person looks at and has in hand: asset, stage, selection, view; knows neither DOM nor three.js.
+import { create } from "zustand";
+import type { Next } from "../wire";
+
+export type StageName = Next["stage"];
+export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
+
+/** Which state of the asset is shown: as it comes, after some of its own steps, or edited. */
+export type Showing =
+  | { kind: "source" }
+  | { kind: "steps"; steps: number }
+  | { kind: "result"; of: "program" | "output" };
+
+export type ColorBy = "hull" | "label" | "confidence" | "body";
+export type Tool = "select" | "box" | "lasso" | "cut" | "landmark";
+export type StandardView = "front" | "back" | "right" | "left" | "top" | "bottom" | "iso";
+export type Compare = "off" | "slider" | "side";
+
+/** What the thumbnails point out: positions of the assets' own hulls. */
+export interface Highlight {
+  what: string;
+  assets: Readonly<Record<string, readonly number[]>>;
+}
+
+/** The action that is being put together in the demonstrate stage. */
+export interface Draft {
+  action: string;
+  arguments: Readonly<Record<string, string | number | boolean>>;
+  each: boolean;
+  /** The label of what is made, empty for none. */
+  label: string;
+  /** The place of the step that is being changed, null for a new one. */
+  editing: number | null;
+}
+
+export interface ViewSettings {
+  colorBy: ColorBy;
+  projection: "perspective" | "orthographic";
+  ghost: boolean;
+  wireframe: boolean;
+  contacts: boolean;
+  grid: boolean;
+  opaque: boolean;
+  /** 0 as it is, 1 far apart. */
+  explode: number;
+  compare: Compare;
+  /** Where the before/after line is, a share of the width. */
+  divider: number;
+}
+
+export interface Filters {
+  search: string;
+  only: readonly FilterName[];
+  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed";
+}
+export type FilterName =
+  | "unlabelled"
+  | "unsure"
+  | "demonstrated"
+  | "edited"
+  | "accepted"
+  | "flagged"
+  | "failed"
+  | "stale";
+
+export interface DeskState {
+  asset: string | null;
+  stage: StageName;
+  showing: Showing;
+  /** Names of hulls of what is shown. */
+  selection: ReadonlySet<string>;
+  hover: string | null;
+  hidden: ReadonlySet<string>;
+  tool: Tool;
+  /** The label that clicks paint, null for plain selecting. */
+  brush: string | null;
+  draft: Draft | null;
+  highlight: Highlight | null;
+  view: ViewSettings;
+  filters: Filters;
+  theme: "system" | "light" | "dark";
+  /** Widths of the left and right column [px]. */
+  columns: { family: number; panel: number };
+  overlay: "none" | "help" | "tour" | "palette";
+  /** Counts up when the camera is asked to move: to a standard view, to fit all, or to frame the selection. */
+  cameraOrder: { count: number; to: StandardView | "fit" | "frame" };
+}
+
+export const initialDesk: DeskState = {
+  asset: null,
+  stage: "label",
+  showing: { kind: "source" },
+  selection: new Set(),
+  hover: null,
+  hidden: new Set(),
+  tool: "select",
+  brush: null,
+  draft: null,
+  highlight: null,
+  view: {
+    colorBy: "label",
+    projection: "perspective",
+    ghost: false,
+    wireframe: false,
+    contacts: false,
+    grid: true,
+    opaque: true,
+    explode: 0,
+    compare: "off",
+    divider: 0.5,
+  },
+  filters: { search: "", only: [], sort: "name" },
+  theme: "system",
+  columns: { family: 280, panel: 360 },
+  overlay: "none",
+  cameraOrder: { count: 0, to: "iso" },
+};
+
+export const useDesk = create<DeskState>()(() => initialDesk);
+
+const set = useDesk.setState;
+
+/** Goes to an asset; selection, hover and what is hidden belong to one asset and are left behind. */
+export function openAsset(asset: string | null): void {
+  if (useDesk.getState().asset === asset) return;
+  set({ asset, selection: new Set(), hover: null, hidden: new Set(), draft: null, tool: "select" });
+}
+
+export function openStage(stage: StageName): void {
+  if (useDesk.getState().stage === stage) return;
+  set({ stage, selection: new Set(), draft: null, brush: null, tool: "select" });
+}
+
+export function show(showing: Showing): void {
+  set({ showing });
+}
+
+export function select(names: Iterable<string>): void {
+  set({ selection: new Set(names) });
+}
+
+/** Adds, takes away or replaces, as shift- and ctrl-clicks do. */
+export function selectMore(names: Iterable<string>, how: "replace" | "add" | "toggle" | "subtract"): void {
+  const before = useDesk.getState().selection;
+  if (how === "replace") return select(names);
+  const after = new Set(before);
+  for (const name of names) {
+    if (how === "subtract" || (how === "toggle" && before.has(name))) after.delete(name);
+    else after.add(name);
+  }
+  select(after);
+}
+
+export function hover(name: string | null): void {
+  if (useDesk.getState().hover !== name) set({ hover: name });
+}
+
+export function setView(change: Partial<ViewSettings>): void {
+  set((state) => ({ view: { ...state.view, ...change } }));
+}
+
+export function setFilters(change: Partial<Filters>): void {
+  set((state) => ({ filters: { ...state.filters, ...change } }));
+}
+
+export function lookFrom(to: StandardView | "fit" | "frame"): void {
+  set((state) => ({ cameraOrder: { count: state.cameraOrder.count + 1, to } }));
+}
+
+/** The hulls that belong to a highlight's thumbnails, or none. */
+export function setHighlight(highlight: Highlight | null): void {
+  set({ highlight });
+}

@@ -1,0 +1,138 @@
+// What the server says of the project, kept as it comes; knows neither DOM nor three.js.
+import { create } from "zustand";
+import type { Card, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach } from "../wire";
+
+export interface ProjectState {
+  connected: boolean;
+  /** Whether a first Hello came. */
+  ready: boolean;
+  version: string;
+  project: ProjectView;
+  cards: Readonly<Record<string, Card>>;
+  /** Ids of all assets, in order. */
+  order: readonly string[];
+  history: HistoryView;
+  program: ProgramView;
+  lesson: LessonView | null;
+  learning: boolean;
+  /** What the present program does on each asset. */
+  reach: Readonly<Record<string, Reach>>;
+  jobs: readonly Job[];
+  tour: boolean;
+  /** Counts up for each asset whose details changed, so that what is kept of it is fetched anew. */
+  revisions: Readonly<Record<string, number>>;
+  shapeRevisions: Readonly<Record<string, number>>;
+}
+
+const noProgram: ProgramView = {
+  text: "",
+  version: "",
+  by_hand: false,
+  outdated: false,
+  labels: [],
+  orient_sentence: "",
+  rules: [],
+  error: null,
+};
+
+export const emptyProject: ProjectState = {
+  connected: false,
+  ready: false,
+  version: "",
+  project: {
+    name: "",
+    folder: "",
+    vocabulary: [],
+    orient: "",
+    orient_sentence: "",
+    contact: null,
+    extremity: null,
+    rules: [],
+    said: [],
+    templates: [],
+    next: { stage: "label", say: "", asset: null },
+    problem: null,
+    lost: [],
+  },
+  cards: {},
+  order: [],
+  history: { undo: null, redo: null, undoable: 0, redoable: 0 },
+  program: noProgram,
+  lesson: null,
+  learning: false,
+  reach: {},
+  jobs: [],
+  tour: false,
+  revisions: {},
+  shapeRevisions: {},
+};
+
+export const useProject = create<ProjectState>()(() => emptyProject);
+
+/** The state after an event. */
+export function received(state: ProjectState, event: Event): ProjectState {
+  switch (event.kind) {
+    case "hello":
+      return {
+        ...state,
+        ready: true,
+        version: event.version,
+        project: event.project,
+        cards: byAsset(event.cards),
+        order: event.cards.map((card) => card.asset),
+        history: event.history,
+        program: event.program,
+        lesson: event.lesson,
+        learning: event.learning,
+        reach: byAsset(event.reach),
+        jobs: event.jobs,
+        tour: event.tour,
+        // what is kept of an asset may be old after a time without connection
+        revisions: raised(state.revisions, event.cards.map((card) => card.asset)),
+        shapeRevisions: raised(state.shapeRevisions, event.cards.map((card) => card.asset)),
+      };
+    case "cards": {
+      const gone = new Set(event.gone);
+      const fresh = event.cards.map((card) => card.asset).filter((asset) => !(asset in state.cards));
+      const cards = Object.fromEntries(Object.entries(state.cards).filter(([asset]) => !gone.has(asset)));
+      const order = state.order.filter((asset) => !gone.has(asset));
+      return {
+        ...state,
+        cards: { ...cards, ...byAsset(event.cards) },
+        order: fresh.length ? [...order, ...fresh].sort() : order,
+      };
+    }
+    case "project":
+      return { ...state, project: event.project };
+    case "history":
+      return { ...state, history: event.history };
+    case "assets": {
+      const shapes = event.shapes ? raised(state.shapeRevisions, event.assets) : state.shapeRevisions;
+      return { ...state, revisions: raised(state.revisions, event.assets), shapeRevisions: shapes };
+    }
+    case "lesson":
+      return event.learning
+        ? { ...state, learning: true }
+        : { ...state, learning: false, lesson: event.lesson, reach: event.lesson?.program ? state.reach : {} };
+    case "reach":
+      return { ...state, reach: { ...state.reach, ...byAsset(event.reach) } };
+    case "program":
+      return { ...state, program: event.program };
+    case "job":
+      return { ...state, jobs: [...state.jobs.filter((job) => job.id !== event.job.id), event.job].slice(-20) };
+  }
+}
+
+export function receive(event: Event): void {
+  useProject.setState((state) => received(state, event), true);
+}
+
+function byAsset<T extends { asset: string }>(rows: readonly T[]): Record<string, T> {
+  return Object.fromEntries(rows.map((row) => [row.asset, row]));
+}
+
+function raised(counts: Readonly<Record<string, number>>, keys: readonly string[]): Record<string, number> {
+  const out = { ...counts };
+  for (const key of keys) out[key] = (out[key] ?? 0) + 1;
+  return out;
+}

@@ -1,0 +1,64 @@
+// The steps of an asset, and the changes to them, each one edit.
+import type { AssetView, StepText, StepView } from "../wire";
+import type { Draft } from "./desk";
+import { perform } from "./edits";
+import { details } from "./scenes";
+import { useProject } from "./project";
+
+type Change = (steps: readonly StepText[]) => readonly StepText[];
+
+/** Changes the steps of an asset as they are on the server now. */
+export async function changeSteps(asset: string, change: Change): Promise<boolean> {
+  const { view } = await details(asset);
+  return perform({ kind: "steps", asset, version: view.version, steps: [...change(texts(view.steps))] });
+}
+
+export const texts = (steps: readonly StepView[]): StepText[] =>
+  steps.map(({ select, action }) => ({ select, action }));
+
+/** Shows a rule on an asset: in place `at` (from 0), the rules before it left open where nothing is said yet. */
+export function shown(at: number, step: StepText): Change {
+  return (steps) => {
+    const filled = [...steps];
+    while (filled.length < at) filled.push({ select: null, action: actionOf(filled.length) });
+    filled[at] = step;
+    return filled;
+  };
+}
+
+/** What the rule in a place (from 0) does, as other assets show it. */
+export function actionOf(place: number): string {
+  return useProject.getState().project.rules[place]?.action ?? "Delete";
+}
+
+export const takenAway =
+  (at: number): Change =>
+  (steps) =>
+    at === steps.length - 1 ? steps.slice(0, at) : steps.map((s, k) => (k === at ? { ...s, select: null } : s));
+
+/** The text of an action as the language has it. */
+export function draftText(draft: Draft, order: readonly { name: string; kind: string }[]): string {
+  const words = order.flatMap(({ name, kind }) => {
+    const value = draft.arguments[name];
+    if (value === undefined || value === "" || value === false) return [];
+    if (kind === "flag") return [name];
+    const isWord = kind !== "file" && (kind !== "shape" || PRIMITIVES.has(String(value)));
+    return [isWord ? String(value) : JSON.stringify(value)];
+  });
+  const plain = words.length ? `${draft.action}(${words.join(", ")})` : draft.action;
+  const whole = draft.each ? `Each(${plain})` : plain;
+  return draft.label ? `${whole} as ${labelText(draft.label)}` : whole;
+}
+
+const PRIMITIVES = new Set(["box", "cylinder", "capsule", "sphere"]);
+
+/** A label as programs write it: quoted where it is no single word. */
+export function labelText(label: string): string {
+  return /^[^\W\d]\w*$/u.test(label) ? label : JSON.stringify(label);
+}
+
+/** How many of the family's rules an asset says nothing about yet. */
+export function openRules(view: AssetView): number[] {
+  const { rules } = useProject.getState().project;
+  return rules.map((_, k) => k).filter((k) => view.steps[k]?.select == null);
+}

@@ -1,0 +1,42 @@
+// Short messages at the edge of the window: what was done, with undo, and what went wrong, with the remedy.
+import { create } from "zustand";
+import { ServerProblem } from "../server/http";
+import type { Problem } from "../wire";
+
+export interface Toast {
+  id: number;
+  kind: "done" | "problem";
+  text: string;
+  remedy: string | null;
+  /** Whether undo is offered. */
+  undo: boolean;
+}
+
+export const useToasts = create<{ toasts: readonly Toast[] }>()(() => ({ toasts: [] }));
+
+let count = 0;
+
+export function told(text: string, undo = false): void {
+  add({ id: ++count, kind: "done", text, remedy: null, undo });
+}
+
+export function complained(problem: Problem): void {
+  const text = problem.where ? `${problem.where}: ${problem.message}` : problem.message;
+  add({ id: ++count, kind: "problem", text, remedy: problem.remedy, undo: false });
+}
+
+/** Tells of any error; one that is no answer of the server is a fault of the page. */
+export function complainedOf(error: unknown): void {
+  if (error instanceof ServerProblem) return complained(error.problem);
+  if (error instanceof DOMException && error.name === "AbortError") return;
+  const message = error instanceof Error ? error.message : String(error);
+  complained({ message, where: null, remedy: "This is a fault of the studio; reloading the page loses nothing.", conflict: false });
+}
+
+export function dismissed(id: number): void {
+  useToasts.setState(({ toasts }) => ({ toasts: toasts.filter((toast) => toast.id !== id) }));
+}
+
+function add(toast: Toast): void {
+  useToasts.setState(({ toasts }) => ({ toasts: [...toasts.slice(-3), toast] }));
+}

@@ -1,0 +1,33 @@
+// A menu that opens from a button.
+import { DropdownMenu } from "radix-ui";
+import type { ReactNode } from "react";
+import css from "./ui.module.css";
+
+export interface MenuLine {
+  label: ReactNode;
+  keys?: string | undefined;
+  disabled?: boolean;
+  onSelect: () => void;
+}
+
+export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (MenuLine | "line")[] }) {
+  return (
+    <DropdownMenu.Root>
+      <DropdownMenu.Trigger asChild>{trigger}</DropdownMenu.Trigger>
+      <DropdownMenu.Portal>
+        <DropdownMenu.Content className={css.menu} sideOffset={4} align="end">
+          {lines.map((line, k) =>
+            line === "line" ? (
+              <DropdownMenu.Separator key={k} className={css.menuLine} />
+            ) : (
+              <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={line.onSelect}>
+                <span>{line.label}</span>
+                {line.keys && <kbd>{line.keys}</kbd>}
+              </DropdownMenu.Item>
+            ),
+          )}
+        </DropdownMenu.Content>
+      </DropdownMenu.Portal>
+    </DropdownMenu.Root>
+  );
+}
