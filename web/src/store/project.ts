@@ -95,7 +95,7 @@ export function received(state: ProjectState, event: Event): ProjectState {
       const gone = new Set(event.gone);
       const fresh = event.cards.map((card) => card.asset).filter((asset) => !(asset in state.cards));
       const cards = Object.fromEntries(Object.entries(state.cards).filter(([asset]) => !gone.has(asset)));
-      const order = state.order.filter((asset) => !gone.has(asset));
+      const order = gone.size ? state.order.filter((asset) => !gone.has(asset)) : state.order;
       return {
         ...state,
         cards: { ...cards, ...byAsset(event.cards) },

@@ -1,0 +1,89 @@
+import { describe, expect, it } from "vitest";
+import type { Card, Hello } from "../wire";
+import { emptyProject, received } from "./project";
+
+const card = (asset: string, more: Partial<Card> = {}): Card => ({
+  asset,
+  hulls: 4,
+  labels: [],
+  unsure: [],
+  demonstrated: false,
+  output: "none",
+  after: null,
+  stale: [],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 0,
+  sources: 0,
+  prepared: [],
+  picture: "p",
+  edited_picture: null,
+  ...more,
+});
+
+const hello: Hello = {
+  kind: "hello",
+  version: "1",
+  project: emptyProject.project,
+  cards: [card("b"), card("a")],
+  history: emptyProject.history,
+  program: emptyProject.program,
+  lesson: null,
+  learning: false,
+  reach: [],
+  jobs: [],
+  tour: false,
+};
+const begun = received(emptyProject, hello);
+
+describe("what the server says", () => {
+  it("keeps the order that the server gives", () => {
+    expect(begun.order).toEqual(["b", "a"]);
+    expect(begun.ready).toBe(true);
+  });
+
+  it("changes only the cards that are told", () => {
+    const after = received(begun, { kind: "cards", cards: [card("a", { demonstrated: true })], gone: [] });
+    expect(after.cards["a"]?.demonstrated).toBe(true);
+    expect(after.cards["b"]).toBe(begun.cards["b"]);
+    expect(after.order).toBe(begun.order);
+  });
+
+  it("takes new assets in by name, and forgets those that are gone", () => {
+    const after = received(begun, { kind: "cards", cards: [card("c")], gone: ["b"] });
+    expect(after.order).toEqual(["a", "c"]);
+    expect(Object.keys(after.cards).sort()).toEqual(["a", "c"]);
+  });
+
+  it("counts the revisions of assets that changed, shapes only where they did", () => {
+    const after = received(begun, { kind: "assets", assets: ["a"], shapes: false });
+    expect(after.revisions["a"]).toBe((begun.revisions["a"] ?? 0) + 1);
+    expect(after.shapeRevisions["a"]).toBe(begun.shapeRevisions["a"]);
+    expect(received(after, { kind: "assets", assets: ["a"], shapes: true }).shapeRevisions["a"]).toBe(2);
+  });
+
+  it("takes everything for changed after a new connection", () => {
+    const again = received(begun, hello);
+    expect(again.revisions["a"]).toBe(2);
+    expect(again.shapeRevisions["b"]).toBe(2);
+  });
+
+  it("keeps the last lesson while the next one is learned", () => {
+    const lesson = { number: 1, status: "found" } as never;
+    const learned = received(begun, { kind: "lesson", lesson, learning: false });
+    const busy = received(learned, { kind: "lesson", lesson: null, learning: true });
+    expect(busy.learning).toBe(true);
+    expect(busy.lesson).toBe(lesson);
+    expect(received(busy, { kind: "lesson", lesson: null, learning: false }).lesson).toBeNull();
+  });
+
+  it("has each job once, as it stands", () => {
+    const job = { id: "1", kind: "apply", title: "", done: 0, total: 2, state: "running", message: "", lines: [], out: null };
+    const one = received(begun, { kind: "job", job: job as never });
+    const two = received(one, { kind: "job", job: { ...job, done: 1 } as never });
+    expect(two.jobs).toHaveLength(1);
+    expect(two.jobs[0]?.done).toBe(1);
+  });
+});
