@@ -42,6 +42,12 @@ PAGES = (
         ("numpy", "scipy", "coal", "cvc5"),
         aside=("calibrate",),
     ),
+    Page(
+        "studio",
+        "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
+        ("opening", "moving", "scrolling"),
+        ("fastapi", "uvicorn", "playwright"),
+    ),
 )
 
 

@@ -95,3 +95,7 @@ class ProjectError(MeshForgeError):
 
 class UsageError(MeshForgeError):
     """Arguments that do not fit together."""
+
+
+class StoppedError(MeshForgeError):
+    """Work that was stopped by whoever asked for it."""

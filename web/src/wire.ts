@@ -71,6 +71,7 @@ export interface Everything {
   LabelFromFiles: LabelFromFiles;
   LabelFromNames: LabelFromNames;
   LabelHulls: LabelHulls;
+  LabelSources: LabelSources;
   LanguageView: LanguageView;
   LessonChanged: LessonChanged;
   LessonView: LessonView;
@@ -819,6 +820,14 @@ export interface JobCancel {
   id: string;
 }
 /**
+ * Where labels could come from. files: assets with a labels file beside them; names: hulls without a label whose
+ * names say one.
+ */
+export interface LabelSources {
+  files: number;
+  names: number;
+}
+/**
  * The language: actions (all but Each, which is a switch), operators, directions.
  */
 export interface LanguageView {
@@ -873,11 +882,12 @@ export interface ProgramCheck {
   orient_sentence: string;
 }
 /**
- * What does an extractor select on an asset, after so many of its steps?
+ * What does an extractor select on an asset, after so many of its steps, or as a rule of the program meets it?
  */
 export interface SelectRequest {
   asset: string;
   steps?: number;
+  rule?: number | null;
   extractor: string;
 }
 /**

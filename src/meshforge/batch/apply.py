@@ -36,6 +36,7 @@ def apply(
     resume: bool = True,
     timeout: float | None = TIMEOUT,
     progress: Callable[[], None] | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> Iterator[Outcome]:
     """Run a program on assets and write each into `out`; one outcome an asset, in the order given.
 
@@ -45,13 +46,15 @@ def apply(
     workers: processes, None takes one a processor, 0 works in this process (no time-out, no protection against
     crashes of native code); mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
-    and was made from the same is skipped; timeout: seconds for one asset; progress: called for each finished asset.
-    Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`.
+    and was made from the same is skipped; timeout: seconds for one asset; progress: called for each finished asset;
+    stop: as of `isolated`.
+    Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
+    StoppedError when it was told to stop: what is in place by then stays.
     """
     jobs = tuple(assets)
     task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume)
     _check(jobs, task)
-    return _run(jobs, task, workers, timeout, progress)
+    return _run(jobs, task, workers, timeout, progress, stop)
 
 
 def _run(
@@ -60,6 +63,7 @@ def _run(
     workers: int | None,
     timeout: float | None,
     progress: Callable[[], None] | None,
+    stop: Callable[[], bool] | None,
 ) -> Iterator[Outcome]:
     with ExitStack() as stack:
         ledger = None
@@ -69,7 +73,7 @@ def _run(
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
         work = [(task, job) for job in jobs]
-        results = isolated(edit, work, workers=workers, timeout=timeout, done=progress)
+        results = isolated(edit, work, workers=workers, timeout=timeout, done=progress, stop=stop)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result

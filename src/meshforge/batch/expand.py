@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import glob
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from meshforge.batch.folder import assets_in, is_own
@@ -14,7 +15,7 @@ from meshforge.files import plain_path, relative_name
 from meshforge.formats import SUFFIXES, is_asset
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Found:
     """Assets in sorted order without repetition; base: the common folder of the arguments, from which ids count."""
 
@@ -27,8 +28,8 @@ class Found:
     def __len__(self) -> int:
         return len(self.paths)
 
-    @property
-    def ids(self) -> dict[str, Path]:
+    @cached_property
+    def ids(self) -> Mapping[str, Path]:
         """The assets by id: the path below the common folder, with forward slashes."""
         return {asset_id(path, self.base): path for path in self.paths}
 

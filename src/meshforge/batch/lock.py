@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,12 +12,40 @@ from pathlib import Path
 from meshforge.errors import MeshForgeError
 
 
+class _Held(threading.local):
+    """The lock files that the present thread of the present process holds."""
+
+    def __init__(self) -> None:
+        self.places: set[tuple[int, str]] = set()
+
+
+_HELD = _Held()
+
+
 @contextmanager
-def locked(path: Path, what: str, wait: float = 10.0) -> Iterator[None]:
+def locked(path: Path, what: str, wait: float = 10.0, *, again: bool = False) -> Iterator[None]:
     """Hold the lock file `path`, made if absent, for the time of a `with` block.
 
-    wait: seconds to wait for another holder. Raises MeshForgeError, saying that `what` is busy, after that.
+    wait: seconds to wait for another holder; again: a thread that holds it by `again` may take it once more.
+    Raises MeshForgeError, saying that `what` is busy, after the wait.
     """
+    place = (os.getpid(), os.path.realpath(path))  # a forked process holds nothing
+    if not again:
+        with _alone(path, what, wait):
+            yield
+    elif place in _HELD.places:
+        yield
+    else:
+        with _alone(path, what, wait):
+            _HELD.places.add(place)
+            try:
+                yield
+            finally:
+                _HELD.places.discard(place)
+
+
+@contextmanager
+def _alone(path: Path, what: str, wait: float) -> Iterator[None]:
     path.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
     try:

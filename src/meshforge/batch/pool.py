@@ -7,13 +7,13 @@ import signal
 import sys
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import Future, TimeoutError
+from concurrent.futures import Future, TimeoutError, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from meshforge.errors import MeshForgeError
+from meshforge.errors import MeshForgeError, StoppedError
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -23,6 +23,8 @@ Result = TypeVar("Result")
 
 AHEAD = 32
 """Items handed out before the oldest is done, for each worker: enough to hide one slow item behind."""
+OFTEN = 0.1
+"""Seconds between two looks whether to stop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,19 +42,21 @@ def isolated(
     workers: int | None = None,
     timeout: float | None = None,
     done: Callable[[], None] | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> Generator[Result | Lost, None, None]:
     """The results of `function` on the items, in their order, computed in worker processes.
 
     workers: how many; None takes one a processor, never more than items; 0 works in this process, without
     protection against crashes and without time-out. timeout: seconds for one item. done: called whenever an item is
-    finished, in any order, maybe from another thread.
-    Raises MeshForgeError when worker processes cannot be started at all.
+    finished, in any order, maybe from another thread. stop: asked often whether to end all work in the midst.
+    Raises MeshForgeError when worker processes cannot be started at all, StoppedError when it was told to stop.
     """
     number = min(processors() if workers is None else workers, len(items))
     if number > 0:
-        yield from _pooled(function, items, number, timeout, done)
+        yield from _pooled(function, items, number, timeout, done, stop)
         return
     for item in items:
+        _heed(stop)
         result = function(item)
         if done:
             done()
@@ -70,10 +74,11 @@ def _pooled(
     workers: int,
     timeout: float | None,
     done: Callable[[], None] | None,
+    stop: Callable[[], bool] | None,
 ) -> Generator[Result | Lost, None, None]:
     from pebble import ProcessPool
 
-    pool = ProcessPool(max_workers=workers, context=_context())
+    pool = ProcessPool(max_workers=workers, context=workers_context())
     waiting: deque[Future[Result]] = deque()
     rest = iter(items)
     try:
@@ -85,6 +90,8 @@ def _pooled(
                 waiting.append(future)
             if not waiting:
                 break
+            while stop and not wait([waiting[0]], OFTEN).done:
+                _heed(stop)
             oldest = _outcome(waiting.popleft(), timeout)
             yield oldest
     finally:  # also when the caller stops early, or on Ctrl-C
@@ -93,6 +100,11 @@ def _pooled(
 
 
 _END: Any = object()
+
+
+def _heed(stop: Callable[[], bool] | None) -> None:
+    if stop and stop():
+        raise StoppedError("this was stopped")
 
 
 def _scheduled(
@@ -104,7 +116,7 @@ def _scheduled(
         raise _no_workers(error) from error
 
 
-def _context() -> Any:
+def workers_context() -> Any:
     """How workers start: a clean server process that has the imports done forks them, where forking is safe.
 
     Measured: the first worker is there in 0.45 s, each further one in 0.02 s (0.45 s each when spawned).

@@ -112,10 +112,10 @@ class Conversation:
         self._say(repair_card(repair, self._pictures.of_repair(repair)))
         word = self._one_of(("y", "n", "s"), "Mend it? y, n, s to stop asking: ")
         if word == "y":
-            project.confirm(repair)
+            project.confirm(repair.correction)
             self._say(f"mended: {change(repair)}")
         elif word == "n":
-            project.reject(repair)
+            project.reject(repair.correction)
         self._last = None
         return word != "s"
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from meshforge.cli.options import Workers
+from meshforge.cli.studio import Browser, Port
 
 if TYPE_CHECKING:
     from meshforge.batch import Outcome
@@ -19,21 +19,40 @@ if TYPE_CHECKING:
     from meshforge.language import Program
     from meshforge.project import Project
 
-OURS = ".meshforge-demo"
-"""The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
+_OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
 
 
 def demo(
-    out: Annotated[Path, typer.Option("-o", "--out", help="Folder to make.")] = Path("meshforge-demo"),
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", help=f"Folder to make; {_OUT}, with --studio {_STUDIO}, unless given."),
+    ] = None,
     workers: Workers = None,
+    studio: Annotated[
+        bool, typer.Option("--studio", help="Open the tables in the browser, for you to show the steps; with a tour.")
+    ] = False,
+    port: Port = 0,
+    browser: Browser = True,
 ) -> None:
-    """The whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report."""
+    """The whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report.
+
+    With --studio you show the steps yourself; what you did is there again when you come back.
+    """
+    if studio:
+        _in_browser(out or _STUDIO, port, browser)
+        return
+    _run_through(out or _OUT, workers)
+
+
+def _run_through(out: Path, workers: int | None) -> None:
+    """Everything at once, with what happened in a few lines."""
     from time import perf_counter
 
     from meshforge.batch.report import write_report
     from meshforge.cli.output import progress, remark
+    from meshforge.cli.tables import demonstrated_tables
 
-    project = _begun(out)
+    project = demonstrated_tables(out)
     shown = project.demonstrations()
     _say(f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}")
     _say(f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}")
@@ -59,27 +78,13 @@ def demo(
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
-def _begun(out: Path) -> Project:
-    """A fresh project of the bundled tables below `out`, labelled and demonstrated."""
-    from meshforge.errors import UsageError
-    from meshforge.project import Project
-    from meshforge.samples import TABLES
+def _in_browser(out: Path, port: int, browser: bool) -> None:
+    """The tables in the studio; those of an earlier time with all that was done there."""
+    from meshforge.cli.studio import opened
+    from meshforge.cli.tables import kept_tables
+    from meshforge.studio.desk import Opening
 
-    if out.exists() and any(out.iterdir()) and not (out / OURS).exists():
-        raise UsageError("this folder holds something else", where=str(out), remedy="Choose another: demo --out DIR")
-    shutil.rmtree(out, ignore_errors=True)
-    out.mkdir(parents=True)
-    (out / OURS).touch()
-    (out / "assets").mkdir()
-    for source in sorted(TABLES.glob("table_*")):
-        shutil.copyfile(source, out / "assets" / source.name)
-    pattern, orient = out / "assets" / "*.obj", "+Z: Is(leg) -> Is(panel)"
-    words = ("panel", "leg", "handle", "drawer", "misc")
-    project = Project.create(out / "project", [pattern], name="tables", vocabulary=words, orient=orient)
-    shutil.copytree(TABLES / "templates", project.folder / "templates")
-    shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
-    project.label_from_files()
-    return project
+    opened(Opening(kept_tables(out).folder, tour=True), port=port, browser=browser)
 
 
 def _compared(project: Project, program: Program, outcomes: Sequence[Outcome]) -> list[ReportAsset]:

@@ -19,6 +19,7 @@ COMMANDS = (
     "status",
     "label",
     "demonstrate",
+    "studio",
     "synthesize",
     "apply",
     "check",

@@ -29,6 +29,7 @@ from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import show, show_label
 from meshforge.language.program import Comments, HeaderComments, Program, Rule
+from meshforge.language.rename import rename_in_orient, rename_in_program
 from meshforge.language.run import RuleTrace, RunResult, apply_rule, stage, unstage
 from meshforge.language.syntax import (
     DIRECTIONS,
@@ -96,6 +97,8 @@ __all__ = [
     "parse_action",
     "parse_extractor",
     "parse_orient",
+    "rename_in_orient",
+    "rename_in_program",
     "select",
     "select_mask",
     "show",

@@ -1,5 +1,6 @@
 """The project folder: labels, demonstrations, the learned program, its outputs, and how far everything is."""
 
+from meshforge.project.accepting import Standing
 from meshforge.project.advice import Advice
 from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLine, RepairLine
 from meshforge.project.family import Family, looked_at
@@ -10,6 +11,8 @@ from meshforge.project.project import Project
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings
 from meshforge.project.status import AssetStatus, Status
+from meshforge.project.steps import action_text, parse_action_text
+from meshforge.project.survey import geometry_digest
 
 __all__ = [
     "Advice",
@@ -25,7 +28,11 @@ __all__ = [
     "RepairLine",
     "Review",
     "Settings",
+    "Standing",
     "Status",
     "Verdict",
+    "action_text",
+    "geometry_digest",
     "looked_at",
+    "parse_action_text",
 ]

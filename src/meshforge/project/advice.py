@@ -79,7 +79,7 @@ def _demonstrations(
 ) -> Advice | None:
     if rules is not None or any(asset.demonstrated for asset in assets):
         return None
-    example = next((asset.id for asset in assets if asset.labelled), assets[0].id)
+    example = next((asset.id for asset in assets if asset.labelled), next(iter(paths)))
     return Advice(
         "Nothing is demonstrated yet: show the steps of the edit on an asset or two. "
         f"The names of hulls: meshforge info {_word(Path(example))} --project {_word(folder)}",

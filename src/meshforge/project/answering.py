@@ -34,7 +34,7 @@ def answer(project: Project, given: Answer) -> str:
     """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `checked` does."""
     line = checked(project, given)
     with project.lock():
-        _write(project, answers(project).adding(line))
+        write_answers(project, answers(project).adding(line))
     return line.id
 
 
@@ -85,7 +85,7 @@ def confirm(project: Project, right: Correction) -> str:
         before = known[0] if known and current == _given(right) else LabelBefore.of(current)
         line = ConfirmedLine(id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before)
         # the record first: killed in between, the repair is merely proposed again
-        _write(project, said.adding(line))
+        write_answers(project, said.adding(line))
         labelling.write_merged(project, right.asset, mended)
     return identity
 
@@ -96,7 +96,7 @@ def reject(project: Project, wrong: Correction) -> str:
     identity = repair_id(wrong)
     line = RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
     with project.lock():
-        _write(project, answers(project).adding(line))
+        write_answers(project, answers(project).adding(line))
     return identity
 
 
@@ -114,7 +114,7 @@ def take_back(project: Project, said: str) -> str | None:
             remedy = f"Did you mean {like!r}?" if like else listing
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(project.folder), remedy=remedy)
         notes = [_restored(project, line) for line in kept.confirmed if line.id == said]
-        _write(project, kept.without(said))
+        write_answers(project, kept.without(said))
     return next(iter(notes), None)
 
 
@@ -155,7 +155,7 @@ def _restored(project: Project, line: ConfirmedLine) -> str | None:
     return None
 
 
-def _write(project: Project, said: AnswersFile) -> None:
+def write_answers(project: Project, said: AnswersFile) -> None:
     """Keep everything that was said; where that is nothing, there is no file."""
     if said.ids or said.model_extra:
         write_json(project.layout.answers, said)

@@ -1,23 +1,21 @@
-"""Running the project's program on its assets, into `edited/`."""
+"""What running the project's program on its assets takes: jobs and templates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, Outcome, Task, apply
+from meshforge.batch import AssetJob, Task
 from meshforge.errors import ProjectError
-from meshforge.formats import Mass
-from meshforge.language import Program
+from meshforge.language import Program, Template
 from meshforge.preparation import RECORD
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 
-def jobs(project: Project) -> tuple[AssetJob, ...]:
-    """A job for each asset, with the project's labels and edits by hand."""
+def jobs(project: Project, only: Collection[str] | None = None) -> tuple[AssetJob, ...]:
+    """A job for each asset, or for some, with the project's labels and edits by hand."""
     layout, base = project.layout, project.found.base
     return tuple(
         AssetJob(
@@ -29,28 +27,25 @@ def jobs(project: Project) -> tuple[AssetJob, ...]:
             layout.preparation(asset) if (layout.preparation(asset) / RECORD).exists() else None,
         )
         for asset, path in project.found.ids.items()
+        if only is None or asset in only
     )
 
 
-def task(project: Project, program: Program, work: tuple[AssetJob, ...]) -> Task:
-    """What `apply` does to each asset; the templates are those of the program and of the edits by hand."""
-    by_hand = (name for job in work for correction in job.corrections for name in correction.action.templates)
+def task(project: Project, program: Program) -> Task:
+    """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
+    corrected = project.found.ids.keys() & set(project.layout.kept_for("corrections"))
+    edits = (edit for asset in sorted(corrected) for edit in project.corrections(asset))
+    by_hand = (name for edit in edits for name in edit.action.templates)
     templates = project.templates(dict.fromkeys([*program.templates, *by_hand]))
     return Task(program, templates, project.layout.edited)
 
 
-def apply_program(
-    project: Project,
-    out: Path,
-    *,
-    workers: int | None,
-    mass: Mass,
-    link: bool,
-    dry_run: bool,
-    resume: bool,
-    progress: Callable[[], None] | None,
-) -> Iterator[Outcome]:
-    """The outcomes of all assets. Raises ProjectError where there is no program yet."""
+def work(
+    project: Project, only: Collection[str] | None
+) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
+    """The program, what it is to run on, and the templates. Raises ProjectError: no program yet, or no such asset."""
+    for asset in only or ():
+        project.path(asset)
     program = project.program()
     if program is None:
         raise ProjectError(
@@ -58,16 +53,4 @@ def apply_program(
             where=str(project.folder),
             remedy=f"Learn it: meshforge synthesize {project.folder}",
         )
-    work = jobs(project)
-    return apply(
-        program,
-        work,
-        out,
-        templates=task(project, program, work).templates,
-        workers=workers,
-        mass=mass,
-        link=link,
-        dry_run=dry_run,
-        resume=resume,
-        progress=progress,
-    )
+    return program, jobs(project, only), task(project, program).templates

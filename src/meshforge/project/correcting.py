@@ -42,6 +42,12 @@ def correct(project: Project, asset: str, select: Sequence[str], action: Action,
         write_json(path, kept.model_copy(update={"steps": lines}) if kept else fresh)
 
 
+def drop(project: Project, asset: str) -> None:
+    """Take all edits by hand away from an asset."""
+    with project.lock():
+        project.layout.corrections(asset).unlink(missing_ok=True)
+
+
 def _edited(project: Project, asset: str, before: Sequence[Correction], action: Action) -> SymbolicMesh:
     """The asset after the program and the edits by hand so far."""
     program = project.program() or Program(orient=project.orientation)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,20 +42,24 @@ def decompose(
     workers: int | None,
     timeout: float | None,
     progress: Callable[[], None] | None,
+    stop: Callable[[], bool] | None,
+    keeping: Callable[[str], AbstractContextManager[object]],
 ) -> Iterator[Prepared]:
     """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
     layout = project.layout
     work = [
         _Work(project.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow) for asset in assets
     ]
-    results = isolated(_decomposed, work, workers=workers, timeout=timeout, done=progress)
+    results = isolated(_decomposed, work, workers=workers, timeout=timeout, done=progress, stop=stop)
     for asset, result in zip(assets, results, strict=True):
         if isinstance(result, Lost):
             yield Prepared(asset, problems=(result.why,))
         elif isinstance(result, str):
             yield Prepared(asset, problems=(result,))
         else:
-            yield _kept(project, asset, *result)
+            with keeping(asset):
+                kept = _kept(project, asset, *result)
+            yield kept
 
 
 def _decomposed(work: _Work) -> tuple[Decomposed, str | None] | str:

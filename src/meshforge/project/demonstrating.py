@@ -16,6 +16,12 @@ if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 
+def demonstrations(project: Project) -> dict[str, Demonstration]:
+    """All demonstrations, by asset."""
+    ids = [asset for asset in project.assets() if project.layout.demonstration(asset).exists()]
+    return {asset: Demonstration(project.mesh(asset), project.steps(asset), asset) for asset in ids}
+
+
 def steps(path: Path) -> tuple[Step, ...]:
     """The steps in a demonstrations file, none where there is no such file."""
     kept = read_json(path, DemonstrationFile)

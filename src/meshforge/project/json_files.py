@@ -35,7 +35,12 @@ def read_json(path: Path, model: type[Model]) -> Model | None:
 
 def write_json(path: Path, content: BaseModel) -> None:
     """Write a JSON file, readable and fit for git."""
-    write_atomically(path, content.model_dump_json(indent=2, by_alias=True) + "\n")
+    write_atomically(path, json_text(content))
+
+
+def json_text(content: BaseModel) -> str:
+    """The text of a JSON file."""
+    return content.model_dump_json(indent=2, by_alias=True) + "\n"
 
 
 def invalid(path: Path, error: ValidationError) -> ProjectError:

@@ -8,9 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from meshforge.batch import labels_for
 from meshforge.errors import MeshForgeError, ProjectError, nearest
 from meshforge.files import write_atomically
-from meshforge.symbolic import HUMAN_SOURCES, Label, LabelFile, SymbolicMesh, follow_labels, read_labels, write_labels
+from meshforge.symbolic import (
+    HUMAN_SOURCES,
+    Label,
+    LabelFile,
+    Source,
+    SymbolicMesh,
+    follow_labels,
+    read_labels,
+    write_labels,
+)
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -32,26 +42,33 @@ class Labelled:
     problems: tuple[str, ...] = ()
 
 
-def give(project: Project, asset: str, given: Mapping[str, Label], away: Sequence[str]) -> Labelled:
-    """Write labels of one asset, under the lock that the caller holds.
+def give(project: Project, asset: str, labels: Mapping[str, str | None], source: Source, confidence: float) -> Labelled:
+    """Write labels of one asset, or take them away by None.
 
     Raises ProjectError for a hull that is not there or a label out of the vocabulary; then nothing is written.
     """
-    mesh, vocabulary = project.mesh(asset), project.vocabulary
-    labelled, report = merged(asset, mesh, given, vocabulary)
-    gone = [f"there is no hull {name!r}{_hint(name, mesh.index)}" for name in away if name not in mesh.index]
-    problems = [*report.problems, *gone]
-    if problems:
-        raise ProjectError(problems[0], where=asset, remedy=f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
-    write_merged(project, asset, labelled.labelled(dict.fromkeys(away)))
+    given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
+    away = [name for name, label in labels.items() if label is None]
+    with project.lock():
+        mesh, vocabulary = project.mesh(asset), project.vocabulary
+        labelled, report = merged(asset, mesh, given, vocabulary)
+        gone = [f"there is no hull {name!r}{_hint(name, mesh.index)}" for name in away if name not in mesh.index]
+        problems = [*report.problems, *gone]
+        if problems:
+            remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+            raise ProjectError(problems[0], where=asset, remedy=remedy)
+        write_merged(project, asset, labelled.labelled(dict.fromkeys(away)))
     return report
 
 
-def take_over(project: Project, given: Mapping[str, Path | None]) -> tuple[Labelled, ...]:
+def take_over(project: Project, source: Path | None) -> tuple[Labelled, ...]:
     """Take over the labels file of each asset that has one; a problem with one asset is told in its report.
+
+    source: a file for a single asset, a folder that mirrors the assets; None for those beside them.
 
     A project without a vocabulary takes that of the files, in the order of their mention.
     """
+    given = {asset: labels_for(path, source, project.found.base) for asset, path in project.found.ids.items()}
     files = {asset: read_labels(path) for asset, path in given.items() if path}
     if not files:
         raise ProjectError(

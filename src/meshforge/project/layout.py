@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch import STATE
+from meshforge.batch import SETTINGS, STATE
 from meshforge.preparation import RECORD
 
 
@@ -27,6 +27,11 @@ class Layout:
     def preparation(self, asset: str) -> Path:
         """The folder of what is done to an asset before the program."""
         return self.folder / "prepared" / asset
+
+    @property
+    def settings(self) -> Path:
+        """What the project is about, as its owner writes it."""
+        return self.folder / SETTINGS
 
     @property
     def templates(self) -> tuple[Path, Path]:

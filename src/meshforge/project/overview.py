@@ -2,34 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
-from meshforge.project.accepting import Standing, standing
+from meshforge.project.accepting import standing
 from meshforge.project.advice import advice
 from meshforge.project.applying import jobs, task
 from meshforge.project.demonstrating import astray
 from meshforge.project.reviewing import Review, output_digest
 from meshforge.project.status import AssetStatus, State, Status
-from meshforge.project.survey import Facts, survey
-from meshforge.symbolic import LabelFile
+from meshforge.project.survey import Facts, geometry_digest, survey
+from meshforge.symbolic import LabelFile, label_homes
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 
-def status(project: Project, workers: int | None, progress: Callable[[], None] | None) -> Status:
-    """How far everything is. Raises ProjectError for a file of the project that cannot be read."""
-    settings, work, reviews = project.settings, jobs(project), project.reviews()
-    facts = survey(project.found, project.layout, workers=workers, progress=progress)
-    program, what, problem = _program(project, work)
+def status(
+    project: Project,
+    only: Collection[str] | None,
+    others: Iterable[AssetStatus],
+    workers: int | None,
+    progress: Callable[[], None] | None,
+) -> Status:
+    """How far everything is, or some assets; others: what is known of other ones, which counts for the advice.
+
+    Raises ProjectError for an asset that is not there, and for a file of the project that cannot be read.
+    """
+    for asset in only or ():
+        project.path(asset)
+    settings, ids, work, reviews = project.settings, project.found.ids, jobs(project, only), project.reviews()
+    facts = survey(project.found, project.layout, only, workers=workers, progress=progress)
+    program, what, problem = _program(project)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    stands = standing(project, program) if program else Standing()
+    stands = standing(project, program)
     rules = len(program.rules) if program else None
-    advised = advice(project.folder, project.found.ids, assets, settings.vocabulary, rules, stands, problem)
+    known = {asset.id: asset for asset in (*others, *assets)}
+    every = [known[asset] for asset in ids if asset in known]
+    advised = advice(project.folder, ids, every, settings.vocabulary, rules, stands, problem)
     return Status(
         settings.name,
         assets,
@@ -43,12 +56,12 @@ def status(project: Project, workers: int | None, progress: Callable[[], None] |
     )
 
 
-def _program(project: Project, work: tuple[AssetJob, ...]) -> tuple[Program | None, Task | None, str | None]:
+def _program(project: Project) -> tuple[Program | None, Task | None, str | None]:
     """The program, what applying it means, and why it cannot be applied."""
     program = None
     try:
         program = project.program()
-        return program, task(project, program, work) if program else None, None
+        return program, task(project, program) if program else None, None
     except MeshForgeError as error:
         return program, None, error.message
 
@@ -56,21 +69,29 @@ def _program(project: Project, work: tuple[AssetJob, ...]) -> tuple[Program | No
 def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, review: Review | None) -> AssetStatus:
     stamp = read_stamp(project.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
-    labels, unreadable = _labels(project, job)
-    doubtful = () if facts.error else _doubtful(labels, facts)
+    file, unreadable = _labels(project, job)
+    homes = label_homes(LabelFile() if facts.error else file, facts.hulls)
+    said = review if review and review.output == output_digest(stamp) else None
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),
-        labelled=0 if facts.error else len(labels.labels) - sum(name not in facts.hulls for name in doubtful),
-        doubtful=doubtful,
+        labelled=len(homes.labels),
+        doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
         demonstrated=project.layout.demonstration(job.id).exists(),
         output=_state(stamp),
         stale=_stale(stamp, job, facts, what),
         error=facts.error or unreadable or failed,
         flags=(*_astray(project, job.id, facts), *(stamp.flags if stamp else ())),
-        review=review.verdict if review and review.output == output_digest(stamp) else None,
+        review=said.verdict if said else None,
         prepared=facts.prepared,
         sources=facts.sources,
+        names=tuple(facts.hulls),
+        labels=tuple(map(homes.labels.get, facts.hulls)),
+        geometry="" if facts.error else geometry_digest(facts.hulls),
+        after=stamp.after if stamp and output_digest(stamp) else None,
+        output_digest=output_digest(stamp),
+        corrections=len(job.corrections),
+        review_note=said.note if said else None,
     )
 
 
@@ -93,17 +114,6 @@ def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
         return project.labels(job.id), None
     except MeshForgeError as error:
         return LabelFile(), error.message
-
-
-def _doubtful(labels: LabelFile, facts: Facts) -> tuple[str, ...]:
-    """Labelled hulls that are not there as they were labelled, under their name or another."""
-    present = set(facts.hulls.values())
-    return tuple(
-        name
-        for name in labels.labels
-        if facts.hulls.get(name) != labels.digests.get(name, facts.hulls.get(name, "gone"))
-        and labels.digests.get(name) not in present
-    )
 
 
 def _state(stamp: Stamp | None) -> State:

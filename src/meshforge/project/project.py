@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.batch import SETTINGS, TIMEOUT, Correction, Found, Outcome, expand, labels_for, locked, named_templates
-from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
+from meshforge.batch import TIMEOUT, Correction, Found, Outcome, apply, locked, named_templates
 from meshforge.formats import Mass
 from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
-from meshforge.preparation import Preparation, cut_hull, read_preparation, read_prepared
+from meshforge.preparation import Preparation, cut_hull, read_preparation
 from meshforge.project import (
     accepting,
+    adding,
     answering,
     applying,
     correcting,
@@ -24,28 +23,27 @@ from meshforge.project import (
     labelling,
     learning,
     meeting,
+    naming,
+    opening,
     overview,
     preparing,
+    reading,
+    renaming,
     reviewing,
+    rules,
+    templating,
 )
+from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
 from meshforge.project.preparing import Prepared
 from meshforge.project.reviewing import Review, Verdict
-from meshforge.project.settings import (
-    Settings,
-    change_setting,
-    orientation,
-    orientation_text,
-    parse_orientation,
-    read_settings,
-    seen_from,
-    write_settings,
-)
-from meshforge.project.status import Status
-from meshforge.symbolic import Label, LabelFile, Source, SymbolicMesh, follow_labels, read_labels
+from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
+from meshforge.project.status import AssetStatus, Status
+from meshforge.symbolic import LabelFile, Source, SymbolicMesh, read_labels
 from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
+from meshforge.synthesis import Correction as LabelCorrection
 from meshforge.synthesis import Outcome as Lesson
 
 
@@ -74,42 +72,13 @@ class Project:
 
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
-        if not str(folder):
-            raise UsageError("the folder to make has no name", remedy="Name it; . is the one you are in.")
-        folder = Path(folder).absolute()
-        if (folder / SETTINGS).exists():
-            raise ProjectError("there is a project here already", where=str(folder), remedy="Choose another folder.")
-        found = expand(assets)
-        text = orient if isinstance(orient, str) else orientation_text(orient)
-        parse_orientation(text)
-        settings = Settings(
-            name=name or folder.name,
-            assets=tuple(seen_from(folder, str(pattern)) for pattern in assets),
-            base=seen_from(folder, str(found.base)),
-            vocabulary=tuple(vocabulary),
-            orient=text,
-        )
-        write_settings(folder, settings)
-        return Project.open(folder)
+        return Project.open(opening.create(folder, assets, name, vocabulary, orient))
 
     @staticmethod
     def open(folder: str | Path) -> Project:
         """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
         folder = Path(folder).absolute()
-        settings = read_settings(folder)
-        base = Path(os.path.normpath(folder / settings.base))
-        try:
-            found = Found(base, expand(settings.assets, folder).paths)
-        except UsageError as error:
-            raise ProjectError(f"assets: {error.message}", where=str(folder / SETTINGS)) from None
-        for key in found.ids:
-            if key.startswith("../"):
-                raise ProjectError(
-                    f"the asset {key} lies outside of {base}, the folder that ids count from",
-                    where=str(folder / SETTINGS),
-                    remedy="Make another project for it, or move it there.",
-                )
-        return Project(folder, found)
+        return Project(folder, opening.found_assets(folder))
 
     @property
     def layout(self) -> Layout:
@@ -117,8 +86,8 @@ class Project:
         return Layout(self.folder)
 
     def lock(self) -> AbstractContextManager[None]:
-        """The project's lock, under which files are read, changed and written."""
-        return locked(self.layout.lock, str(self.folder))
+        """The project's lock, under which files are read, changed and written; a thread may take it again and again."""
+        return locked(self.layout.lock, str(self.folder), again=True)
 
     # Settings
 
@@ -140,15 +109,18 @@ class Project:
 
     def set_vocabulary(self, labels: Sequence[str]) -> None:
         """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
-        Program(labels=tuple(labels))
-        with self.lock():
-            change_setting(self.folder, "vocabulary", tuple(labels))
+        set_vocabulary(self, labels)
+
+    def rename_label(self, old: str, new: str) -> None:
+        """Give a label of the vocabulary another name, wherever the project says it.
+
+        Raises ProjectError: no such label, the new one is there already, or no program could write it.
+        """
+        renaming.rename(self, old, new)
 
     def set_orientation(self, orient: Orient | str | None) -> None:
         """Set the orientation directive; a text has the form it has in a program."""
-        directive = parse_orientation(orient) if isinstance(orient, str) else orient
-        with self.lock():
-            change_setting(self.folder, "orient", orientation_text(directive))
+        set_orientation(self, orient)
 
     # Assets
 
@@ -158,19 +130,16 @@ class Project:
 
     def path(self, asset: str) -> Path:
         """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
-        ids = self.found.ids
-        if asset not in ids:
-            like = nearest(asset, ids)
-            remedy = f"Did you mean {like!r}?" if like else f"See them with: meshforge status {self.folder}"
-            raise ProjectError(f"there is no asset {asset!r}", where=str(self.folder), remedy=remedy)
-        return ids[asset]
+        return opening.path_of(self.folder, self.found, asset)
+
+    def add_assets(self, paths: Iterable[str | Path]) -> Project:
+        """The project with more assets: files below the folder that ids count from. Raises ProjectError for others."""
+        adding.add(self, paths)
+        return Project.open(self.folder)
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-        source = read_prepared(self.path(asset), self.layout.preparation(asset))
-        mesh = follow_labels(self.labels(asset), SymbolicMesh.of(source)).mesh
-        contact = self.settings.thresholds.contact
-        return mesh if contact is None else replace(mesh, epsilon=contact)
+        return reading.mesh(self, asset)
 
     def meshes(self) -> Iterator[SymbolicMesh]:
         """All assets with their labels, one after the other; those that cannot be read are left out."""
@@ -178,11 +147,7 @@ class Project:
 
     def named_meshes(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """The same with their ids, of some assets only."""
-        for asset in self.assets() if assets is None else assets:
-            try:
-                yield asset, self.mesh(asset)
-            except MeshForgeError:
-                continue
+        return reading.named_meshes(self, self.assets() if assets is None else assets)
 
     # Preparation
 
@@ -202,23 +167,29 @@ class Project:
         workers: int | None = None,
         timeout: float | None = TIMEOUT,
         progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        keeping: Callable[[str], AbstractContextManager[object]] = nullcontext,
     ) -> Iterator[Prepared]:
         """Make hulls of what has none: opaque pieces, and what bodies without collision geometry show.
 
         assets: all when None; settings: CoACD's defaults when None; only: names of pieces and bodies, or patterns;
         again: anew, also where that is done; hollow: shells of one sheet are not filled. workers, timeout [s] for an
-        asset, progress: as of `meshforge.batch.apply`. What is done stays done when the caller stops in the midst.
+        asset, progress, stop: as of `meshforge.batch.apply`; keeping: gives what is entered while an asset's files are
+        written. What is done stays done when the caller stops in the midst.
         """
+        ids, how = self.assets() if assets is None else tuple(dict.fromkeys(assets)), settings or CoacdSettings()
         return decomposing.decompose(
             self,
-            self.assets() if assets is None else tuple(dict.fromkeys(assets)),
-            settings or CoacdSettings(),
+            ids,
+            how,
             only=only,
             again=again,
             hollow=hollow,
             workers=workers,
             timeout=timeout,
             progress=progress,
+            stop=stop,
+            keeping=keeping,
         )
 
     def cut(self, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> Prepared:
@@ -255,22 +226,28 @@ class Project:
         self, asset: str, labels: Mapping[str, str | None], *, source: Source = "user", confidence: float = 1.0
     ) -> Labelled:
         """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
-        given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
-        away = [name for name, label in labels.items() if label is None]
-        with self.lock():
-            return labelling.give(self, asset, given, away)
+        return labelling.give(self, asset, labels, source, confidence)
 
     def label_from_files(self, source: Path | None = None) -> tuple[Labelled, ...]:
         """Take over labels files: a file for a single asset, a folder that mirrors the assets, or those beside them."""
-        given = {asset: labels_for(path, source, self.found.base) for asset, path in self.found.ids.items()}
-        return labelling.take_over(self, given)
+        return labelling.take_over(self, source)
+
+    def labels_in_names(self) -> dict[str, dict[str, str]]:
+        """The labels that `label_from_names` would give, by asset and hull."""
+        return naming.labels_in_names(self)
+
+    def label_from_names(self) -> tuple[Labelled, ...]:
+        """Label hulls without a label by the words of the vocabulary in their own names, else in those of their bodies.
+
+        In the plural too; of several labels in a name the longest counts. Raises ProjectError: no vocabulary.
+        """
+        return naming.label_from_names(self)
 
     # Demonstrations
 
     def demonstrations(self) -> dict[str, Demonstration]:
         """What was demonstrated, by asset."""
-        ids = [asset for asset in self.assets() if self.layout.demonstration(asset).exists()]
-        return {asset: Demonstration(self.mesh(asset), self.steps(asset), asset) for asset in ids}
+        return demonstrating.demonstrations(self)
 
     def steps(self, asset: str) -> tuple[Step, ...]:
         """The steps that were demonstrated on an asset; none where nothing was."""
@@ -280,11 +257,27 @@ class Project:
         """Set the steps that are demonstrated on an asset; no steps take the demonstration away."""
         demonstrating.demonstrate(self, asset, tuple(steps))
 
+    def move_rule(self, rule: int, to: int) -> None:
+        """Put a rule at another place in all demonstrations and answers. Raises UsageError for a wrong number."""
+        rules.move(self, rule, to)
+
+    def delete_rule(self, rule: int) -> None:
+        """Take a rule out of all demonstrations, and the answers about it. Raises UsageError for a wrong number."""
+        rules.delete(self, rule)
+
     # The program
 
     def templates(self, names: Iterable[str]) -> dict[str, Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
         return named_templates(names, self.layout.templates)
+
+    def template_names(self) -> tuple[str, ...]:
+        """The names of all templates in the project's folder of them, as actions write them."""
+        return templating.names(self)
+
+    def add_template(self, name: str, data: bytes) -> None:
+        """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
+        templating.add(self, name, data)
 
     def program(self) -> Program | None:
         """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
@@ -293,6 +286,10 @@ class Project:
     def accept(self, program: Program) -> None:
         """Make it the project's program."""
         accepting.accept(self, program)
+
+    def standing(self) -> Standing:
+        """How the program stands to what it was learned from, and whether a person wrote it."""
+        return accepting.present_standing(self)
 
     def synthesize(
         self,
@@ -313,13 +310,7 @@ class Project:
         follow: a program somebody had in mind; the outcome tells what became of it.
         """
         how = learning.LessonPlan(
-            accept=accept,
-            options=options,
-            confirm=confirm,
-            stop=stop,
-            answers=answers,
-            meshes=meshes,
-            follow=follow,
+            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes, follow=follow
         )
         return learning.learn(self, how)
 
@@ -343,16 +334,16 @@ class Project:
         """The same for any selection, whether it was asked for or not. Raises ProjectError: no such asset or rule."""
         return answering.answer(self, answer)
 
-    def confirm(self, repair: Repair) -> str:
-        """Repair a label as proposed; give the repair's id `ASSET#HULL=LABEL`.
+    def confirm(self, right: LabelCorrection) -> str:
+        """Repair a label, as a `Repair` proposes it or not; give the repair's id `ASSET#HULL=LABEL`.
 
         Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
         """
-        return answering.confirm(self, repair.correction)
+        return answering.confirm(self, right)
 
-    def reject(self, repair: Repair) -> str:
+    def reject(self, wrong: LabelCorrection) -> str:
         """Refuse a repair, so that it is not proposed again; give its id."""
-        return answering.reject(self, repair.correction)
+        return answering.reject(self, wrong)
 
     def take_back(self, said: str) -> str | None:
         """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
@@ -367,6 +358,7 @@ class Project:
 
     def apply(
         self,
+        only: Collection[str] | None = None,
         *,
         out: Path | None = None,
         workers: int | None = None,
@@ -375,17 +367,25 @@ class Project:
         dry_run: bool = False,
         resume: bool = True,
         progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
     ) -> Iterator[Outcome]:
-        """Run the program on all assets, into `edited/` or `out`; all else as of `meshforge.batch.apply`."""
-        return applying.apply_program(
-            self,
+        """Run the program on all assets or those of some ids, into `edited/` or `out`.
+
+        All else as of `meshforge.batch.apply`. Raises ProjectError for an asset that is not there.
+        """
+        program, work, templates = applying.work(self, only)
+        return apply(
+            program,
+            work,
             out or self.layout.edited,
+            templates=templates,
             workers=workers,
             mass=mass,
             link=link,
             dry_run=dry_run,
             resume=resume,
             progress=progress,
+            stop=stop,
         )
 
     # After the program
@@ -400,17 +400,30 @@ class Project:
 
     def drop_corrections(self, asset: str) -> None:
         """Take all edits by hand away from an asset."""
-        with self.lock():
-            self.layout.corrections(asset).unlink(missing_ok=True)
+        correcting.drop(self, asset)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""
         return reviewing.reviews(self.layout.review)
 
-    def review(self, asset: str, verdict: Verdict | None, note: str | None = None) -> None:
-        """Accept or flag the output of an asset, or take that back by None; it counts until the output changes."""
-        reviewing.review(self, asset, verdict, note)
+    def review(self, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:
+        """Accept or flag the output of one or several assets, or take that back by None; it counts until that changes.
 
-    def status(self, *, workers: int | None = None, progress: Callable[[], None] | None = None) -> Status:
-        """How far everything is, what is stale, and the next sensible step."""
-        return overview.status(self, workers, progress)
+        Raises ProjectError, with nothing written, where there is no output that a verdict could be about.
+        """
+        reviewing.review(self, [assets] if isinstance(assets, str) else assets, verdict, note)
+
+    def status(
+        self,
+        only: Collection[str] | None = None,
+        *,
+        others: Iterable[AssetStatus] = (),
+        workers: int | None = None,
+        progress: Callable[[], None] | None = None,
+    ) -> Status:
+        """How far everything is, what is stale, and the next sensible step.
+
+        only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
+        known already. workers, progress: as of `meshforge.batch.isolated`, for assets that have to be read.
+        """
+        return overview.status(self, only, others, workers, progress)

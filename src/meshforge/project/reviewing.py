@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -36,8 +37,20 @@ def reviews(path: Path) -> dict[str, Review]:
     return (read_json(path, ReviewFile) or ReviewFile()).assets
 
 
-def review(project: Project, asset: str, verdict: Verdict | None, note: str | None) -> None:
-    """Set or take back what is said about the output of an asset. Raises ProjectError where it has no output."""
+def review(project: Project, assets: Iterable[str], verdict: Verdict | None, note: str | None) -> None:
+    """Set or take back what is said about the outputs of some assets, in one write.
+
+    Raises ProjectError, with nothing written, where one of them has no output that a verdict could be about.
+    """
+    own = {asset: _said(project, asset, verdict, note) for asset in assets}
+    with project.lock():
+        kept = read_json(project.layout.review, ReviewFile) or ReviewFile()
+        now = {asset: said for asset, said in (kept.assets | own).items() if said}
+        if now != kept.assets:
+            write_json(project.layout.review, kept.model_copy(update={"assets": dict(sorted(now.items()))}))
+
+
+def _said(project: Project, asset: str, verdict: Verdict | None, note: str | None) -> Review | None:
     project.path(asset)
     output = output_digest(read_stamp(project.layout.edited, asset))
     if verdict and not output:
@@ -46,12 +59,7 @@ def review(project: Project, asset: str, verdict: Verdict | None, note: str | No
             where=str(project.folder),
             remedy=f"Make it: meshforge apply {project.folder}",
         )
-    with project.lock():
-        kept = read_json(project.layout.review, ReviewFile) or ReviewFile()
-        others = {key: value for key, value in kept.assets.items() if key != asset}
-        own = {asset: Review(verdict=verdict, note=note, output=output)} if verdict else {}
-        assets = dict(sorted((others | own).items()))
-        write_json(project.layout.review, kept.model_copy(update={"assets": assets}))
+    return Review(verdict=verdict, note=note, output=output) if verdict else None
 
 
 def output_digest(stamp: Stamp | None) -> str | None:

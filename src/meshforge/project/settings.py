@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import tomllib
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -15,6 +16,9 @@ from meshforge.files import write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.project.json_files import invalid
 from meshforge.project.toml_edit import Value, set_value, toml_value
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
 
 Share = Annotated[float, Field(gt=0, le=1)]
 
@@ -76,16 +80,38 @@ orient = {toml_value(settings.orient)}
     write_atomically(folder / SETTINGS, text)
 
 
-def change_setting(folder: Path, key: str, value: Value | None, table: str | None = None) -> None:
+def change_setting(folder: Path, key: str, value: Value) -> None:
     """Change one value of meshforge.toml; all else stays as its owner wrote it."""
+    path = folder / SETTINGS
+    edited = changed_settings(folder, {key: value})
+    if edited != _text(path):
+        write_atomically(path, edited)
+
+
+def changed_settings(folder: Path, values: Mapping[str, Value]) -> str:
+    """The text of meshforge.toml with some values changed."""
     path = folder / SETTINGS
     text = _text(path)
     try:
-        edited = set_value(text, key, value, table)
+        for key, value in values.items():
+            text = set_value(text, key, value)
     except ProjectError as error:
         raise error.at(str(path)) from None
-    if edited != text:
-        write_atomically(path, edited)
+    return text
+
+
+def set_vocabulary(project: Project, labels: Sequence[str]) -> None:
+    """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
+    Program(labels=tuple(labels))
+    with project.lock():
+        change_setting(project.folder, "vocabulary", tuple(labels))
+
+
+def set_orientation(project: Project, orient: Orient | str | None) -> None:
+    """Set the orientation directive. Raises ProjectError for a text that is none."""
+    directive = parse_orientation(orient) if isinstance(orient, str) else orient
+    with project.lock():
+        change_setting(project.folder, "orient", orientation_text(directive))
 
 
 def orientation(settings: Settings, folder: Path) -> Orient | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from meshforge.project.advice import Advice
+from meshforge.symbolic import Label
 
 State = Literal["none", "edited", "unchanged", "failed"]
 
@@ -19,8 +20,10 @@ class AssetStatus:
     where written files are gone. error: why it cannot be read, or why it failed.
     doubtful: labelled hulls that are gone, or have another geometry than was labelled.
     prepared: what was done to it before the program; sources: pieces and bodies without hulls that can be decomposed.
-    flags: edits by hand that were left out, demonstrated hulls that are no more; review: what a person said about the
-    output as it is.
+    flags: edits by hand that were left out, demonstrated hulls that are no more; review, review_note: what a person
+    said about the output as it is.
+    names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
+    where it cannot be read. after, output_digest: hulls and files of the output; corrections: edits by hand, a number.
     """
 
     id: str
@@ -35,6 +38,13 @@ class AssetStatus:
     review: Literal["accepted", "flagged"] | None = None
     prepared: tuple[str, ...] = ()
     sources: int = 0
+    names: tuple[str, ...] = ()
+    labels: tuple[Label | None, ...] = ()
+    geometry: str = ""
+    after: int | None = None
+    output_digest: str | None = None
+    corrections: int = 0
+    review_note: str | None = None
 
     @property
     def is_done(self) -> bool:
@@ -44,8 +54,10 @@ class AssetStatus:
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """A project. rules: of the program, None where there is none; outdated: whether it was learned from other
-    demonstrations, labels or settings than there are now. problem: why the program cannot be applied at all.
+    """A project. assets: all, or those that were asked for. rules: of the program, None where there is none.
+
+    outdated: whether it was learned from other demonstrations, labels or settings than there are now.
+    problem: why the program cannot be applied at all.
 
     lost: ids that have labels, demonstrations or corrections, but no asset.
     question: the id of the one that was open when the program was learned.

@@ -76,10 +76,10 @@ def action_text(action: Action, label: str | None) -> str:
     return f"{action} as {show_label(label)}" if label else str(action)
 
 
-def parse_action_text(text: str, path: Path) -> tuple[Action, str | None]:
-    """The action and the label it gives. Raises ProjectError, about the file, where the text is no action."""
+def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]:
+    """The action and the label it gives. Raises ProjectError, about `where`, where the text is no action."""
     try:
         (rule,) = Program.parse(f"All => {text}", "action").rules
     except (MeshForgeError, ValueError) as error:
-        raise ProjectError(f"{text!r} is no action: {error}", where=str(path)) from error
+        raise ProjectError(f"{text!r} is no action: {error}", where=str(where)) from error
     return rule.action, rule.label

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files
+from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files, text_digest
 from meshforge.errors import told
 from meshforge.files import relative_name, write_atomically
 from meshforge.formats import read
@@ -47,25 +47,36 @@ class _SurveyFile(BaseModel):
 
 
 def survey(
-    found: Found, layout: Layout, *, workers: int | None = None, progress: Callable[[], None] | None = None
+    found: Found,
+    layout: Layout,
+    only: Collection[str] | None = None,
+    *,
+    workers: int | None = None,
+    progress: Callable[[], None] | None = None,
 ) -> dict[str, Facts]:
-    """The facts of all assets by id; those whose files changed since are read, in worker processes.
+    """The facts of all assets by id, or of some; those whose files changed since are read, in worker processes.
 
     layout: where the project keeps preparations, and these facts; workers, progress: as of `meshforge.batch.isolated`.
     """
-    memory = layout.survey
+    memory, ids = layout.survey, found.ids
     known = _remembered(memory)
-    work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in found.ids.items()}
+    wanted = {key: path for key, path in ids.items() if only is None or key in only}
+    work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key: known[key] for key, own in work.items() if key in known and _holds(known[key], own)}
     todo = {key: own for key, own in work.items() if key not in fresh}
     results = isolated(_facts, tuple(todo.values()), workers=workers, timeout=TIMEOUT, done=progress)
     for key, result in zip(todo, results, strict=True):
         fresh[key] = Facts(error=result.why) if isinstance(result, Lost) else result
-    facts = {key: fresh[key] for key in found.ids}
-    if todo or facts.keys() != known.keys():
-        readable = {key: fact for key, fact in facts.items() if not fact.error}
-        write_atomically(memory, _SurveyFile(software=software(), assets=readable).model_dump_json())
-    return facts
+    every = known | fresh
+    kept = {key: every[key] for key in ids if key in every and not every[key].error}
+    if todo or kept.keys() != known.keys():
+        write_atomically(memory, _SurveyFile(software=software(), assets=kept).model_dump_json())
+    return {key: fresh[key] for key in wanted}
+
+
+def geometry_digest(hulls: Mapping[str, str]) -> str:
+    """One digest of all hulls of an asset; hulls: the digest of each by its name, in order."""
+    return text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
 
 
 def _remembered(memory: Path) -> dict[str, Facts]:

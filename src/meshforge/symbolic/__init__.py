@@ -2,9 +2,9 @@
 
 from meshforge.symbolic.components import bodies, components
 from meshforge.symbolic.descriptor import DESCRIBED, descriptors
-from meshforge.symbolic.follow import Followed, follow_labels
+from meshforge.symbolic.follow import Followed, Homes, follow_labels, label_homes
 from meshforge.symbolic.hull import Hull
-from meshforge.symbolic.label_file import LabelFile, read_labels, write_labels
+from meshforge.symbolic.label_file import LabelFile, labels_text, read_labels, write_labels
 from meshforge.symbolic.labels import HUMAN_SOURCES, SOURCES, Label, Source
 from meshforge.symbolic.mesh import EPSILON, SymbolicMesh, bits, mask_of
 
@@ -14,6 +14,7 @@ __all__ = [
     "HUMAN_SOURCES",
     "SOURCES",
     "Followed",
+    "Homes",
     "Hull",
     "Label",
     "LabelFile",
@@ -24,6 +25,8 @@ __all__ = [
     "components",
     "descriptors",
     "follow_labels",
+    "label_homes",
+    "labels_text",
     "mask_of",
     "read_labels",
     "write_labels",

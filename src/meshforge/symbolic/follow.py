@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from meshforge.geometry import digest
@@ -12,12 +13,22 @@ from meshforge.symbolic.mesh import SymbolicMesh
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Followed:
-    """A mesh with the labels of a file.
+class Homes:
+    """Where the labels of a file belong. labels: by the name that the hull has now.
 
     changed: hulls that keep name and label, with other geometry than was labelled; renamed: old and new names of
     hulls that the label followed; gone: names in the file that no hull answers to. All in the file's order.
     """
+
+    labels: Mapping[str, Label]
+    changed: tuple[str, ...] = ()
+    renamed: tuple[tuple[str, str], ...] = ()
+    gone: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Followed:
+    """A mesh with the labels of a file; changed, renamed, gone: as of `Homes`."""
 
     mesh: SymbolicMesh
     changed: tuple[str, ...] = ()
@@ -26,28 +37,33 @@ class Followed:
 
 
 def follow_labels(file: LabelFile, mesh: SymbolicMesh) -> Followed:
-    """The mesh with the labels of the file, hulls known again by name and by the digest of their geometry.
+    """The mesh with the labels of the file, in the places that `label_homes` gives them."""
+    homes = label_homes(file, {hull.name: digest(hull.shape) if file.digests else "" for hull in mesh.hulls})
+    return Followed(mesh.labelled(homes.labels), homes.changed, homes.renamed, homes.gone)
+
+
+def label_homes(file: LabelFile, hulls: Mapping[str, str]) -> Homes:
+    """Where labels belong among hulls, given as digests by name; hulls are known again by name and by digest.
 
     A label stays with its name. Where the name is gone, or has other geometry, it goes to the one hull that has the
     digest, provided that the file gives that digest once; so the labels of a renumbered file move with their hulls.
     """
-    here = {hull.name: digest(hull.shape) for hull in mesh.hulls} if file.digests else {}
-    moved = _moved(file, here)
+    moved = _moved(file, hulls)
     claimed = set(moved.values())
-    labels: dict[str, Label | None] = {}
+    labels: dict[str, Label] = {}
     changed, gone = [], []
     for name, label in file.labels.items():
-        home = moved.get(name, name if name in mesh.index and name not in claimed else None)
+        home = moved.get(name, name if name in hulls and name not in claimed else None)
         if home is None:
             gone.append(name)
             continue
         labels[home] = label
-        if home == name and file.digests.get(name, here.get(name)) != here.get(name):
+        if home == name and file.digests.get(name, hulls[name]) != hulls[name]:
             changed.append(name)
-    return Followed(mesh.labelled(labels), tuple(changed), tuple(moved.items()), tuple(gone))
+    return Homes(labels, tuple(changed), tuple(moved.items()), tuple(gone))
 
 
-def _moved(file: LabelFile, here: dict[str, str]) -> dict[str, str]:
+def _moved(file: LabelFile, here: Mapping[str, str]) -> dict[str, str]:
     """The new name of each labelled hull that has another one now."""
     authored = Counter(file.digests.values())
     present = Counter(here.values())

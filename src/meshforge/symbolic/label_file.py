@@ -34,22 +34,26 @@ class LabelFile:
 
 
 def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str:
-    """The text of the labels of a mesh, written to `path` unless that is None.
-
-    One hull a line, in the order of the mesh; labels that the vocabulary lacks are added at its end.
-    """
-    labels = [label.name for label in mesh.labels.values()]
-    words = json.dumps(list(dict.fromkeys([*vocabulary, *labels])), ensure_ascii=False)
-    rows = [_row(hull.name, hull.annotation, digest(hull.shape)) for hull in mesh.hulls if hull.annotation]
-    hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
-    text = f'{{\n  "vocabulary": {words},\n  "hulls": {hulls}\n}}\n'
+    """The text of the labels of a mesh, in its order, written to `path` unless that is None."""
+    digests = {hull.name: digest(hull.shape) for hull in mesh.hulls if hull.annotation}
+    text = labels_text(LabelFile(tuple(vocabulary), mesh.labels, digests))
     if path is not None:
         write_atomically(path, text)
     return text
 
 
-def _row(name: str, label: Label, geometry: str) -> str:
-    value = {"label": label.name, "confidence": label.confidence, "source": label.source, "digest": geometry}
+def labels_text(file: LabelFile) -> str:
+    """The text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of that."""
+    labels = [label.name for label in file.labels.values()]
+    words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
+    rows = [_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
+    hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
+    return f'{{\n  "vocabulary": {words},\n  "hulls": {hulls}\n}}\n'
+
+
+def _row(name: str, label: Label, geometry: str | None) -> str:
+    value: dict[str, Any] = {"label": label.name, "confidence": label.confidence, "source": label.source}
+    value |= {"digest": geometry} if geometry else {}
     return f"    {json.dumps(name, ensure_ascii=False)}: {json.dumps(value, ensure_ascii=False)}"
 
 

@@ -6,7 +6,9 @@ from meshforge.views.compare import before_after, compare, difference, joint_bou
 from meshforge.views.encode import png, webp, write_png
 from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, UNLABELLED, label_color
 from meshforge.views.picture import render
+from meshforge.views.roundness import Skin, skin
 from meshforge.views.sheet import sheet
+from meshforge.views.thumbnail import thumbnail
 from meshforge.views.visibility import id_buffer, visible_hulls
 
 __all__ = [
@@ -17,6 +19,7 @@ __all__ = [
     "UNSURE",
     "VIEWS",
     "ColorBy",
+    "Skin",
     "Up",
     "View",
     "before_after",
@@ -29,6 +32,8 @@ __all__ = [
     "png",
     "render",
     "sheet",
+    "skin",
+    "thumbnail",
     "visible_hulls",
     "webp",
     "write_png",

@@ -54,7 +54,7 @@ def subject(
     picked = [k for k, h in enumerate(mesh.hulls) if h.name in lifted]
     if picked:
         layers.append(Layer([skins[k] for k in picked], coloring.colors[picked], before=0.0, behind=0.38))
-    return Subject(tuple(layers), _framed(skins, shells), up_axis(mesh, up))
+    return Subject(tuple(layers), framed(skins, shells), up_axis(mesh, up))
 
 
 def up_axis(mesh: SymbolicMesh, up: Up | None) -> Up:
@@ -68,7 +68,8 @@ def skins_of(hulls: Sequence[Hull]) -> list[Skin]:
     return [skin(h.shape, 96 if count <= _MANY else 32) for h in hulls]
 
 
-def _framed(skins: Sequence[Skin], shells: Sequence[Skin]) -> Floats:
+def framed(skins: Sequence[Skin], shells: Sequence[Skin]) -> Floats:
+    """The points (n, 3) [m] that a picture of hulls must hold, and of what lies around them unless it is far larger."""
     points = [s.vertices for s in skins]
     size = Aabb.of_points(np.concatenate(points)).diagonal if points else np.inf
     points += [s.vertices for s in shells if Aabb.of_points(s.vertices).diagonal <= _FAR_OUT * size]

@@ -10,11 +10,10 @@ import pytest
 from meshforge.errors import ProjectError, UsageError
 from meshforge.project import Project, family, looked_at
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, Choice, Correction, Question, Repair
+from meshforge.synthesis import Answer, Choice, Correction, Question
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
 WRONG = Correction(PLAIN, "knob", "leg", "knob")
-REPAIR = Repair(WRONG, 1, 0.9, "it looks like one")
 QUESTION = Question(1, SHELVED, (Choice("1.1", ("top", "shelf")), Choice("1.2", ("top",))), 0.5, 0.0)
 MACHINE = Label("leg", 0.75, "vlm")
 
@@ -112,12 +111,12 @@ def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
 
 def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    assert project.confirm(REPAIR) == "rack0.obj#knob=knob"
+    assert project.confirm(WRONG) == "rack0.obj#knob=knob"
     assert knob(project) == Label("knob", 1.0, "repair")
     (line,) = json.loads((project.folder / "answers.json").read_text())["confirmed"]
     assert (line["from"], line["to"]) == ("leg", "knob")
     assert line["before"] == {"label": "leg", "source": "vlm", "confidence": 0.75}
-    project.confirm(REPAIR)
+    project.confirm(WRONG)
     assert project.take_back("rack0.obj#knob=knob") is None
     assert knob(project) == MACHINE
     assert not (project.folder / "answers.json").exists()
@@ -126,7 +125,7 @@ def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_p
 def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.set_labels(PLAIN, {"knob": None})
-    said = project.confirm(Repair(Correction(PLAIN, "knob", None, "knob"), 1, 0.9, ""))
+    said = project.confirm(Correction(PLAIN, "knob", None, "knob"))
     assert knob(project) == Label("knob", 1.0, "repair")
     project.take_back(said)
     assert knob(project) is None
@@ -134,7 +133,7 @@ def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> 
 
 def test_a_label_that_a_person_changed_after_the_repair_stays(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    said = project.confirm(REPAIR)
+    said = project.confirm(WRONG)
     project.set_labels(PLAIN, {"knob": "board"})
     note = project.take_back(said)
     assert note == "knob in rack0.obj is left labelled board, as it was changed after the repair"
@@ -143,7 +142,7 @@ def test_a_label_that_a_person_changed_after_the_repair_stays(tmp_path: Path) ->
 
 def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    said = project.confirm(REPAIR)
+    said = project.confirm(WRONG)
     (tmp_path / "assets" / PLAIN).unlink()
     project = Project.open(project.folder)
     assert "there is no asset" in (project.take_back(said) or "")
@@ -153,19 +152,19 @@ def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> 
 def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     with pytest.raises(ProjectError, match="no hull 'nob'; did you mean 'knob'"):
-        project.confirm(Repair(Correction(PLAIN, "nob", "leg", "knob"), 1, 0.9, ""))
+        project.confirm(Correction(PLAIN, "nob", "leg", "knob"))
     with pytest.raises(ProjectError, match="not in the vocabulary"):
-        project.confirm(Repair(Correction(PLAIN, "knob", "leg", "handle"), 1, 0.9, ""))
+        project.confirm(Correction(PLAIN, "knob", "leg", "handle"))
     project.set_labels(PLAIN, {"knob": "board"})
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
-        project.confirm(REPAIR)
+        project.confirm(WRONG)
     assert not project.answers().ids
 
 
 def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    project.reject(REPAIR)
-    project.confirm(REPAIR)
+    project.reject(WRONG)
+    project.confirm(WRONG)
     assert project.answers().ids == ("rack0.obj#knob=knob",)
     assert len(project.answers().confirmed) == 1
 
@@ -182,7 +181,7 @@ def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
 def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.answer(QUESTION, 0)
-    project.confirm(REPAIR)
-    project.reject(Repair(Correction(OTHER, "left", "leg", "knob"), 1, 0.9, ""))
+    project.confirm(WRONG)
+    project.reject(Correction(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
     assert project.answers().ids == () and knob(project) == MACHINE

@@ -1,13 +1,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from meshforge.errors import ProjectError
-from meshforge.language import Delete
-from meshforge.project import AssetStatus, Project, Status
+from meshforge.language import Delete, Program
+from meshforge.project import AssetStatus, Project, Standing, Status
 from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -48,10 +49,15 @@ def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypa
 
 
 def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
-    assert asset(demonstrated(tmp_path), FIRST) == AssetStatus(FIRST, 6, 6, demonstrated=True)
-    assert asset(Project.open(tmp_path / "tables"), THIRD) == AssetStatus(THIRD, 6, 6)
+    project = demonstrated(tmp_path)
+    hulls = project.mesh(FIRST).hulls
+    first, third = asset(project, FIRST), asset(project, THIRD)
+    names, labels = tuple(hull.name for hull in hulls), tuple(hull.annotation for hull in hulls)
+    assert third == AssetStatus(THIRD, 6, 6, names=names, labels=labels, geometry=third.geometry)
+    assert first == replace(third, id=FIRST, demonstrated=True, geometry=first.geometry)
     done = asset(applied(tmp_path / "more"), THIRD)
-    assert done == AssetStatus(THIRD, 6, 6, output="edited") and done.is_done
+    assert done == replace(third, output="edited", after=3, output_digest=done.output_digest)
+    assert done.is_done and done.output_digest
 
 
 def test_what_changed_since_the_output_was_made_is_named(tmp_path: Path) -> None:
@@ -143,6 +149,105 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
 def test_only_an_output_can_be_reviewed(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="no output to be accepted"):
         labelled(tmp_path).review(FIRST, "accepted")
+
+
+def test_several_outputs_are_reviewed_in_one_go_or_none_is(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review([FIRST, THIRD], "accepted", "fine")
+    assert [a.review for a in of(project).assets] == ["accepted", None, "accepted"]
+    assert [a.review_note for a in of(project).assets] == ["fine", None, "fine"]
+    (project.folder / "labels" / f"{SECOND}.json").unlink()
+    list(project.apply(workers=0))
+    before = (project.folder / "review.json").read_bytes()
+    with pytest.raises(ProjectError, match=f"{SECOND} has no output to be flagged"):
+        project.review([FIRST, SECOND], "flagged")
+    with pytest.raises(ProjectError, match="there is no asset"):
+        project.review([FIRST, "nobody"], None)
+    assert (project.folder / "review.json").read_bytes() == before
+    project.review([FIRST, SECOND, THIRD], None)
+    assert project.reviews() == {}
+
+
+def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.correct(SECOND, ["top"], Delete())
+    project.accept(Program.parse('labels top\nIs(top) => Replace("slab.obj")\n'))
+    write_table(project.folder / "templates/slab.obj")
+    list(project.apply(workers=0))
+    project.set_labels(THIRD, {"crumb": "leg"})
+    project.review(FIRST, "flagged")
+    every = of(project)
+    some = project.status([THIRD, FIRST], workers=0, others=every.assets)
+    assert some == replace(every, assets=(every.assets[0], every.assets[2]))
+    assert project.status([], workers=0, others=every.assets).next == every.next
+    with pytest.raises(ProjectError, match="there is no asset 'nobody'"):
+        project.status(["nobody"])
+
+
+def test_the_next_step_for_some_assets_alone_counts_these(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assert (project.status([FIRST], workers=0).next.command or "").startswith("meshforge check")
+    assert (project.status([THIRD], workers=0).next.command or "").startswith("meshforge apply")
+    assert (of(project).next.command or "").startswith("meshforge apply")
+
+
+def test_the_status_of_some_assets_does_not_forget_what_is_known_of_the_others(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    of(project)
+    write_table(tmp_path / "assets" / FIRST, 4.0)
+    project.status([FIRST], workers=0)
+    survey = json.loads((project.folder / ".meshforge/survey.json").read_text())
+    assert list(survey["assets"]) == [FIRST, SECOND, THIRD]
+
+
+def test_labels_of_a_status_are_those_of_the_mesh(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    before = asset(project, FIRST)
+    path = tmp_path / "assets" / FIRST
+    path.write_text(path.read_text().replace("o left_low", "o one").replace("o left_high", "o left_low"))
+    project.set_labels(FIRST, {"top": None})
+    mesh, found = project.mesh(FIRST), asset(project, FIRST)
+    assert found.names == tuple(hull.name for hull in mesh.hulls) != before.names
+    assert found.labels == tuple(hull.annotation for hull in mesh.hulls)
+    assert found.labelled == 5 and found.geometry != before.geometry
+
+
+def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    first = asset(project, FIRST)
+    assert (first.hulls, first.after, first.corrections) == (6, 3, 0) and first.output_digest
+    project.correct(FIRST, ["top"], Delete())
+    list(project.apply(workers=0))
+    again = asset(project, FIRST)
+    assert (again.after, again.corrections) == (2, 1)
+    assert again.output_digest not in (first.output_digest, None)
+    (tmp_path / "assets" / FIRST).write_text("nothing of use")
+    bad = asset(project, FIRST)
+    assert (bad.names, bad.labels, bad.geometry) == ((), (), "")
+
+
+def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
+    assert demonstrated(tmp_path / "a").standing() == Standing()
+    project = learned(tmp_path / "b")
+    assert project.standing() == Standing()
+    project.demonstrate(SECOND, STEPS[:1])
+    assert project.standing() == Standing(outdated=True)
+    for text in ("labels top\nAll => Merge\n", "nonsense"):
+        (project.folder / "program.mf").write_text(text)
+        assert project.standing() == Standing(by_hand=True)
+    project.synthesize()
+    assert project.standing() == Standing()
+    (project.folder / ".meshforge/learned.json").unlink()
+    assert project.standing() == Standing(by_hand=True)
+
+
+def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    assert [outcome.asset for outcome in project.apply([THIRD, FIRST], workers=0)] == [FIRST, THIRD]
+    assert [a.output for a in of(project).assets] == ["edited", "none", "edited"]
+    with pytest.raises(ProjectError, match="there is no asset 'nobody'"):
+        project.apply(["nobody"])
 
 
 def test_a_damaged_memory_of_the_assets_is_made_anew(tmp_path: Path) -> None:

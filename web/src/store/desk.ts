@@ -67,13 +67,17 @@ export interface DeskState {
   asset: string | null;
   stage: StageName;
   showing: Showing;
+  /** What is to be shown of this asset in place of what its stage usually shows. */
+  asked: Showing | null;
   /** Names of hulls of what is shown. */
   selection: ReadonlySet<string>;
   hover: string | null;
   hidden: ReadonlySet<string>;
   tool: Tool;
-  /** The label that clicks paint, null for plain selecting. */
+  /** The label that clicks paint, empty for taking labels away, null for plain selecting. */
   brush: string | null;
+  /** Hulls that were clicked as landmarks of the orientation: where the direction starts, then where it ends. */
+  landmarks: readonly string[];
   draft: Draft | null;
   highlight: Highlight | null;
   view: ViewSettings;
@@ -90,11 +94,13 @@ export const initialDesk: DeskState = {
   asset: null,
   stage: "label",
   showing: { kind: "source" },
+  asked: null,
   selection: new Set(),
   hover: null,
   hidden: new Set(),
   tool: "select",
   brush: null,
+  landmarks: [],
   draft: null,
   highlight: null,
   view: {
@@ -123,12 +129,18 @@ const set = useDesk.setState;
 /** Goes to an asset; selection, hover and what is hidden belong to one asset and are left behind. */
 export function openAsset(asset: string | null): void {
   if (useDesk.getState().asset === asset) return;
-  set({ asset, selection: new Set(), hover: null, hidden: new Set(), draft: null, tool: "select" });
+  set({ asset, asked: null, selection: new Set(), hover: null, hidden: new Set(), draft: null, landmarks: [], tool: "select" });
+}
+
+/** Goes to an asset in a state, and selects hulls there; it stays in that state until another stage or asset is opened. */
+export function visit(asset: string, showing: Showing, names: Iterable<string> = []): void {
+  if (useDesk.getState().asset !== asset) openAsset(asset);
+  set({ asked: showing, showing, selection: new Set(names) });
 }
 
 export function openStage(stage: StageName): void {
   if (useDesk.getState().stage === stage) return;
-  set({ stage, selection: new Set(), draft: null, brush: null, tool: "select" });
+  set({ stage, asked: null, selection: new Set(), draft: null, brush: null, landmarks: [], tool: "select" });
 }
 
 export function show(showing: Showing): void {
@@ -149,6 +161,20 @@ export function selectMore(names: Iterable<string>, how: "replace" | "add" | "to
     else after.add(name);
   }
   select(after);
+}
+
+/** Takes a tool into the hand; landmarks are clicked anew. */
+export function setTool(tool: Tool): void {
+  set({ tool, landmarks: [] });
+}
+
+/** Arms a label, so that clicks paint it; null puts the brush down. */
+export function setBrush(brush: string | null): void {
+  set({ brush });
+}
+
+export function setDraft(draft: Draft | null): void {
+  set({ draft });
 }
 
 export function hover(name: string | null): void {

@@ -26,9 +26,10 @@ export function follow(): () => void {
 /** Shows an asset in the state that its stage is about, and fetches those beside it. */
 async function settle({ asset, stage }: DeskState): Promise<void> {
   if (asset === null) return void showScene(null, { kind: "source" });
-  const showing = await usual(asset, stage).catch((): Showing => ({ kind: "source" }));
+  const usually = await usual(asset, stage).catch((): Showing => ({ kind: "source" }));
   const now = useDesk.getState();
   if (now.asset !== asset || now.stage !== stage) return;
+  const showing = now.asked ?? usually;
   if (same(now.showing, showing)) void showScene(asset, showing);
   else show(showing);
   const { order } = useProject.getState();

@@ -1,6 +1,7 @@
 // The steps of an asset, and the changes to them, each one edit.
 import type { AssetView, StepText, StepView } from "../wire";
 import type { Draft } from "./desk";
+import { openPlaces } from "./drafts";
 import { perform } from "./edits";
 import { details } from "./scenes";
 import { useProject } from "./project";
@@ -50,15 +51,14 @@ export function draftText(draft: Draft, order: readonly { name: string; kind: st
   return draft.label ? `${whole} as ${labelText(draft.label)}` : whole;
 }
 
-const PRIMITIVES = new Set(["box", "cylinder", "capsule", "sphere"]);
+export const PRIMITIVES: ReadonlySet<string> = new Set(["box", "cylinder", "capsule", "sphere"]);
 
-/** A label as programs write it: quoted where it is no single word. */
+const RESERVED = new Set("All Is Attach Geo Union Intersect Diff Delete Replace Add Merge Scale Each".split(" "));
+
+/** A label as programs write it: quoted where it is no single word, or a word of the language. */
 export function labelText(label: string): string {
-  return /^[^\W\d]\w*$/u.test(label) ? label : JSON.stringify(label);
+  return /^[\p{L}_][\p{L}\p{N}_]*$/u.test(label) && !RESERVED.has(label) ? label : JSON.stringify(label);
 }
 
-/** How many of the family's rules an asset says nothing about yet. */
-export function openRules(view: AssetView): number[] {
-  const { rules } = useProject.getState().project;
-  return rules.map((_, k) => k).filter((k) => view.steps[k]?.select == null);
-}
+/** Places (from 0) of the family's rules that an asset says nothing about yet. */
+export const openRules = (view: AssetView): number[] => openPlaces(useProject.getState().project.rules, view);

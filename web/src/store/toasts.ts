@@ -38,5 +38,7 @@ export function dismissed(id: number): void {
 }
 
 function add(toast: Toast): void {
-  useToasts.setState(({ toasts }) => ({ toasts: [...toasts.slice(-3), toast] }));
+  // undo takes back the latest edit only, so only the latest message offers it
+  const older = (one: Toast): Toast => (toast.undo ? { ...one, undo: false } : one);
+  useToasts.setState(({ toasts }) => ({ toasts: [...toasts.slice(-3).map(older), toast] }));
 }

@@ -5,9 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from meshforge.errors import MeshForgeError
+from meshforge.project import action_text, parse_action_text
 from meshforge.studio.edits.base import Edit
 from meshforge.studio.edits.conflict import ConflictError
+from meshforge.studio.versions import steps_version
 from meshforge.studio.wire.base import Wire
+from meshforge.synthesis import Step
 from meshforge.words import counted
 
 if TYPE_CHECKING:
@@ -30,21 +34,19 @@ class SetSteps(Edit):
     steps: tuple[StepText, ...]
 
     def apply(self, project: Project) -> None:
-        from meshforge.studio.versions import steps_version
-
         if steps_version(project, self.asset) != self.version:
             raise ConflictError(
                 "the steps were changed elsewhere meanwhile",
                 where=self.asset,
                 remedy="They are shown as they are now; do it again if it is still wanted.",
             )
-        project.demonstrate_text(self.asset, [(step.select, step.action) for step in self.steps])
+        project.demonstrate(self.asset, _steps(self.steps))
 
     def touches(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.demonstration(self.asset),)
 
     def said(self, project: Project) -> str:
-        before = [(step.select, text) for step, text in project.step_texts(self.asset)]
+        before = [(step.select, action_text(step.action, step.label)) for step in _kept(project, self)]
         now = [(None if s.select is None else frozenset(s.select), s.action) for s in self.steps]
         if len(now) == len(before) + 1 and now[:-1] == before:
             select, action = now[-1]
@@ -57,6 +59,22 @@ class SetSteps(Edit):
 
     def assets(self, project: Project) -> tuple[str, ...]:
         return (self.asset,)
+
+
+def _steps(texts: tuple[StepText, ...]) -> list[Step]:
+    """Steps for learning. Raises ProjectError for an action that does not parse."""
+    return [
+        Step(number, step.select, *parse_action_text(step.action, f"step {number}"))
+        for number, step in enumerate(texts, 1)
+    ]
+
+
+def _kept(project: Project, edit: SetSteps) -> tuple[Step, ...]:
+    """The steps that are kept; none where their file is damaged, and is therefore written anew."""
+    try:
+        return project.steps(edit.asset)
+    except MeshForgeError:
+        return ()
 
 
 class _RuleEdit(Edit):

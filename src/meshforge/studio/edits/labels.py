@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from meshforge.studio.edits.base import Edit
+from meshforge.studio.edits.learning import program_files
 from meshforge.words import counted
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ class RenameLabel(Edit):
     def touches(self, project: Project) -> tuple[Path, ...]:
         layout = project.layout
         folders = (layout.folder / "labels", layout.folder / "demonstrations", layout.folder / "corrections")
-        return (layout.settings, *folders, layout.answers, layout.program, layout.learned)
+        return (layout.settings, *folders, layout.answers, *program_files(project))
 
     def said(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from meshforge.language import Program
-
 from meshforge.studio.edits.base import Edit
 from meshforge.studio.edits.conflict import ConflictError
+from meshforge.studio.versions import program_version
 from meshforge.synthesis import Answer, Correction
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class SettleRepair(Edit):
     accept: bool
 
     def apply(self, project: Project) -> None:
-        settle = project.confirm_correction if self.accept else project.reject_correction
+        settle = project.confirm if self.accept else project.reject
         settle(Correction(self.asset, self.hull, self.was, self.to))
 
     def touches(self, project: Project) -> tuple[Path, ...]:
@@ -87,8 +87,6 @@ class WriteProgram(Edit):
     version: str
 
     def apply(self, project: Project) -> None:
-        from meshforge.studio.versions import program_version
-
         if program_version(project) != self.version:
             raise ConflictError(
                 "the program was changed elsewhere meanwhile",
@@ -98,7 +96,13 @@ class WriteProgram(Edit):
         project.accept(Program.parse(self.text))
 
     def touches(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.program, project.layout.learned)
+        return program_files(project)
 
     def said(self, project: Project) -> str:
         return "program changed by hand"
+
+
+def program_files(project: Project) -> tuple[Path, ...]:
+    """The files that accepting a program writes."""
+    program = project.layout.program
+    return program, program.with_name("program.previous.mf"), project.layout.learned

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from meshforge.project import parse_action_text
 from meshforge.studio.edits.base import Edit
 from meshforge.words import counted
 
@@ -21,7 +22,7 @@ class ReviewAssets(Edit):
     note: str | None = None
 
     def apply(self, project: Project) -> None:
-        project.review_all(self.ids, self.verdict, self.note)
+        project.review(self.ids, self.verdict, self.note)
 
     def touches(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.review,)
@@ -43,7 +44,7 @@ class CorrectByHand(Edit):
     action: str
 
     def apply(self, project: Project) -> None:
-        project.correct_text(self.asset, self.select, self.action)
+        project.correct(self.asset, self.select, *parse_action_text(self.action, "action"))
 
     def touches(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.corrections(self.asset),)

@@ -17,10 +17,11 @@ class PreviewRequest(Wire):
 
 
 class SelectRequest(Wire):
-    """What does an extractor select on an asset, after so many of its steps?"""
+    """What does an extractor select on an asset, after so many of its steps, or as a rule of the program meets it?"""
 
     asset: str
     steps: int = 0
+    rule: int | None = None
     extractor: str
 
 
@@ -54,3 +55,11 @@ class Done(Wire):
 
     said: str
     nothing: bool = False
+
+
+class LabelSources(Wire):
+    """Where labels could come from. files: assets with a labels file beside them; names: hulls without a label whose
+    names say one."""
+
+    files: int
+    names: int

@@ -1,0 +1,1 @@
+"""How the studio feels: opening, hovering, switching and scrolling, in a real Chromium."""

@@ -1,0 +1,67 @@
+"""How long it takes until an asset is seen, and until the next one is."""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+from pathlib import Path
+
+from playwright.sync_api import Browser
+
+from benchmark.report import Goal, Result, Table, Tell
+from benchmark.studio.browser import WATCH, chromium, studio
+from benchmark.studio.families import project_of
+
+HULLS, ASSETS = 60, 12
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Open the page anew several times; then go from asset to asset by Tab."""
+    with tempfile.TemporaryDirectory() as folder:
+        project = project_of(Path(folder), ASSETS, HULLS)
+        first = project.assets()[0]
+        with studio(project.folder) as address, chromium() as browser:
+            times = [_opened(browser, address, first) for _ in range(2 if quick else 8)][1:]
+            tell(f"opening: {len(times)} times opened")
+            switches = _switched(browser, address, project.assets(), tell)
+    opening, switching = statistics.median(times), statistics.median(switches)
+    rows = (
+        (f"first picture of {HULLS} hulls after opening", opening, max(times)),
+        ("next asset after Tab", switching, max(switches)),
+    )
+    return Result(
+        "opening",
+        "Opening the studio, and going from asset to asset",
+        (Table("From the request or the key to the drawn frame, ms", ("", "median", "slowest"), rows),),
+        (
+            Goal(f"ms until the first picture of {HULLS} hulls, server warm", "at most", 1500, opening),
+            Goal("ms until the next asset is drawn", "at most", 150, switching),
+        ),
+        ("Headless Chromium with software rendering; the page's own time, from the start of its navigation.",),
+    )
+
+
+def _opened(browser: Browser, address: str, asset: str) -> float:
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    page = context.new_page()
+    page.add_init_script(WATCH)
+    page.goto(address)
+    page.wait_for_function("id => id in window.watched.ready", arg=asset)
+    milliseconds: float = page.evaluate("id => window.watched.ready[id]", asset)
+    context.close()
+    return milliseconds
+
+
+def _switched(browser: Browser, address: str, assets: tuple[str, ...], tell: Tell) -> list[float]:
+    page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
+    page.add_init_script(WATCH)
+    page.goto(address)
+    page.wait_for_function("id => id in window.watched.ready", arg=assets[0])
+    times = []
+    for asset in assets[1:]:
+        page.wait_for_timeout(400)  # a person looks, and the next asset is fetched meanwhile
+        page.keyboard.press("Tab")
+        page.wait_for_function("id => id in window.watched.ready", arg=asset)
+        times.append(page.evaluate("id => window.watched.ready[id] - window.watched.keys.at(-1)", asset))
+        tell(f"opening: {len(times)} assets switched to")
+    return times

@@ -1,0 +1,45 @@
+"""`meshforge studio`: the project in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from meshforge.studio.desk import Opening
+
+Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
+Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
+
+
+def studio(
+    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    port: Port = 0,
+    browser: Browser = True,
+    export: Annotated[
+        Path | None,
+        typer.Option("--export", help="Folder outside of the project that outputs may be exported to, too."),
+    ] = None,
+    page: Annotated[Path | None, typer.Option(hidden=True, help="Folder of another build of the page.")] = None,
+) -> None:
+    """See, label, demonstrate, learn and review in the browser; stops with Ctrl-C.
+
+    The studio answers on this machine only, to the address with its token that is printed.
+    """
+    from meshforge.studio.desk import Opening
+
+    opened(Opening(project, export), port=port, browser=browser, page=page)
+
+
+def opened(opening: Opening, *, port: int, browser: bool, page: Path | None = None) -> None:
+    """Serve a studio, and say where."""
+    from meshforge.studio.routes.page import BUILT
+    from meshforge.studio.serve import serve
+
+    serve(opening, _say, port=port, browser=browser, page=page or BUILT)
+
+
+def _say(address: str) -> None:
+    print(f"Studio: {address}", flush=True)

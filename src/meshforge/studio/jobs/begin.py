@@ -1,0 +1,26 @@
+"""Beginning the job that a page asks for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, assert_never
+
+from meshforge.studio.jobs.apply import apply_job
+from meshforge.studio.jobs.decompose import decompose_job
+from meshforge.studio.jobs.export import export_job
+from meshforge.studio.wire.jobs import ApplyJob, DecomposeJob, ExportJob, Job, JobRequest
+
+if TYPE_CHECKING:
+    from meshforge.studio.desk import Desk
+
+
+def begin(desk: Desk, request: JobRequest) -> Job:
+    """Begin it. Raises MeshForgeError where it cannot be done."""
+    match request:
+        case ApplyJob():
+            return apply_job(desk, request)
+        case DecomposeJob():
+            return decompose_job(desk, request)
+        case ExportJob():
+            return export_job(desk, request)
+        case _:
+            assert_never(request)

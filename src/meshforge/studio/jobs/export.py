@@ -1,0 +1,110 @@
+"""Copying outputs into a folder of their own, as a job."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.batch import OWN_FOLDERS, STATE, file_digest, read_stamp
+from meshforge.errors import UsageError
+from meshforge.files import plain_path, replacing, write_atomically
+from meshforge.studio.jobs.running import Running
+from meshforge.studio.wire.jobs import ExportJob, Job, JobLine
+from meshforge.words import counted
+
+if TYPE_CHECKING:
+    from meshforge.studio.desk import Desk
+
+MARK = ".meshforge-export"
+"""The file that an export leaves in its folder: the names of all that was exported, one a line."""
+_TAKEN = (*OWN_FOLDERS, STATE)
+
+
+def export_job(desk: Desk, request: ExportJob) -> Job:
+    """Begin to export. Raises UsageError for a folder that is not to be written, or holds other things."""
+    folder = _folder(desk, request.folder)
+    known = _known(folder)
+    rows = [card for card in desk.shown.cards if not request.accepted_only or card.review == "accepted"]
+    if not rows:
+        which = "accepted" if request.accepted_only else "there"
+        raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
+    edited = desk.project.layout.edited
+
+    def work(running: Running) -> str:
+        kept: dict[str, None] = {}
+        done = 0
+        for card in rows:
+            running.check()
+            line = _exported(edited, folder, card.asset, known, kept)
+            done += line.status == "done"
+            running.line(line)
+            running.advance()
+        _forget(folder, [name for name in known if name not in kept])
+        return f"{counted(done, 'asset')} exported."
+
+    return desk.jobs.start("export", f"Exporting {counted(len(rows), 'asset')}", len(rows), work, str(folder))
+
+
+def _exported(edited: Path, folder: Path, asset: str, known: dict[str, None], kept: dict[str, None]) -> JobLine:
+    """Copy all files of one output, the main one last, so that it never names what is not there."""
+    stamp = read_stamp(edited, asset)
+    if stamp is None or stamp.status not in ("edited", "unchanged"):
+        return JobLine(asset=asset, status="skipped", text="it has no output")
+    if not stamp.is_whole(edited):
+        return JobLine(asset=asset, status="failed", text="files of its output are gone or changed: apply it again")
+    names = sorted(stamp.outputs, key=lambda name: (name == stamp.out, name))
+    foreign = [name for name in names if name not in known and (folder / name).exists()]
+    if foreign:
+        return JobLine(asset=asset, status="failed", text=f"{folder / foreign[0]} is there, and no export wrote it")
+    known |= dict.fromkeys(names)
+    write_atomically(folder / MARK, "".join(f"{name}\n" for name in known))
+    for name in names:
+        _copy(edited / name, folder / name)
+        kept[name] = None
+    return JobLine(asset=asset, status="done", text=counted(len(names), "file"))
+
+
+def _copy(source: Path, target: Path) -> None:
+    if target.is_file() and file_digest(target) == file_digest(source):
+        return
+    with replacing(target) as draft:
+        shutil.copyfile(source, draft)
+        draft.chmod(source.stat().st_mode & 0o777)
+
+
+def _folder(desk: Desk, name: str) -> Path:
+    """The folder to write: below the project, or the one that was allowed when the studio was opened."""
+    root, allowed = desk.project.folder, desk.opening.export
+    folder = plain_path(root / name)
+    if allowed and folder == plain_path(allowed):
+        return folder
+    remedy = "Choose a folder of its own inside of the project, or start the studio with --export DIR."
+    real = Path(os.path.realpath(folder))
+    if not real.is_relative_to(os.path.realpath(root)) or real == Path(os.path.realpath(root)):
+        raise UsageError("outputs are exported below the project only", where=str(folder), remedy=remedy)
+    if folder.relative_to(root).parts[0] in _TAKEN:
+        raise UsageError("this folder belongs to the project itself", where=str(folder), remedy=remedy)
+    return folder
+
+
+def _known(folder: Path) -> dict[str, None]:
+    """The files of earlier exports into a folder. Raises UsageError where it holds anything else only."""
+    mark = folder / MARK
+    if mark.is_file():
+        return dict.fromkeys(mark.read_text(encoding="utf-8").splitlines())
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        remedy = "Choose a new folder, or one of an earlier export."
+        raise UsageError("this folder holds something else", where=str(folder), remedy=remedy)
+    return {}
+
+
+def _forget(folder: Path, names: Iterable[str]) -> None:
+    """Take away what earlier exports wrote and this one does not."""
+    gone = set(names)
+    for name in gone:
+        (folder / name).unlink(missing_ok=True)
+    left = [name for name in _known(folder) if name not in gone]
+    write_atomically(folder / MARK, "".join(f"{name}\n" for name in left))

@@ -1,0 +1,129 @@
+"""Assets in memory: read in worker processes, so that a crash of a reader is one message, and kept while they last."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from threading import Lock
+
+from meshforge.asset import Asset
+from meshforge.batch import Found, source_files
+from meshforge.errors import MeshForgeError
+from meshforge.preparation import read_prepared, record_digest
+from meshforge.project import Project
+from meshforge.studio.workers import Workers
+from meshforge.symbolic import SymbolicMesh, follow_labels
+
+MOST = 80
+"""Assets that are kept; the one that was not asked for longest goes."""
+
+Times = dict[Path, tuple[int, int] | None]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Read:
+    """An asset as it was read. times: modification [ns] and size of its files; prepared: the digest of that."""
+
+    times: Times
+    prepared: str | None
+    mesh: SymbolicMesh
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Labelled:
+    """An asset with its labels. labels: what their file holds; contact: the threshold that was set."""
+
+    read: _Read
+    labels: bytes
+    contact: float | None
+    mesh: SymbolicMesh
+
+
+class Meshes:
+    """The assets of a project that were asked for last."""
+
+    def __init__(self, workers: Workers) -> None:
+        self._workers = workers
+        self._lock = Lock()
+        self._busy: dict[str, Lock] = {}
+        self._kept: OrderedDict[str, _Labelled] = OrderedDict()
+
+    def get(self, project: Project, asset: str) -> SymbolicMesh:
+        """An asset as it is prepared, with the labels it has now. Raises AssetError where it cannot be read."""
+        path = project.path(asset)
+        with self._lock:
+            busy = self._busy.setdefault(asset, Lock())
+        with busy:  # who asks for it at the same time waits for one reading
+            with self._lock:
+                kept = self._kept.get(asset)
+            read = kept.read if kept and _holds(kept.read, project, asset) else self._fresh(project, asset, path)
+            labelled = _labelled(project, asset, read, kept)
+            with self._lock:
+                self._kept[asset] = labelled
+                self._kept.move_to_end(asset)
+                while len(self._kept) > MOST:
+                    self._kept.popitem(last=False)
+        return labelled.mesh
+
+    def _fresh(self, project: Project, asset: str, path: Path) -> _Read:
+        folder = project.layout.preparation(asset)
+        prepared, times = record_digest(folder), _times([*source_files(path), path])
+        try:
+            source: Asset = self._workers.run(read_prepared, path, folder)
+        except MeshForgeError as error:
+            raise error.at(str(path)) from None
+        return _Read(times | _times(source.files), prepared, SymbolicMesh.of(source))
+
+
+@dataclass(frozen=True)
+class KeptProject(Project):
+    """A project whose assets stay in memory, so that what is done to one need not read its files again."""
+
+    meshes_kept: Meshes = field(repr=False, compare=False)
+
+    @staticmethod
+    def of(project: Project, meshes: Meshes) -> KeptProject:
+        """The same project with a memory."""
+        return KeptProject(project.folder, project.found, meshes)
+
+    def with_assets(self, found: Found) -> KeptProject:
+        """The same project with other assets."""
+        return replace(self, found=found)
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        return self.meshes_kept.get(self, asset)
+
+
+def _holds(read: _Read, project: Project, asset: str) -> bool:
+    folder = project.layout.preparation(asset)
+    return record_digest(folder) == read.prepared and _times(read.times) == read.times
+
+
+def _labelled(project: Project, asset: str, read: _Read, kept: _Labelled | None) -> _Labelled:
+    contact, path = project.settings.thresholds.contact, project.layout.labels(asset)
+    labels = path.read_bytes() if path.exists() else b""
+    if kept and kept.read is read and kept.labels == labels and kept.contact == contact:
+        return kept
+    bare = _bare(kept.mesh) if kept and kept.read is read and kept.contact == contact else read.mesh
+    mesh = follow_labels(project.labels(asset), bare).mesh
+    wanted = mesh if contact is None or mesh.epsilon == contact else replace(mesh, epsilon=contact)
+    return _Labelled(read, labels, contact, wanted)
+
+
+def _bare(mesh: SymbolicMesh) -> SymbolicMesh:
+    """The mesh without labels; what was measured between its hulls stays known."""
+    return mesh.labelled(dict.fromkeys(mesh.index))
+
+
+def _times(paths: Iterable[Path]) -> Times:
+    return {path: _time(path) for path in paths}
+
+
+def _time(path: Path) -> tuple[int, int] | None:
+    try:
+        stat = path.stat()
+    except OSError:
+        return None
+    return stat.st_mtime_ns, stat.st_size

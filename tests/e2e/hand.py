@@ -1,0 +1,127 @@
+"""A person at the studio: a real browser, whose clicks and keys are counted."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, sync_playwright
+
+CHROMIUM = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium"))
+FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-quic",
+    "--disable-sync",
+    "--no-first-run",
+)
+PATIENCE = 60_000.0
+"""Milliseconds that anything may take before a test gives up; nothing is measured by it."""
+
+
+@dataclass
+class Hand:
+    """Clicks and types on a page. actions: how many clicks and keys that took; complaints: errors of the page."""
+
+    page: Page
+    actions: int = 0
+    complaints: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.page.set_default_timeout(PATIENCE)
+        self.page.on("console", self._heard)
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def _heard(self, message: ConsoleMessage) -> None:
+        # the browser itself complains of every refused request, which the page then tells in words
+        if message.type == "error" and "Failed to load resource" not in message.text and "WebSocket" not in message.text:
+            self.complaints.append(message.text)
+
+    # Acting
+
+    def open(self, address: str) -> None:
+        """Open the studio and wait until an asset is drawn."""
+        self.page.goto(address)
+        self.drawn()
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+            self.actions += 1
+
+    def type(self, text: str) -> None:
+        self.page.keyboard.type(text)
+        self.actions += len(text)
+
+    def click(self, target: Locator | str, **how: Any) -> None:
+        """Click on something, or on the button of a name."""
+        place = self.button(target) if isinstance(target, str) else target
+        place.click(**how)
+        self.actions += 1
+
+    def hull(self, name: str, *held: Any) -> None:
+        """Click on a hull in the viewport, while keys are held."""
+        self.page.wait_for_function("name => window.meshforgeViewport?.project(name)", arg=name)
+        place = self.page.evaluate("name => window.meshforgeViewport.project(name)", name)
+        for key in held:
+            self.page.keyboard.down(key)
+        self.page.mouse.move(place["x"], place["y"])
+        self.page.mouse.click(place["x"], place["y"])
+        for key in held:
+            self.page.keyboard.up(key)
+        self.actions += 1 + len(held)
+
+    # Looking
+
+    def button(self, name: str) -> Locator:
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def region(self, name: str) -> Locator:
+        return self.page.get_by_role("region", name=name, exact=True)
+
+    def sees(self, text: str) -> None:
+        """Wait until a text is seen."""
+        self.page.get_by_text(text).first.wait_for(state="visible")
+
+    def drawn(self, asset: str | None = None) -> None:
+        """Wait until an asset, or any, is drawn."""
+        self.page.wait_for_function(
+            "wanted => { const seen = document.querySelector('[data-testid=viewport]')?.dataset.ready;"
+            " return wanted ? seen === wanted : Boolean(seen); }",
+            arg=asset,
+        )
+
+    def selected(self, count: int) -> None:
+        """Wait until so many hulls are selected."""
+        self.page.wait_for_function(
+            "count => document.querySelector('[data-testid=viewport]')?.dataset.selected === String(count)", arg=count
+        )
+
+
+@contextmanager
+def chromium() -> Iterator[Browser]:
+    """A browser with rendering in software; tests skip where there is none, and fail in CI."""
+    if not CHROMIUM.exists():
+        if os.environ.get("CI"):
+            raise FileNotFoundError(f"there is no browser at {CHROMIUM}")
+        pytest.skip(f"there is no browser at {CHROMIUM}: install Debian's chromium, or set CHROMIUM")
+    with sync_playwright() as tool:
+        browser = tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+def hand(browser: Browser, width: int = 1440, height: int = 900) -> Hand:
+    """A person at a fresh window."""
+    return Hand(browser.new_context(viewport={"width": width, "height": height}).new_page())

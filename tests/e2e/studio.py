@@ -1,0 +1,167 @@
+"""The studio as another process, as a person starts it, and a page that talks to it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+import httpx
+from websockets.sync.client import ClientConnection, connect
+
+_RUN = "from meshforge.cli import main; main()"
+PATIENCE = 60.0
+"""Seconds that anything may take before a test gives up; nothing is measured by it."""
+
+
+@dataclass(frozen=True)
+class Studio:
+    """A running studio."""
+
+    process: subprocess.Popen[str]
+    base: str
+    token: str
+    client: httpx.Client
+
+    def get(self, path: str, **query: str | int) -> httpx.Response:
+        return self.client.get(path, params=query)
+
+    def post(self, path: str, body: Any = None, page: str | None = None) -> httpx.Response:
+        return self.client.post(path, json={} if body is None else body, headers={"X-Page": page} if page else {})
+
+    def put(self, path: str, content: bytes, /, **query: str) -> httpx.Response:
+        return self.client.put(path, params=query, content=content)
+
+    def edit(self, kind: str, page: str | None = None, **fields: Any) -> dict[str, Any]:
+        """Make an edit that succeeds."""
+        return ok(self.post("/api/edit", {"kind": kind, **fields}, page))
+
+    def steps(self, asset: str) -> dict[str, Any]:
+        """The fields of an edit of the steps of an asset, as they are now."""
+        view = ok(self.get("/api/asset", asset=asset))
+        steps = [{"select": step["select"], "action": step["action"]} for step in view["steps"]]
+        return {"asset": asset, "version": view["version"], "steps": steps}
+
+    @contextmanager
+    def page(self) -> Iterator[Page]:
+        """An open page."""
+        with connect(f"{self.base.replace('http', 'ws')}/ws?token={self.token}", max_size=None) as connection:
+            yield Page(connection)
+
+    def settled(self) -> dict[str, Any]:
+        """What a page is told on connecting, once the assets are read and the lesson is over."""
+        return self.until(
+            lambda hello: (
+                all(card["hulls"] is not None or card["error"] for card in hello["cards"]) and not hello["learning"]
+            )
+        )
+
+    def cards(self, holds: Callable[[dict[str, dict[str, Any]]], bool]) -> dict[str, dict[str, Any]]:
+        """The cards by asset, once a condition holds for them."""
+        hello = self.until(lambda hello: holds({card["asset"]: card for card in hello["cards"]}))
+        return {card["asset"]: card for card in hello["cards"]}
+
+    def until(self, holds: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """What a page is told on connecting, once a condition holds for it."""
+        until = time.monotonic() + PATIENCE
+        while True:
+            with self.page() as page:
+                hello = page.hello
+                if holds(hello):
+                    return hello
+                assert time.monotonic() < until, "the studio does not come to that"
+                page.until(lambda event: event["kind"] in ("cards", "lesson", "project"))
+
+
+@dataclass
+class Page:
+    """A page: all that it was told so far, in order."""
+
+    connection: ClientConnection
+    events: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def hello(self) -> dict[str, Any]:
+        if not self.events:
+            self._receive()
+        assert self.events[0]["kind"] == "hello"
+        return self.events[0]
+
+    def until(self, holds: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """The next event that a condition holds for."""
+        while True:
+            event = self._receive()
+            if event["kind"] != "hello" and holds(event):
+                return event
+
+    def kind(self, kind: str) -> dict[str, Any]:
+        """The next event of a kind."""
+        return self.until(lambda event: event["kind"] == kind)
+
+    def job(self, job: str) -> dict[str, Any]:
+        """A job when it is over."""
+        event = self.until(lambda e: e["kind"] == "job" and e["job"]["id"] == job and e["job"]["state"] != "running")
+        found: dict[str, Any] = event["job"]
+        return found
+
+    def _receive(self) -> dict[str, Any]:
+        event: dict[str, Any] = json.loads(self.connection.recv(timeout=PATIENCE))
+        self.events.append(event)
+        return event
+
+
+def ok(response: httpx.Response) -> dict[str, Any]:
+    """The body of an answer that is no error."""
+    assert response.status_code == 200, response.text
+    body: dict[str, Any] = response.json()
+    return body
+
+
+def start(folder: Path, project: Path, *words: str) -> Studio:
+    """Start a studio on a project, with a page that is built of nothing. folder: where that is kept."""
+    page = folder / "page"
+    page.mkdir(exist_ok=True)
+    (page / "index.html").write_text("<!doctype html><title>MeshForge</title>")
+    command = ["studio", str(project), "--no-browser", "--page", str(page), *words]
+    process = subprocess.Popen(
+        [sys.executable, "-c", _RUN, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout and process.stderr
+    line = process.stdout.readline()
+    assert line.startswith("Studio: http://127.0.0.1:"), line + process.stderr.read()
+    base, _, token = line.removeprefix("Studio: ").strip().partition("/?token=")
+    client = httpx.Client(base_url=base, headers={"Authorization": f"Bearer {token}"}, timeout=PATIENCE)
+    return Studio(process, base, token, client)
+
+
+@contextmanager
+def opened(folder: Path, project: Path, *words: str) -> Iterator[Studio]:
+    """A studio for a block; it comes to its end when it is asked to, and leaves no message behind."""
+    studio = start(folder, project, *words)
+    complaints: list[str] = []
+    assert studio.process.stderr
+    listener = Thread(target=lambda: complaints.extend(studio.process.stderr or ()))
+    listener.start()
+    try:
+        yield studio
+    finally:
+        studio.client.close()
+        if studio.process.poll() is None:
+            studio.process.send_signal(signal.SIGTERM)
+        try:
+            code = studio.process.wait(PATIENCE)
+        finally:
+            studio.process.kill()
+            listener.join()
+            for stream in (studio.process.stdout, studio.process.stderr):
+                stream.close() if stream else None
+    if code != -signal.SIGKILL:  # who is killed has no time to clean up after its processes
+        assert (code, complaints) == (0, [])

@@ -1,0 +1,239 @@
+"""Every change that a page can make: on disk at once, seen by all pages, undone to the byte."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.project import Project
+from meshforge.symbolic import Label
+from tests.e2e.studio import Studio, ok, opened
+from tests.loop.command import meshforge
+from tests.studio_project import demo_project
+from tests.unit.batch.families import tree
+
+FIRST, THIRD = "table_01.obj", "table_03.obj"
+Fields = Callable[[Studio], dict[str, Any]]
+
+
+def prepared_project(folder: Path) -> Project:
+    """The demonstrated tables with outputs, an answer, an edit by hand, and a hull without a label."""
+    project = demo_project(folder)
+    project.synthesize()
+    project.set_labels(THIRD, {"convex_05": None})
+    list(project.apply([FIRST, THIRD], workers=0))
+    return project
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
+    folder = tmp_path_factory.mktemp("edits")
+    with opened(folder, prepared_project(folder).folder) as found:
+        found.settled()
+        yield found
+
+
+def kept(studio: Studio) -> dict[str, bytes]:
+    """The files of the project when all is quiet; what the studio remembers for itself, and backups, aside."""
+    root = Path(studio.settled()["project"]["folder"])
+    files = tree(root)
+    return {name: data for name, data in files.items() if not name.startswith(".meshforge/") and "previous" not in name}
+
+
+def _step(studio: Studio) -> dict[str, Any]:
+    steps = studio.steps(THIRD)
+    return steps | {"steps": [{"select": ["convex_30"], "action": "Delete"}]}
+
+
+def _program(studio: Studio) -> dict[str, Any]:
+    version = studio.settled()["program"]["version"]
+    return {"text": "labels panel, leg, handle, drawer, misc\nIs(misc) => Delete\n", "version": version}
+
+
+EDITS: dict[str, Fields] = {
+    "label": lambda _: {"asset": FIRST, "hulls": ["convex_00", "convex_01"], "label": "drawer"},
+    "label-names": lambda _: {},
+    "label-files": lambda _: {},
+    "vocabulary": lambda _: {"labels": ["panel", "leg", "handle", "drawer", "misc", "knob"]},
+    "rename-label": lambda _: {"old": "leg", "new": "foot"},
+    "steps": _step,
+    "move-rule": lambda _: {"rule": 1, "to": 2},
+    "delete-rule": lambda _: {"rule": 5},
+    "orient": lambda _: {"text": ""},
+    "answer": lambda _: {"rule": 1, "asset": THIRD, "select": ["convex_30"]},
+    "repair": lambda _: {"asset": FIRST, "hull": "convex_00", "was": "panel", "to": "leg", "accept": True},
+    "program": _program,
+    "cut": lambda _: {"asset": FIRST, "hull": "convex_00", "at": [0, 0, 0], "across": [1, 0, 0]},
+    "review": lambda _: {"ids": [FIRST, THIRD], "verdict": "accepted", "note": "fine"},
+    "correct": lambda _: {"asset": THIRD, "select": ["convex_05"], "action": "Delete"},
+}
+"""One edit of each kind; those that need another before them have tests of their own."""
+
+
+@pytest.mark.parametrize("kind", EDITS)
+def test_an_edit_is_on_disk_and_undone_and_redone_to_the_byte(studio: Studio, kind: str) -> None:
+    before = kept(studio)
+    done = studio.edit(kind, **EDITS[kind](studio))
+    if kind == "label-names":  # no hull of the tables is called after what it is
+        assert done["nothing"]
+        return
+    assert not done["nothing"]
+    after = kept(studio)
+    assert after != before
+    assert ok(studio.post("/api/undo"))["said"] == done["said"]
+    assert kept(studio) == before
+    assert ok(studio.post("/api/redo"))["said"] == done["said"]
+    assert kept(studio) == after
+    ok(studio.post("/api/undo"))
+    assert kept(studio) == before
+
+
+FOLLOWING: dict[str, tuple[str, Fields]] = {
+    "unprepare": ("cut", lambda _: {"asset": FIRST}),
+    "drop-corrections": ("correct", lambda _: {"asset": THIRD}),
+    "take-back": ("answer", lambda _: {"id": f"1:{THIRD}"}),
+}
+
+
+@pytest.mark.parametrize("kind", FOLLOWING)
+def test_an_edit_that_takes_another_back_is_undone_as_well(studio: Studio, kind: str) -> None:
+    first, fields = FOLLOWING[kind]
+    begin = kept(studio)
+    studio.edit(first, **EDITS[first](studio))
+    before = kept(studio)
+    studio.edit(kind, **fields(studio))
+    assert kept(studio) == begin
+    ok(studio.post("/api/undo"))
+    assert kept(studio) == before
+    ok(studio.post("/api/undo"))
+    assert kept(studio) == begin
+
+
+def test_nothing_to_undo_is_no_error(studio: Studio) -> None:
+    assert ok(studio.post("/api/undo")) == {"said": "there is nothing to undo", "nothing": True}
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "about"),
+    [
+        ("label", {"asset": FIRST, "hulls": ["convex_00"], "label": "knob"}, "not in the vocabulary"),
+        ("label", {"asset": FIRST, "hulls": ["nothing"], "label": "leg"}, "there is no hull"),
+        ("label", {"asset": "no.obj", "hulls": ["a"], "label": "leg"}, "there is no asset"),
+        ("orient", {"text": "+Z: Is("}, "does not parse"),
+        ("program", {"text": "Is(", "version": ""}, "changed elsewhere"),
+        ("cut", {"asset": FIRST, "hull": "convex_00", "at": [99, 0, 0], "across": [1, 0, 0]}, "convex_00"),
+        ("review", {"ids": ["table_02.obj"], "verdict": "accepted"}, "no output"),
+        ("review", {"ids": [FIRST], "verdict": "splendid"}, "verdict"),
+        ("dance", {}, "dance"),
+    ],
+)
+def test_a_wrong_edit_is_one_message_and_writes_nothing(
+    studio: Studio, kind: str, fields: dict[str, Any], about: str
+) -> None:
+    before = kept(studio)
+    answer = studio.post("/api/edit", {"kind": kind, **fields})
+    assert answer.status_code in (400, 404, 409)
+    assert about in str(answer.json())
+    assert kept(studio) == before
+
+
+def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
+    studio.settled()
+    with studio.page() as one, studio.page() as two:
+        assert one.hello == two.hello
+        studio.edit("label", page="one", asset=FIRST, hulls=["convex_00"], label="leg")
+        for page in (one, two):
+            event = page.kind("history")
+            assert (event["did"], event["by"]) == ("edit", "one")
+            assert event["said"] == f"1 hull of {FIRST} labelled leg"
+            assert page.kind("assets")["assets"] == [FIRST]
+            (card,) = page.kind("cards")["cards"]
+            assert card["labels"][0] == 1
+            page.until(lambda e: e["kind"] == "lesson" and not e["learning"])
+        ok(studio.post("/api/undo", page="two"))
+        for page in (one, two):
+            assert page.kind("history")["by"] == "two"
+            page.until(lambda e: e["kind"] == "cards" and e["cards"][0]["labels"][0] == 0)
+        ending = [[e for e in page.events if e["kind"] in ("history", "assets", "project")] for page in (one, two)]
+        assert ending[0] == ending[1]
+
+
+def test_steps_that_were_changed_elsewhere_are_a_conflict_and_stay(studio: Studio) -> None:
+    stale = studio.steps(THIRD)
+    studio.edit("steps", **_step(studio))
+    before = kept(studio)
+    answer = studio.post("/api/edit", {"kind": "steps", **stale})
+    assert answer.status_code == 409
+    assert answer.json()["conflict"]
+    assert kept(studio) == before
+    ok(studio.post("/api/undo"))
+
+
+def test_the_program_is_learned_again_after_each_step_and_shown(studio: Studio) -> None:
+    before = studio.settled()["program"]["text"]
+    with studio.page() as page:
+        assert page.hello["program"]["text"] == before
+        studio.edit("delete-rule", rule=5)
+        lesson = page.until(lambda e: e["kind"] == "lesson" and not e["learning"])["lesson"]
+        assert len(lesson["rules"]) == 4
+        assert page.kind("program")["program"]["text"] == lesson["program"]
+        assert all(len(row["rules"]) == 4 for row in page.kind("reach")["reach"])
+    ok(studio.post("/api/undo"))
+    assert studio.settled()["program"]["text"] == before
+
+
+def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Studio) -> None:
+    learned = studio.settled()["program"]["text"]
+    studio.edit("program", **_program(studio))
+    by_hand = studio.settled()["program"]
+    assert by_hand["by_hand"] and len(by_hand["rules"]) == 1
+    studio.edit("label", asset=FIRST, hulls=["convex_00"], label=None)
+    assert studio.settled()["program"] == by_hand
+    ok(studio.post("/api/undo"))
+    with studio.page() as page:
+        assert page.hello["program"]["by_hand"]
+        ok(studio.post("/api/learn"))
+        page.until(lambda e: e["kind"] == "program" and e["program"]["text"] == learned)
+    assert not studio.settled()["program"]["by_hand"]
+    ok(studio.post("/api/undo"))
+    assert studio.settled()["program"]["text"] == by_hand["text"]
+    ok(studio.post("/api/undo"))
+    assert studio.settled()["program"]["text"] == learned
+
+
+def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path: Path) -> None:
+    folder = Path(studio.settled()["project"]["folder"])
+    with studio.page() as page:
+        assert page.hello
+        project = Project.open(folder)
+        project.set_labels(FIRST, {"convex_00": "misc"}, source="user")
+        assert FIRST in page.kind("assets")["assets"]
+        page.until(lambda e: e["kind"] == "cards" and e["cards"][0]["labels"][0] == 4)
+        project.set_labels(FIRST, {"convex_00": None})
+        file = project.labels(FIRST).labels
+        assert "convex_00" not in file
+        page.until(lambda e: e["kind"] == "cards" and e["cards"][0]["labels"][0] == -1)
+    assert meshforge("status", folder, cwd=tmp_path).out
+    project.set_labels(FIRST, {"convex_00": "panel"}, source="file")
+    assert project.labels(FIRST).labels["convex_00"] == Label("panel", 1.0, "file")
+
+
+def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> None:
+    project = demo_project(tmp_path, demonstrated=False)
+    labels = project.layout.labels(FIRST).read_bytes()
+    with opened(tmp_path, project.folder) as studio:
+        studio.edit("label", asset=FIRST, hulls=["convex_00"], label="leg")
+        studio.edit("label", asset=FIRST, hulls=["convex_01"], label="leg")
+        studio.process.send_signal(signal.SIGKILL)
+        studio.process.wait()
+    assert project.labels(FIRST).labels["convex_01"].name == "leg"
+    with opened(tmp_path, project.folder) as studio:
+        hello = studio.settled()
+        assert hello["history"]["undoable"] == 2
+        for _ in range(2):
+            assert not ok(studio.post("/api/undo"))["nothing"]
+        assert project.layout.labels(FIRST).read_bytes() == labels

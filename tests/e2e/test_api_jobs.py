@@ -1,0 +1,135 @@
+"""Long work, as a page begins, watches and stops it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.formats import load
+from tests.e2e.studio import Studio, ok, opened
+from tests.studio_project import demo_project
+from tests.unit.batch.families import tree
+
+FIRST, THIRD = "table_01.obj", "table_03.obj"
+ROOM = """\
+v 0 0 0
+v 4 0 0
+v 4 4 0
+v 0 4 0
+v 0 0 3
+v 4 0 3
+v 2 2 1
+f 1 2 7
+f 2 3 7
+f 3 4 7
+f 4 1 7
+f 1 5 2
+f 2 5 6
+"""
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[Studio]:
+    """The demonstrated tables, learned; exports may go to `given`."""
+    project = demo_project(tmp_path)
+    with opened(tmp_path, project.folder, "--export", str(tmp_path / "given")) as found:
+        found.settled()
+        yield found
+
+
+def home(studio: Studio) -> Path:
+    return Path(studio.settled()["project"]["folder"])
+
+
+def run(studio: Studio, **request: Any) -> dict[str, Any]:
+    """Begin a job and wait for its end."""
+    with studio.page() as page:
+        assert page.hello
+        return page.job(ok(studio.post("/api/jobs", request))["id"])
+
+
+def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
+    job = run(studio, kind="apply", assets=[FIRST, THIRD])
+    assert (job["state"], job["done"], job["total"]) == ("done", 2, 2)
+    assert {line["status"] for line in job["lines"]} == {"edited"}
+    cards = studio.cards(lambda cards: cards[FIRST]["output"] == cards[THIRD]["output"] == "edited")
+    assert cards["table_02.obj"]["output"] == "none"
+    picture = studio.get("/api/thumbnail", asset=FIRST, of="output", v=cards[FIRST]["edited_picture"])
+    assert picture.content.startswith(b"\x89PNG")
+    assert studio.get("/api/result", asset=FIRST, of="output").status_code == 200
+    studio.edit("review", ids=[THIRD], verdict="accepted")
+    studio.cards(lambda cards: cards[THIRD]["review"] == "accepted")
+    job = run(studio, kind="export", folder="out/first")
+    assert job["message"] == "1 asset exported."
+    exported = home(studio) / "out" / "first"
+    assert job["out"] == str(exported)
+    outputs = tree(home(studio) / "edited")
+    own = {name: data for name, data in tree(exported).items() if not name.startswith(".")}
+    assert own and own == {name: outputs[name] for name in own}
+    assert load(exported / THIRD).hulls
+    assert run(studio, kind="export", folder="out/first", accepted_only=False)["message"] == "2 assets exported."
+    assert (exported / FIRST).is_file()
+    assert run(studio, kind="export", folder="out/first")["message"] == "1 asset exported."
+    assert not (exported / FIRST).exists()
+
+
+def test_exports_go_where_they_may_and_harm_nobody(studio: Studio, tmp_path: Path) -> None:
+    run(studio, kind="apply", assets=[FIRST])
+    studio.cards(lambda cards: cards[FIRST]["output"] == "edited")
+    given = tmp_path / "given"
+    request = {"kind": "export", "accepted_only": False}
+    for folder in ("..", str(tmp_path / "elsewhere"), ".", "edited", "labels/x", ".meshforge/x", "../assets"):
+        answer = studio.post("/api/jobs", request | {"folder": folder})
+        assert answer.status_code == 400, folder
+    (home(studio) / "link").symlink_to(tmp_path / "assets")
+    assert studio.post("/api/jobs", request | {"folder": "link"}).status_code == 400
+    assert run(studio, **request, folder=str(given))["state"] == "done"
+    assert load(given / FIRST).hulls
+    (home(studio) / "mine").mkdir()
+    (home(studio) / "mine" / "thesis.txt").write_text("do not lose me")
+    refused = studio.post("/api/jobs", request | {"folder": "mine"})
+    assert "holds something else" in refused.json()["message"]
+    (given / "table_03.obj").write_text("mine")
+    run(studio, kind="apply", assets=[THIRD])
+    job = run(studio, **request, folder=str(given))
+    assert [line["status"] for line in job["lines"]] == ["failed", "done"] + ["skipped"] * 12
+    assert (given / "table_03.obj").read_text() == "mine"
+
+
+def test_a_job_that_is_cancelled_stops_and_leaves_whole_outputs(studio: Studio) -> None:
+    with studio.page() as page:
+        assert page.hello
+        job = ok(studio.post("/api/jobs", {"kind": "apply"}))["id"]
+        assert studio.post("/api/jobs", {"kind": "apply"}).status_code == 400
+        page.until(lambda e: e["kind"] == "job" and (e["job"]["done"] or e["job"]["state"] != "running"))
+        cancelled = studio.post("/api/jobs/cancel", {"id": job})
+        if cancelled.status_code == 200:
+            assert page.job(job)["state"] in ("cancelled", "done")
+    assert studio.post("/api/jobs/cancel", {"id": job}).status_code == 404
+    names = {name for name in tree(home(studio) / "edited") if name.endswith(".obj")}
+    studio.cards(lambda cards: names == {asset for asset, card in cards.items() if card["output"] == "edited"})
+    assert all(load(home(studio) / "edited" / name).hulls for name in names)
+    assert run(studio, kind="apply")["state"] == "done"
+
+
+def test_what_was_decomposed_is_undone_with_one_step(studio: Studio, tmp_path: Path) -> None:
+    for name in ("room_a.obj", "room_b.obj"):
+        studio.put("/api/assets", ROOM.encode(), path=name)
+    added = ok(studio.post("/api/assets"))["names"]
+    assert added == ["added/room_a.obj", "added/room_b.obj"]
+    studio.cards(lambda cards: [cards[name]["hulls"] for name in added] == [0, 0])
+    before = tree(home(studio) / "prepared")
+    job = run(studio, kind="decompose", assets=added, method="vhacd")
+    assert job["state"] == "done", job
+    assert {line["status"] for line in job["lines"]} == {"done"}
+    studio.cards(lambda cards: all(cards[name]["hulls"] and cards[name]["prepared"] for name in added))
+    ok(studio.post("/api/undo"))
+    assert tree(home(studio) / "prepared") == before
+    ok(studio.post("/api/undo"))
+    assert not [card for card in studio.settled()["cards"] if card["asset"].startswith("added/")]
+    assert not (tmp_path / "assets" / "added").exists()
+    ok(studio.post("/api/redo"))
+    assert (tmp_path / "assets" / "added" / "room_b.obj").read_text() == ROOM

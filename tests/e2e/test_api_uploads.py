@@ -1,0 +1,100 @@
+"""Files that a page sends: taken if they are right, thrown away with a message if not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from meshforge.samples import TABLES
+from tests.e2e.studio import Studio, ok, opened
+from tests.studio_project import demo_project
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("uploads")
+
+
+@pytest.fixture(scope="module")
+def studio(folder: Path) -> Iterator[Studio]:
+    with opened(folder, demo_project(folder, demonstrated=False).folder) as found:
+        found.settled()
+        yield found
+
+
+def test_assets_that_are_dropped_belong_to_the_project(studio: Studio, folder: Path) -> None:
+    source = (TABLES / "table_01.obj").read_bytes()
+    assert ok(studio.put("/api/assets", source, path="new/table_99.obj"))["names"] == ["new/table_99.obj"]
+    assert not (folder / "assets" / "added").exists()
+    with studio.page() as page:
+        assert page.hello
+        assert ok(studio.post("/api/assets"))["names"] == ["added/new/table_99.obj"]
+        page.until(lambda e: e["kind"] == "cards" and e["cards"] and e["cards"][0]["asset"] == "added/new/table_99.obj")
+    assert len(studio.settled()["cards"]) == 15
+    assert ok(studio.get("/api/asset", asset="added/new/table_99.obj"))["hulls"]
+    studio.put("/api/assets", source, path="new/table_99.obj")
+    again = studio.post("/api/assets")
+    assert again.status_code == 400 and "that name already" in again.json()["message"]
+    ok(studio.post("/api/undo"))
+    assert len(studio.settled()["cards"]) == 14
+
+
+def test_a_path_that_leads_elsewhere_is_refused(studio: Studio, folder: Path) -> None:
+    before = sorted(folder.rglob("*.obj"))
+    for path in ("/tmp/x.obj", "../x.obj", "a/../../x.obj"):
+        answer = studio.put("/api/assets", b"v 0 0 0", path=path)
+        assert answer.status_code == 400 and answer.json()["remedy"]
+    assert sorted(folder.rglob("*.obj")) == before
+
+
+BAD: dict[str, Callable[[Studio], object]] = {
+    "no asset": lambda s: s.put("/api/assets", b"hello", path="readme.txt"),
+    "damaged": lambda s: s.put("/api/assets", b"v 0 0 zero\nf 1 1 1\n", path="bad.obj"),
+    "parts missing": lambda s: s.put(
+        "/api/assets",
+        b"<robot name='r'><link name='a'><collision><geometry><mesh filename='gone.stl'/></geometry></collision>"
+        b"</link></robot>",
+        path="r.urdf",
+    ),
+    "parts elsewhere": lambda s: s.put(
+        "/api/assets",
+        b"<robot name='r'><link name='a'><collision><geometry><mesh filename='../../../../../assets/table_01.obj'/>"
+        b"</geometry></collision></link></robot>",
+        path="r.urdf",
+    ),
+    "nothing": lambda s: None,
+}
+
+
+@pytest.mark.parametrize("what", BAD)
+def test_uploads_that_cannot_be_read_are_thrown_away_with_a_message(studio: Studio, what: str, folder: Path) -> None:
+    BAD[what](studio)
+    answer = studio.post("/api/assets")
+    assert answer.status_code == 400, answer.text
+    assert answer.json()["message"] and answer.json()["remedy"]
+    assert str(folder) not in answer.json()["message"]
+    assert not (folder / "assets" / "added").exists()
+    assert not (folder / "project" / ".meshforge" / "studio" / "uploads").exists()
+    assert len(studio.settled()["cards"]) == 14
+
+
+def test_uploads_that_are_too_large_are_refused(studio: Studio) -> None:
+    answer = studio.put("/api/templates", bytes(20 * 2**20 + 1), name="big.obj")
+    assert answer.status_code == 413
+    assert "20 MB" in answer.json()["message"]
+    answer = studio.client.post("/api/edit", content=bytes(16 * 2**20 + 1))
+    assert answer.status_code == 413
+
+
+def test_a_template_is_taken_if_it_can_be_one(studio: Studio) -> None:
+    before = studio.settled()["project"]["templates"]
+    box = next((TABLES / "templates").iterdir()).read_bytes()
+    assert ok(studio.put("/api/templates", box, name="tray.obj"))["names"] == ["tray.obj"]
+    studio.until(lambda hello: "tray.obj" in hello["project"]["templates"])
+    for name, content in (("bad.obj", b"v 0 0 0"), ("../x.obj", box), ("x.exe", box)):
+        answer = studio.put("/api/templates", content, name=name)
+        assert answer.status_code == 400 and answer.json()["remedy"], name
+    ok(studio.post("/api/undo"))
+    studio.until(lambda hello: hello["project"]["templates"] == before)

@@ -1,0 +1,114 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import ProjectError
+from meshforge.project import Labelled, Project
+from meshforge.project.naming import words_of
+from meshforge.symbolic import Label
+from tests.unit.batch.families import Corner, obj, tree, write_table
+
+BOX: tuple[Corner, Corner] = ((0, 0, 0), (1, 1, 1))
+URDF = '<robot name="r">{links}</robot>'
+LINK = '<link name="{link}">{parts}</link>'
+PART = '<collision name="{name}"><geometry><box size="1 1 1"/></geometry></collision>'
+
+
+def named(folder: Path, *vocabulary: str, **bodies: tuple[str, ...]) -> Project:
+    """A project of one robot of some bodies with collisions of some names."""
+    links = "".join(
+        LINK.format(link=link, parts="".join(PART.format(name=name) for name in names))
+        for link, names in bodies.items()
+    )
+    joints = "".join(
+        f'<joint name="j{k}" type="fixed"><parent link="{next(iter(bodies))}"/><child link="{link}"/></joint>'
+        for k, link in enumerate(list(bodies)[1:])
+    )
+    (folder / "assets").mkdir(parents=True)
+    (folder / "assets/robot.urdf").write_text(URDF.format(links=links + joints))
+    return Project.create(folder / "p", [folder / "assets"], vocabulary=vocabulary)
+
+
+def found(project: Project) -> dict[str, str]:
+    return project.labels_in_names().get("robot.urdf", {})
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("leftDoor_2", ("left", "door")),
+        ("left-door", ("left", "door")),
+        ("URDFLink12b", ("urdf", "link", "b")),
+        ("DRAWER", ("drawer",)),
+        ("großeTür", ("grosse", "tür")),
+        ("geom0", ("geom",)),
+        ("12", ()),
+    ],
+)
+def test_a_name_is_split_at_all_but_letters_and_at_capitals(name: str, words: tuple[str, ...]) -> None:
+    assert words_of(name) == words
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("handle", "handle"),
+        ("Handles_03", "handle"),
+        ("boxes", "box"),
+        ("leftShelfBoard", "shelf board"),
+        ("shelf_2_boards", "shelf board"),
+        ("board_of_shelf", None),
+        ("handlebar", None),
+        ("drawer_front", "drawer front"),
+        ("drawer_handle", None),  # as long as each other
+        ("drawer_box", "drawer"),
+        ("geom7", None),
+    ],
+)
+def test_a_hull_is_labelled_by_whole_words_of_its_name(tmp_path: Path, name: str, label: str | None) -> None:
+    words = ("handle", "box", "shelf board", "drawer", "drawer front")
+    assert found(named(tmp_path, *words, base=(name,))) == ({f"base/{name}": label} if label else {})
+
+
+def test_the_body_counts_where_the_own_name_says_nothing(tmp_path: Path) -> None:
+    project = named(tmp_path, "door", "knob", base=("a",), left_door=("panel", "knobs", "door_knob"))
+    assert found(project) == {"left_door/panel": "door", "left_door/knobs": "knob"}
+
+
+def test_the_body_of_a_format_without_bodies_says_nothing(tmp_path: Path) -> None:
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "assets/cup.obj").write_text(obj({"wall": BOX, "other": BOX}))
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["body", "wall"])
+    assert project.labels_in_names() == {"cup.obj": {"wall": "wall"}}
+
+
+def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
+    project = named(tmp_path, "door", "leg", base=("door1", "door2", "thing"))
+    project.set_labels("robot.urdf", {"base/door1": "leg"})
+    before = tree(project.folder)
+    assert found(project) == {"base/door2": "door"}
+    assert tree(project.folder) == before
+    assert project.label_from_names() == (Labelled("robot.urdf", taken=1, unlabelled=1),)
+    labels = project.labels("robot.urdf").labels
+    assert labels == {"base/door1": Label("leg"), "base/door2": Label("door", 0.7, "name")}
+    assert project.label_from_names() == (Labelled("robot.urdf", unlabelled=1),)
+
+
+def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        write_table(tmp_path / f"assets/{name}.obj", labels=False)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["crumb"])
+    (tmp_path / "assets/a.obj").write_text("nothing of use")
+    assert project.labels_in_names() == {"b.obj": {"crumb": "crumb"}}
+    bad, good = project.label_from_names()
+    assert bad.asset == "a.obj" and "a.obj" in bad.problems[0]
+    assert good.taken == 1
+
+
+def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
+    project = named(tmp_path, base=("door",))
+    assert project.labels_in_names() == {}
+    with pytest.raises(ProjectError, match="the vocabulary is empty"):
+        project.label_from_names()

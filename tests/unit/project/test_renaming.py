@@ -1,0 +1,166 @@
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import MeshForgeError, ProjectError
+from meshforge.language import Delete, Merge, Program
+from meshforge.project import Project
+from meshforge.synthesis import Answer, Correction, Step
+from tests.unit.batch.families import tree
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, labelled, learned
+
+
+def saying(folder: Path) -> Project:
+    """A project that says `leg` wherever a label can be said."""
+    project = learned(folder)
+    project.demonstrate(FIRST, [Step(1, {"crumb"}, Delete()), Step(2, LEGS, Merge(), "leg")])
+    project.set_orientation("+Z: Is(leg) -> Is(top)")
+    text = "labels top, leg, misc\n\n# the legs\nDiff(Attach(Is(leg), Is(top)), Geo(Is(leg), +Z)) => Merge as leg\n"
+    project.accept(Program.parse(text))
+    project.correct(SECOND, ["top"], Merge(), "leg")
+    project.add_answer(Answer(2, THIRD, LEGS))
+    project.confirm(Correction(FIRST, "crumb", "misc", "leg"))
+    project.reject(Correction(SECOND, "top", "top", "leg"))
+    return project
+
+
+def says(project: Project) -> str:
+    """All that a project keeps, as text, without its own notes, the program before, and drafts of killed writers."""
+    aside = (".meshforge/", "program.previous.mf")
+    files = {name: data for name, data in tree(project.folder).items() if not name.startswith(aside)}
+    return "".join(data.decode() for name, data in files.items() if not name.endswith(".tmp"))
+
+
+def test_a_label_is_renamed_wherever_the_project_says_it_and_nothing_else_changes(tmp_path: Path) -> None:
+    project = saying(tmp_path)
+    before = says(project)
+    project.rename_label("leg", "foot")
+    assert before.count("leg") > 20
+    renamed = before.replace("leg", "foot")
+    for remark in ("# the legs", 'for example "+Z: Is(leg)'):
+        renamed = renamed.replace(remark.replace("leg", "foot"), remark)
+    assert says(project) == renamed
+
+
+def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
+    project = saying(tmp_path)
+    project.rename_label("leg", "foot")
+    assert project.vocabulary == ("top", "foot", "misc")
+    assert str(project.orientation and project.orientation.pairs[0].start) == "Is(label='foot')"
+    assert {hull.label for hull in project.mesh(THIRD).hulls} == {"top", "foot", "misc"}
+    assert [step.label for step in project.steps(FIRST)] == [None, "foot"]
+    assert [edit.label for edit in project.corrections(SECOND)] == ["foot"]
+    said = project.answers()
+    assert said.answers[0].action == "Merge as foot"
+    assert said.ids == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
+    assert project.take_back(f"{FIRST}#crumb=foot") is None
+    assert project.mesh(FIRST).named("crumb").label == "misc"
+    program = project.program()
+    assert program and program.labels == ("top", "foot", "misc")
+    assert str(program.rules[0]) == "Diff(Attach(Is(foot), Is(top)), Geo(Is(foot), +Z)) => Merge as foot"
+    assert "# the legs" in str(program)
+
+
+def test_a_learned_program_stands_as_it_stood(tmp_path: Path) -> None:
+    project = learned(tmp_path / "a")
+    project.rename_label("leg", "foot")
+    assert not project.standing().by_hand and not project.standing().outdated
+    project.set_labels(FIRST, {"crumb": "foot"})
+    project.rename_label("foot", "leg")
+    assert project.standing().outdated and not project.standing().by_hand
+    by_hand = saying(tmp_path / "b")
+    by_hand.rename_label("leg", "foot")
+    assert by_hand.standing().by_hand
+
+
+def test_what_is_learned_after_a_renaming_is_the_renamed_program(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    project.rename_label("leg", "foot")
+    renamed = str(project.program())
+    project.synthesize()
+    assert str(project.program()) == renamed
+
+
+def test_files_that_do_not_say_the_label_are_left_alone(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    project.set_vocabulary(["top", "leg", "misc", "wheel"])
+    before = tree(project.folder)
+    project.rename_label("wheel", "castor")
+    after = tree(project.folder)
+    changed = {name for name in before | after if before.get(name) != after.get(name)}
+    assert changed == {"meshforge.toml"}
+
+
+def test_remarks_in_the_settings_stay(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    before = toml.read_text()
+    project.rename_label("leg", "foot")
+    assert toml.read_text() == before.replace('"leg"', '"foot"')
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("legs", "foot", "there is no label 'legs'(.|\n)*Did you mean 'leg'"),
+        ("leg", "top", "there is a label 'top' already"),
+        ("leg", "leg", "there is a label 'leg' already"),
+        ("leg", "", "no program could write"),
+        ("leg", "a\nb", "no program could write"),
+    ],
+)
+def test_what_cannot_be_renamed_is_refused_with_nothing_changed(
+    tmp_path: Path, old: str, new: str, message: str
+) -> None:
+    project = demonstrated(tmp_path)
+    before = tree(project.folder)
+    with pytest.raises(ProjectError, match=message):
+        project.rename_label(old, new)
+    assert tree(project.folder) == before
+
+
+@pytest.mark.parametrize("name", ["Is", "as", "labels", 'say "leg"', "Füße 2", "back\\slash", "#1"])
+def test_any_name_that_a_program_can_quote_will_do(tmp_path: Path, name: str) -> None:
+    project = saying(tmp_path)
+    project.rename_label("leg", name)
+    program = project.program()
+    assert program and name in program.used_labels
+    assert [step.label for step in project.steps(FIRST)] == [None, name]
+
+
+@pytest.mark.parametrize("damaged", [f"labels/{SECOND}.json", f"demonstrations/{SECOND}.json", "program.mf"])
+def test_a_damaged_file_stops_it_before_anything_is_written(tmp_path: Path, damaged: str) -> None:
+    project = applied(tmp_path)
+    (project.folder / damaged).write_text("{nonsense")
+    before = tree(project.folder)
+    with pytest.raises(MeshForgeError, match=Path(damaged).name):
+        project.rename_label("leg", "foot")
+    assert tree(project.folder) == before
+
+
+@needs_fork
+def test_a_killed_renaming_leaves_a_readable_project_and_is_completed_by_another(tmp_path: Path) -> None:
+    project, before = saying(tmp_path), tmp_path / "before"
+    shutil.copytree(project.folder, before)
+    project.rename_label("leg", "foot")
+    after = says(project)
+
+    def again() -> None:
+        shutil.rmtree(project.folder)
+        shutil.copytree(before, project.folder)
+        project.rename_label("leg", "foot")
+
+    died = 0
+    for _ in deaths(again):
+        assert project.vocabulary == ("top", "leg", "misc")
+        assert len(project.demonstrations()) == 2 and project.program() and project.corrections(SECOND)
+        assert project.status(workers=0).problem is None
+        assert says(project) != after
+        project.rename_label("leg", "foot")
+        assert says(project) == after
+        died += 1
+    assert died == len({name for name, data in tree(before).items() if tree(project.folder).get(name) != data})

@@ -1,0 +1,52 @@
+"""The language as the page gets it, against the language itself."""
+
+from __future__ import annotations
+
+import pytest
+
+from meshforge.language import ACTIONS, OPERATORS, parse_action, parse_extractor
+from meshforge.studio.language_view import language_view
+from meshforge.studio.wire.language import ActionForm
+
+VIEW = language_view()
+VALUES = {"file": '"part.obj"', "factor": "2"}
+
+
+def written(form: ActionForm, required: bool) -> str:
+    """An action filled into its form, with the first choice everywhere."""
+    given = [VALUES.get(a.kind) or a.choices[0] for a in form.arguments if a.required or not required]
+    return f"{form.name}({', '.join(given)})" if given else form.name
+
+
+def test_every_action_but_each_has_a_form() -> None:
+    assert [form.name for form in VIEW.actions] == [name for name in ACTIONS if name != "Each"]
+
+
+@pytest.mark.parametrize("form", VIEW.actions, ids=lambda form: form.name)
+def test_a_form_makes_text_that_parses(form: ActionForm) -> None:
+    action = parse_action(written(form, required=True))
+    assert type(action).__name__ == form.name
+    assert action.makes_hulls == form.makes
+    assert form.summary.endswith(".")
+    assert form.usage.startswith(form.name)
+
+
+def test_a_form_with_everything_filled_in_parses_where_its_words_go_together() -> None:
+    texts = {form.name: written(form, required=False) for form in VIEW.actions}
+    assert texts["Add"] == 'Add(+X, "part.obj", keep)'
+    assert texts["Replace"] == "Replace(box, tight)"
+    for text in texts.values():
+        parse_action(text)
+
+
+def test_every_operator_is_told_with_its_operands() -> None:
+    assert [operator.name for operator in VIEW.operators] == list(OPERATORS)
+    usage = {operator.name: operator.usage for operator in VIEW.operators}
+    assert usage["All"] == "All"
+    assert usage["Is"] == "Is(label)"
+    for text in usage.values():
+        operands = text.replace("label", "leg").replace("direction", "+X").replace("extractor", "All")
+        for name in ("selected", "anchor", "base", "left", "right"):
+            operands = operands.replace(name, "All")
+        parse_extractor(operands)
+    assert all(operator.summary for operator in VIEW.operators)

@@ -1,0 +1,294 @@
+"""The process that learns: what it gives, that it stops when told to, and that its death is one message."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+
+from meshforge.errors import MeshForgeError, ProgramError
+from meshforge.language import Program, parse_action, parse_extractor, select
+from meshforge.project import Project
+from meshforge.samples import TABLES
+from meshforge.studio.learner import Learner, Superseded
+from meshforge.studio.learner.bell import Bell
+from meshforge.studio.learner.line import Line
+from meshforge.studio.learner.reach import Origins
+from meshforge.studio.learner.shelf import LIFE, Shelf, Stopped
+from meshforge.studio.workers import Workers
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Step
+from tests.studio_project import demo_project
+
+BUNDLED = (TABLES / "tables.mf").read_text()
+OTHER = "table_02.obj"
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    return demo_project(tmp_path_factory.mktemp("tables"))
+
+
+@pytest.fixture(scope="module")
+def learner(project: Project) -> Iterator[Learner]:
+    made = Learner(project.folder)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def fresh(tmp_path: Path) -> Iterator[tuple[Project, Learner]]:
+    project = demo_project(tmp_path)
+    learner = Learner(project.folder)
+    yield project, learner
+    learner.close()
+
+
+def rules_of(text: str | None) -> list[str]:
+    return [str(rule) for rule in Program.parse(text or "").rules]
+
+
+def go_on() -> bool:
+    return False
+
+
+def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
+    lesson = learner.learn(7, take=False).result()
+    assert (lesson.number, lesson.status, lesson.error) == (7, "found", None)
+    assert rules_of(lesson.program) == rules_of(BUNDLED)
+    assert lesson.rules[0].sentence == "The misc hulls are deleted."
+    counts = {rule.rule: rule.readings for rule in lesson.rules}
+    assert counts == {rule: sum(r.rule == rule for r in lesson.readings) for rule in counts}
+    kept = project.program()
+    assert kept
+    assert str(kept) == lesson.program
+
+
+def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: Learner) -> None:
+    rows = learner.reach(1, BUNDLED).result()
+    assert [row.asset for row in rows] == list(project.assets())
+    program = Program.parse(BUNDLED)
+    templates = project.templates(program.templates)
+    for row in rows:
+        mesh = project.mesh(row.asset)
+        run = program.run(mesh, templates)
+        assert (row.before, row.after, row.error) == (len(mesh.hulls), len(run.mesh.hulls), None)
+        for own, line in zip(row.rules, run.trace, strict=True):
+            assert [mesh.hulls[k].name for k in own] == list(line.selected)
+
+
+def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project, learner: Learner) -> None:
+    text = "Is(leg) => Each(Merge) as post\nIs(post) => Scale(all, 2) as post\nIs(post) => Delete\n"
+    (row,) = (row for row in learner.reach(1, text).result() if row.asset == OTHER)
+    legs = tuple(k for k, hull in enumerate(project.mesh(OTHER).hulls) if hull.label == "leg")
+    assert row.rules == (legs, legs, legs)
+
+
+def test_a_hull_made_of_made_hulls_has_all_their_origins() -> None:
+    mesh = SymbolicMesh(())
+    origins = Origins(mesh)
+    origins._own.update({"a": frozenset({0}), "b": frozenset({1}), "c": frozenset({2})})
+    origins.add(["a~1"], [["a", "b"]])
+    origins.add(["a~2"], [["a~1", "c"]])
+    assert origins.of(["a~2"]) == (0, 1, 2)
+
+
+def test_an_asset_on_which_the_program_fails_says_why(fresh: tuple[Project, Learner]) -> None:
+    project, learner = fresh
+    mesh = project.mesh(OTHER)
+    project.set_labels(OTHER, {hull.name: None for hull in mesh.hulls if hull.label == "leg"})
+    (row,) = (row for row in learner.reach(1, BUNDLED).result() if row.asset == OTHER)
+    assert row.error
+    assert "the landmark Is(leg) selects nothing" in row.error
+
+
+def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Project, learner: Learner) -> None:
+    found = learner.generalise("Geo(All, +Z)", 3, BUNDLED).result().assets
+    assert list(found) == list(project.assets())
+    program, extractor = Program.parse(BUNDLED), parse_extractor("Geo(All, +Z)")
+    before = Program(program.labels, program.orient, program.rules[:2])
+    for asset, own in found.items():
+        mesh, met = project.mesh(asset), project.met(asset, 3, program)
+        made = {n: s for line in before.run(mesh).trace for n, s in zip(line.made, line.sources, strict=True)}
+        names = [name for k in select(extractor, met) for name in made.get(met.hulls[k].name, (met.hulls[k].name,))]
+        assert own == tuple(sorted(mesh.index[name] for name in names))
+
+
+def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(project: Project, learner: Learner) -> None:
+    found = learner.generalise("Is(leg)", 1, None).result().assets
+    for asset, own in found.items():
+        assert own == tuple(k for k, hull in enumerate(project.mesh(asset).hulls) if hull.label == "leg")
+
+
+def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
+    with pytest.raises(ProgramError, match="expected a label"):
+        learner.generalise("Is(", 1, None).result()
+
+
+def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Project, Learner]) -> None:
+    project, learner = fresh
+    learner.learn(1, take=False).result()
+    project.set_labels("table_03.obj", {"convex_00": "leg"})
+    lesson = learner.learn(2, take=False).result()
+    assert lesson.status == "repair"
+    assert [repair.id for repair in lesson.repairs] == ["table_03.obj#convex_00=panel"]
+    project.set_labels("table_03.obj", {"convex_00": "panel"})
+    project.demonstrate("table_03.obj", project.steps("table_03.obj")[:1])
+    project.demonstrate("table_08.obj", project.steps("table_08.obj")[:1])
+    assert rules_of(learner.learn(3, take=False).result().program) == rules_of(BUNDLED)[:1]
+
+
+def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: tuple[Project, Learner]) -> None:
+    project, learner = fresh
+    project.accept(Program.parse("Is(leg) => Delete\n"))
+    lesson = learner.learn(1, take=False).result()
+    assert rules_of(lesson.program) == rules_of(BUNDLED)
+    assert project.layout.program.read_text() != lesson.program
+    learner.learn(2, take=True).result()
+    assert project.layout.program.read_text() == lesson.program
+
+
+def test_a_lesson_that_cannot_be_has_its_message(tmp_path: Path) -> None:
+    project = demo_project(tmp_path, demonstrated=False)
+    learner = Learner(project.folder)
+    try:
+        lesson = learner.learn(1, take=False).result()
+        assert lesson.status == "error"
+        assert "nothing is demonstrated yet" in (lesson.error or "")
+        project.demonstrate(
+            OTHER, [Step(1, {"convex_00"}, parse_action("Delete")), Step(2, set(), parse_action("Merge"))]
+        )
+        assert "rule 2 selects no hull" in (learner.learn(2, take=False).result().error or "")
+    finally:
+        learner.close()
+
+
+def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
+    _, learner = fresh
+    lesson = learner.learn(1, take=False)
+    learner.interrupt()
+    assert lesson.result().status == "timeout"
+    assert learner.learn(2, take=False).result().status == "found"
+
+
+def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
+    _, learner = fresh
+    lessons = [learner.learn(number, take=False) for number in range(20)]
+    reaches = [learner.reach(number, BUNDLED) for number in range(20)]
+    assert lessons[-1].result().status == "found"
+    assert reaches[-1].result()
+    for lesson in lessons[1:-1]:
+        assert isinstance(lesson.exception(), Superseded)
+    assert lessons[0].result().status == "timeout"
+    assert all(isinstance(reach.exception(), Superseded) for reach in reaches[:-1])
+
+
+def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one() -> None:
+    workers = Workers(1)
+    line = Line(workers)
+    try:
+        died: Future[int] = line.put("lesson", os._exit, 3)
+        waiting: Future[int] = line.put("reach", abs, -4)
+        error = died.exception()
+        assert isinstance(error, MeshForgeError)
+        assert "died" in str(error)
+        assert waiting.result() == 4
+        assert line.put("lesson", abs, -5).result() == 5
+    finally:
+        line.close()
+        workers.close()
+
+
+def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, Learner]) -> None:
+    _, learner = fresh
+    died: Future[int] = learner._line.put("generalise", os._exit, 3)
+    assert isinstance(died.exception(), MeshForgeError)
+    assert learner.learn(1, take=False).result().status == "found"
+
+
+def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
+    workers = Workers(1)
+    line = Line(workers)
+    try:
+        first: Future[int] = line.put("lesson", abs, -1)
+        second: Future[int] = line.put("reach", abs, -2)
+        second.cancel()
+        third: Future[int] = line.put("generalise", abs, -3)
+        assert (first.result(), third.result()) == (1, 3)
+    finally:
+        line.close()
+        workers.close()
+
+
+def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
+    bell = Bell()
+    try:
+        lesson, reach = bell.ticket("lesson"), bell.ticket("reach")
+        assert not lesson.stop()
+        bell.ring("lesson")
+        assert lesson.stop()
+        assert not reach.stop()
+        assert not bell.ticket("lesson").stop()
+    finally:
+        bell.close()
+    assert not bell.path.exists()
+
+
+def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
+    project, shelf = demo_project(tmp_path), Shelf()
+    before = dict(shelf.meshes(project, project.assets(), go_on))
+    project.set_labels(OTHER, {"convex_00": "misc"})
+    project.cut("table_03.obj", "convex_00", before["table_03.obj"].hulls[0].shape.centroid.tolist(), (1, 0, 0))
+    project.path("table_04.obj").write_text("nonsense\n")
+    after = dict(shelf.meshes(project, project.assets(), go_on))
+    assert after["table_01.obj"] is before["table_01.obj"]
+    assert after[OTHER].named("convex_00").label == "misc"
+    assert after[OTHER].hulls[1].shape is before[OTHER].hulls[1].shape
+    assert len(after["table_03.obj"].hulls) == len(before["table_03.obj"].hulls) + 1
+    assert set(before) - set(after) == {"table_04.obj"}
+    with pytest.raises(Stopped):
+        list(shelf.meshes(project, project.assets(), lambda: True))
+
+
+def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
+    project, shelf = demo_project(tmp_path), Shelf()
+    before = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+    known = dict(before.graph)
+    for _ in range(LIFE):
+        shelf.grow_older()
+    after = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+    assert after is not before
+    assert after.hulls == before.hulls
+    assert dict(after.graph) == known
+
+
+def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner]) -> None:
+    project, learner = fresh
+    project.demonstrate("table_03.obj", [])
+    lesson = learner.learn(1, take=False).result()
+    assert lesson.status == "ambiguous"
+    assert lesson.question
+    asked, program = lesson.question, Program.parse(lesson.program or "")
+    met = project.met(asked.asset, asked.rule, program)
+    for choice in asked.choices:
+        found = select(parse_extractor(choice.extractor), met)
+        assert [met.hulls[k].name for k in sorted(found)] == list(choice.select)
+        assert choice.sentence
+    assert {choice.reading for choice in asked.choices} <= {reading.id for reading in lesson.readings}
+
+
+def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Project, Learner]) -> None:
+    project, learner = fresh
+    project.demonstrate("table_08.obj", [])
+    odd = {"convex_00", "convex_07", "convex_12", "convex_24", "convex_31"}
+    project.demonstrate("table_03.obj", [Step(1, odd, parse_action("Delete"))])
+    lesson = learner.learn(1, take=False).result()
+    assert (lesson.status, lesson.program) == ("none", None)
+    assert lesson.why
+    assert lesson.nearest
+    mesh = project.met("table_03.obj", 1, Program(orient=project.orientation))
+    chosen = {mesh.hulls[k].name for k in select(parse_extractor(lesson.nearest.extractor), mesh)}
+    assert (chosen - odd, odd - chosen) == (set(lesson.nearest.extra), set(lesson.nearest.missing))

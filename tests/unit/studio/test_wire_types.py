@@ -1,0 +1,9 @@
+"""The page's types are those of the server's messages."""
+
+from __future__ import annotations
+
+from script.wire import TARGET, generated
+
+
+def test_the_types_of_the_page_are_made_from_the_messages_as_they_are() -> None:
+    assert TARGET.read_text(encoding="utf-8") == generated(), "run script/make-wire"

@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+import asyncio
+import json
+
+from meshforge.studio.hub import Hub, Page
+from meshforge.studio.shown import Shown
+from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView
+
+PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=Next(stage="label", say="Label."))
+
+
+def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
+    async def told() -> list[str]:
+        shown = Shown(Hub(), PROJECT, HistoryView(), "1", tour=False)
+        shown.set_assets(["a", "b"])
+        page = Page(asyncio.get_running_loop())
+        shown.join(page)
+        shown.set_cards([Card(asset="a"), Card(asset="b", hulls=1)])
+        shown.set_project(PROJECT)
+        shown.set_assets(["b", "c"])
+        await asyncio.sleep(0)
+        return [await page.events.get() or "" for _ in range(page.events.qsize())]
+
+    hello, cards, assets = map(json.loads, asyncio.run(told()))
+    assert [card["asset"] for card in hello["cards"]] == ["a", "b"]
+    assert [(card["asset"], card["hulls"]) for card in cards["cards"]] == [("b", 1)]
+    assert [card["asset"] for card in assets["cards"]] == ["c"] and assets["gone"] == ["a"]
+
+
+def test_a_page_that_left_is_told_nothing() -> None:
+    async def told() -> int:
+        hub = Hub()
+        page = Page(asyncio.get_running_loop())
+        hub.join(page, PROJECT)
+        hub.leave(page)
+        hub.tell(PROJECT)
+        await asyncio.sleep(0)
+        return page.events.qsize()
+
+    assert asyncio.run(told()) == 1

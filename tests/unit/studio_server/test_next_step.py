@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+from meshforge.studio.next_step import next_step
+from meshforge.studio.wire.family import Card
+from meshforge.studio.wire.lesson import LessonView, QuestionView, RepairView
+
+BARE = Card(asset="a", hulls=2, labels=(-1, -1))
+LABELLED = Card(asset="a", hulls=2, labels=(0, -1))
+SHOWN = LABELLED.model_copy(update={"demonstrated": True})
+DONE = SHOWN.model_copy(update={"output": "edited"})
+FOUND = LessonView(number=1, status="found", program="labels leg\nIs(leg) => Delete\n")
+ASKING = FOUND.model_copy(
+    update={"question": QuestionView(id="1:b", rule=1, asset="b", choices=(), harm=0.5, left=0.5)}
+)
+REPAIR = RepairView(id="c#h=leg", rule=1, asset="c", hull="h", was=None, to="leg", belief=0.9, why="it looks like one")
+
+
+def stage(
+    card: Card, *, words: tuple[str, ...] = ("leg",), program: bool = False, lesson: LessonView | None = None
+) -> str:
+    return next_step([card], words, program, lesson, None).stage
+
+
+def test_the_stages_follow_one_another() -> None:
+    assert stage(Card(asset="a", hulls=0, sources=1)) == "label"
+    assert stage(BARE, words=()) == "label"
+    assert stage(BARE) == "label"
+    assert stage(LABELLED) == "demonstrate"
+    assert stage(SHOWN, lesson=FOUND) == "learn"
+    assert stage(SHOWN, program=True, lesson=FOUND) == "review"
+    assert stage(DONE, program=True, lesson=FOUND) == "review"
+
+
+def test_the_step_names_the_asset_to_go_to() -> None:
+    assert next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None).asset == "b"
+    assert next_step([SHOWN], ("leg",), True, ASKING, None).asset == "b"
+    repairing = ASKING.model_copy(update={"repairs": (REPAIR,)})
+    assert next_step([SHOWN], ("leg",), True, repairing, None).asset == "c"
+    flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
+    assert next_step([DONE, flagged], ("leg",), True, FOUND, None).asset == "d"
+    assert next_step([DONE], ("leg",), True, FOUND, None).asset == "a"
+
+
+def test_at_the_end_there_is_only_the_export() -> None:
+    accepted = DONE.model_copy(update={"review": "accepted"})
+    assert "export" in next_step([accepted], ("leg",), True, FOUND, None).say
+
+
+def test_a_lesson_without_a_program_says_why() -> None:
+    failed = LessonView(number=1, status="none", why="rule 2 has no extractor")
+    assert next_step([SHOWN], ("leg",), False, failed, None).say == "rule 2 has no extractor"

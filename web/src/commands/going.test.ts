@@ -1,0 +1,99 @@
+// Commands that go somewhere.
+import { beforeEach, expect, test, vi } from "vitest";
+import { initialDesk, useDesk } from "../store/desk";
+import { initialLayout, useLayout } from "../store/layout";
+import { emptyProject, useProject } from "../store/project";
+import type { Card } from "../wire";
+import { commandFor } from "./all";
+import { going } from "./going";
+
+vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn() }));
+
+const plain: Card = {
+  asset: "a",
+  hulls: 1,
+  labels: [0],
+  unsure: [],
+  demonstrated: false,
+  output: "none",
+  after: null,
+  stale: [],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 0,
+  sources: 0,
+  prepared: [],
+  picture: null,
+  edited_picture: null,
+};
+const run = (key: string) => commandFor(key, going)?.run();
+const asset = () => useDesk.getState().asset;
+
+beforeEach(() => {
+  const cards = [plain, { ...plain, asset: "b", unsure: [0] }, { ...plain, asset: "c" }];
+  useProject.setState({ ...emptyProject, cards: Object.fromEntries(cards.map((card) => [card.asset, card])), order: ["a", "b", "c"] });
+  useDesk.setState({ ...initialDesk, asset: "a" });
+  useLayout.setState(initialLayout);
+});
+
+test("Tab and Shift+Tab walk through the assets that are shown", () => {
+  run("Tab");
+  expect(asset()).toBe("b");
+  run("Shift+Tab");
+  run("Shift+Tab");
+  expect(asset()).toBe("c");
+  useDesk.setState({ asset: "a", filters: { ...initialDesk.filters, search: "c" } });
+  run("Tab");
+  expect(asset()).toBe("c");
+});
+
+test("N goes to the next asset that wants to be looked at, where no stage has a queue of its own", () => {
+  expect(commandFor("N", going)).toBeUndefined();
+  useDesk.setState({ stage: "learn" });
+  run("N");
+  expect(asset()).toBe("b");
+  expect(commandFor("N", going)).toBeUndefined();
+});
+
+test("Alt and a digit go to a stage", () => {
+  run("Alt+3");
+  expect(useDesk.getState().stage).toBe("learn");
+});
+
+test("what is next is one key away", () => {
+  useProject.setState((state) => ({ project: { ...state.project, next: { stage: "review", say: "Look.", asset: "c" } } }));
+  run("Alt+Enter");
+  expect([useDesk.getState().stage, asset()]).toEqual(["review", "c"]);
+});
+
+test("undo is there only if there is something to undo", () => {
+  expect(commandFor("Ctrl+Z", going)).toBeUndefined();
+  useProject.setState({ history: { undo: "Delete", redo: null, undoable: 1, redoable: 0 } });
+  expect(commandFor("Ctrl+Z", going)?.id).toBe("undo");
+  expect(commandFor("Ctrl+Y", going)).toBeUndefined();
+});
+
+test("the same key opens and closes help", () => {
+  run("?");
+  expect(useDesk.getState().overlay).toBe("help");
+  run("?");
+  expect(useDesk.getState().overlay).toBe("none");
+});
+
+test("themes come round", () => {
+  const theme = going.find((command) => command.id === "theme");
+  const seen = [0, 1, 2].map(() => {
+    theme?.run();
+    return useDesk.getState().theme;
+  });
+  expect(seen).toEqual(["light", "dark", "system"]);
+});
+
+test("Q lets the family fill the centre and gives it back", () => {
+  run("Q");
+  expect(useLayout.getState().gallery).toBe(true);
+  run("Q");
+  expect(useLayout.getState().gallery).toBe(false);
+});

@@ -1,0 +1,66 @@
+// Commands that label: the digits, the brush, and the queue of hulls whose label is not sure.
+import { setBrush, useDesk } from "../store/desk";
+import { applyLabel, confirmLabels, goToUnsure } from "../store/labelling";
+import { useProject } from "../store/project";
+import { useScenes } from "../store/scenes";
+import { isUnsure } from "../store/unsure";
+import type { Command } from "./command";
+
+export { paint } from "../store/labelling";
+
+const isLabelling = (): boolean => useDesk.getState().stage === "label";
+const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
+
+const digits: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit) => ({
+  id: `label-${digit}`,
+  title: `Label ${digit}: give it to the selection, or paint with it`,
+  group: "Label",
+  keys: [String(digit)],
+  enabled: () => isLabelling() && labelAt(digit - 1) !== undefined,
+  run: () => applyLabel(labelAt(digit - 1) ?? null),
+}));
+
+/** Whether a hull is selected whose label is not sure. */
+function isDoubtful(): boolean {
+  const { asset, selection } = useDesk.getState();
+  const { scene } = useScenes.getState();
+  if (asset === null || scene?.asset !== asset) return false;
+  const card = useProject.getState().cards[asset];
+  return [...selection].some((name) => isUnsure(card, scene.view.hulls, name));
+}
+
+export const labelling: readonly Command[] = [
+  ...digits,
+  {
+    id: "label-none",
+    title: "No label: take it from the selection, or paint it away",
+    group: "Label",
+    keys: ["0"],
+    enabled: isLabelling,
+    run: () => applyLabel(null),
+  },
+  {
+    id: "label-right",
+    title: "The labels of the selection are right; next unsure hull",
+    group: "Label",
+    keys: ["Enter"],
+    enabled: () => isLabelling() && isDoubtful(),
+    run: () => void confirmLabels(),
+  },
+  {
+    id: "label-next-unsure",
+    title: "Next unsure hull",
+    group: "Label",
+    keys: ["N"],
+    enabled: () => isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0),
+    run: () => void goToUnsure(),
+  },
+  {
+    id: "label-brush-down",
+    title: "Put the brush down",
+    group: "Label",
+    keys: ["Escape"],
+    enabled: () => useDesk.getState().brush !== null,
+    run: () => setBrush(null),
+  },
+];

@@ -1,0 +1,118 @@
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import { api } from "../server/api";
+import { initialDesk, useDesk } from "../store/desk";
+import { emptyProject, useProject } from "../store/project";
+import { useToasts } from "../store/toasts";
+import type { AnyEdit, Card, EditedHeader } from "../wire";
+import { accept, acceptLegal, nextToReview, notApplicable, reviewing } from "./reviewing";
+
+const card = (asset: string, more: Partial<Card> = {}): Card => ({
+  asset,
+  hulls: 4,
+  labels: [],
+  unsure: [],
+  demonstrated: false,
+  output: "edited",
+  after: 2,
+  stale: [],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 0,
+  sources: 0,
+  prepared: [],
+  picture: null,
+  edited_picture: asset,
+  ...more,
+});
+
+let edits: AnyEdit[] = [];
+beforeEach(() => {
+  edits = [];
+  vi.spyOn(api, "edit").mockImplementation((edit) => {
+    edits.push(edit);
+    return Promise.resolve({ said: "" });
+  });
+  useDesk.setState({ ...initialDesk, stage: "review" });
+  useToasts.setState({ toasts: [] });
+});
+
+function family(...cards: Card[]): void {
+  const rows = Object.fromEntries(cards.map((one) => [one.asset, one]));
+  const program = { ...emptyProject.program, text: "All => Merge" };
+  useProject.setState({ ...emptyProject, cards: rows, order: cards.map((one) => one.asset), program });
+}
+
+const command = (id: string) => reviewing.find((one) => one.id === id);
+
+describe("accepting", () => {
+  it("goes on to the next that wants a look", async () => {
+    family(card("a"), card("b", { review: "accepted" }), card("c"));
+    useDesk.setState({ asset: "a" });
+    await accept("a");
+    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted" }]);
+    expect(useDesk.getState().asset).toBe("c");
+  });
+
+  it("stays with the last one", async () => {
+    family(card("a"), card("b", { review: "accepted" }));
+    useDesk.setState({ asset: "a" });
+    await accept("a");
+    expect(useDesk.getState().asset).toBe("a");
+  });
+
+  it("takes all at once that are legal, and tells of those that are not", async () => {
+    family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "flagged" }));
+    vi.spyOn(api, "result").mockImplementation((asset) => {
+      const findings = asset === "b" ? [{ severity: "error", text: "not convex", hull: null }] : [];
+      return Promise.resolve({ header: { findings } as unknown as EditedHeader, rows: [], shapes: [] });
+    });
+    const steps: string[] = [];
+    await acceptLegal((done, total) => steps.push(`${done}/${total}`));
+    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted" }]);
+    expect(useToasts.getState().toasts[0]?.text).toMatch(/^1 not accepted/);
+    expect(steps.at(-1)).toBe("2/2");
+  });
+});
+
+describe("keys of the review stage", () => {
+  it("accept nothing where there is no output", () => {
+    family(card("a", { output: "failed" }));
+    useDesk.setState({ asset: "a" });
+    expect(command("accept")?.enabled?.()).toBe(false);
+  });
+
+  it("flag, and take a flag back", () => {
+    family(card("a"), card("b", { review: "flagged" }));
+    useDesk.setState({ asset: "b" });
+    command("flag")?.run();
+    useDesk.setState({ asset: "a" });
+    command("flag")?.run();
+    return vi.waitFor(() => expect(edits.map((edit) => "verdict" in edit && edit.verdict)).toEqual([null, "flagged"]));
+  });
+
+  it("say so when nothing wants a look any more", () => {
+    family(card("a", { review: "accepted" }));
+    nextToReview();
+    expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing wants a look/);
+  });
+});
+
+describe("why the program cannot be applied", () => {
+  it("is told", () => {
+    family();
+    expect(notApplicable()).toMatch(/no assets/);
+    family(card("a"));
+    expect(notApplicable()).toBeNull();
+    useProject.setState({ program: emptyProject.program });
+    expect(notApplicable()).toMatch(/no program yet/);
+  });
+
+  it("is that it is being applied", () => {
+    family(card("a"));
+    const job = { id: "1", kind: "apply", title: "", done: 0, total: 1, state: "running", message: "", lines: [], out: null } as const;
+    useProject.setState({ jobs: [{ ...job, lines: [] }] });
+    expect(notApplicable()).toBe("It is being applied now.");
+  });
+});

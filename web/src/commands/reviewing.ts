@@ -1,0 +1,165 @@
+// What a person does with results: apply, accept, flag, correct, export, and go to the next that wants a look.
+import { api } from "../server/api";
+import { openAsset, openStage, useDesk, visit } from "../store/desk";
+import { startDraft } from "../store/drafting";
+import { perform } from "../store/edits";
+import { useProject } from "../store/project";
+import { acceptable, after, reviewQueue } from "../store/reviews";
+import { complainedOf, told } from "../store/toasts";
+import { verdict } from "../store/verdicts";
+import type { Card, JobRequest } from "../wire";
+import type { Command } from "./command";
+
+/** All cards in the family's order. */
+export function cardsInOrder(): Card[] {
+  const { order, cards } = useProject.getState();
+  return order.flatMap((asset) => cards[asset] ?? []);
+}
+
+/** Why the program cannot be applied, null where it can. */
+export function notApplicable(): string | null {
+  const { program, project, order, jobs } = useProject.getState();
+  if (!order.length) return "There are no assets yet.";
+  if (program.error) return `The program cannot be read: ${program.error}`;
+  if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
+  if (project.problem) return project.problem;
+  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
+}
+
+async function start(request: JobRequest): Promise<boolean> {
+  try {
+    await api.startJob(request);
+    return true;
+  } catch (error) {
+    complainedOf(error);
+    return false;
+  }
+}
+
+/** Applies the program to all assets, or to some. */
+export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
+  start({ kind: "apply", assets: assets && [...assets] });
+
+export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
+  start({ kind: "export", folder, accepted_only });
+
+export function cancelJob(id: string): void {
+  api.cancelJob(id).catch(complainedOf);
+}
+
+/** Accepts an output and goes on to the next that wants a look. */
+export async function accept(asset: string): Promise<void> {
+  const next = nextOf(asset);
+  const done = await perform({ kind: "review", ids: [asset], verdict: "accepted" });
+  if (done && next && useDesk.getState().asset === asset) openAsset(next);
+}
+
+export const flag = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "flagged", note });
+
+/** Keeps a note with a flag that is there. */
+export const noteFlag = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "flagged", note }, { quiet: true });
+
+export const takeBackReview = (asset: string): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: null });
+
+/** Accepts all outputs that nobody reviewed, that are up to date, without flags, and legal; tells how many are not. */
+export async function acceptLegal(progress: (done: number, total: number) => void): Promise<void> {
+  const { cards } = useProject.getState();
+  const open = acceptable(cardsInOrder()).flatMap((asset) => cards[asset] ?? []);
+  let done = 0;
+  progress(0, open.length);
+  const verdicts = open.map(async (card) => {
+    const found = await verdict(card);
+    progress(++done, open.length);
+    return found === "illegal" ? [] : [card.asset];
+  });
+  try {
+    const ids = (await Promise.all(verdicts)).flat();
+    const left = open.length - ids.length;
+    if (ids.length) await perform({ kind: "review", ids, verdict: "accepted" });
+    if (left) told(`${left} not accepted: the check of legality has something against ${left === 1 ? "it" : "them"}`);
+  } catch (error) {
+    complainedOf(error);
+  }
+}
+
+/** Shows what the program and the edits by hand make of an asset now, which is what a next edit by hand is about. */
+export function showPresent(asset: string): void {
+  const { showing, selection } = useDesk.getState();
+  visit(asset, { kind: "result", of: "program" }, showing.kind === "result" ? selection : []);
+}
+
+/** Takes an action into the hand to mend the result of an asset. */
+export function beginCorrection(asset: string): void {
+  showPresent(asset);
+  void startDraft("Delete");
+}
+
+export const correct = (asset: string, select: readonly string[], action: string): Promise<boolean> =>
+  perform({ kind: "correct", asset, select: [...select], action });
+
+export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-corrections", asset });
+
+function nextOf(asset: string | null): string | null {
+  return after(reviewQueue(cardsInOrder()), useProject.getState().order, asset);
+}
+
+/** Opens the next asset that failed, is flagged, or was not reviewed yet. */
+export function nextToReview(): void {
+  const next = nextOf(useDesk.getState().asset);
+  if (next) openAsset(next);
+  else told("Nothing wants a look: every output is reviewed.");
+}
+
+/** The card of the open asset, if it has an output that can be reviewed. */
+function reviewable(): Card | null {
+  const { asset, stage } = useDesk.getState();
+  const card = useProject.getState().cards[asset ?? ""];
+  return stage === "review" && card && (card.output === "edited" || card.output === "unchanged") ? card : null;
+}
+
+export const reviewing: readonly Command[] = [
+  {
+    id: "accept",
+    title: "Accept the result, go to the next",
+    group: "Review",
+    keys: ["Y"],
+    enabled: () => reviewable() !== null,
+    run: () => {
+      const card = reviewable();
+      if (card) void accept(card.asset);
+    },
+  },
+  {
+    id: "flag",
+    title: "Flag the result, or take the flag back",
+    group: "Review",
+    keys: ["F"],
+    enabled: () => reviewable() !== null,
+    run: () => {
+      const card = reviewable();
+      if (card) void (card.review === "flagged" ? takeBackReview(card.asset) : flag(card.asset, card.note));
+    },
+  },
+  {
+    id: "apply",
+    title: "Apply the program to all assets",
+    group: "Review",
+    keys: [],
+    enabled: () => notApplicable() === null,
+    run: () => {
+      openStage("review");
+      void applyTo(null);
+    },
+  },
+  {
+    id: "next-to-review",
+    title: "Next result that wants a look",
+    group: "Review",
+    keys: ["N"],
+    enabled: () => useDesk.getState().stage === "review",
+    run: nextToReview,
+  },
+];

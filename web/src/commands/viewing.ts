@@ -1,0 +1,74 @@
+// Commands that look: from standard sides, at all or at the selection, in another manner, with a tool.
+import { lookFrom, setTool, setView, type StandardView, type Tool, useDesk, type ViewSettings } from "../store/desk";
+import { useScenes } from "../store/scenes";
+import type { Command } from "./command";
+
+const isHere = (): boolean => useScenes.getState().scene !== null;
+const isNotLabelling = (): boolean => isHere() && useDesk.getState().stage !== "label";
+
+const SIDES: readonly { side: StandardView; digit: 1 | 3 | 7; opposite: StandardView }[] = [
+  { side: "front", digit: 1, opposite: "back" },
+  { side: "right", digit: 3, opposite: "left" },
+  { side: "top", digit: 7, opposite: "bottom" },
+];
+
+const sides: readonly Command[] = SIDES.flatMap(({ side, digit, opposite }): Command[] => [
+  look(side, [`Numpad${digit}`], isHere),
+  look(opposite, [`Ctrl+Numpad${digit}`], isHere),
+  { ...look(side, [String(digit)], isNotLabelling), id: `view-${side}-digit`, title: `View from the ${side}, by digit` },
+]);
+
+function look(side: StandardView, keys: readonly string[], enabled: () => boolean): Command {
+  const title = `View from the ${side}`;
+  return { id: `view-${side}`, title, group: "View", keys, enabled, run: () => lookFrom(side) };
+}
+
+type Switch = "ghost" | "wireframe" | "contacts" | "grid" | "opaque";
+
+function toggle(what: Switch, title: string, keys: readonly string[]): Command {
+  const flip = (view: ViewSettings): Partial<ViewSettings> => ({ [what]: !view[what] });
+  return { id: `toggle-${what}`, title, group: "View", keys, run: () => setView(flip(useDesk.getState().view)) };
+}
+
+function tool(name: Tool, title: string, keys: readonly string[]): Command {
+  const run = () => setTool(useDesk.getState().tool === name ? "select" : name);
+  return { id: `tool-${name}`, title, group: "Select", keys, enabled: isHere, run };
+}
+
+/** Whether there is an edited asset in sight to compare with the asset as it comes. */
+export const canCompare = (): boolean => useScenes.getState().scene?.edit != null;
+
+function compare(how: "slider" | "side", title: string): Command {
+  const run = () => setView({ compare: useDesk.getState().view.compare === how ? "off" : how });
+  return { id: `compare-${how}`, title, group: "View", keys: [], enabled: canCompare, run };
+}
+
+function switchProjection(): void {
+  const { projection } = useDesk.getState().view;
+  setView({ projection: projection === "perspective" ? "orthographic" : "perspective" });
+}
+
+export const viewing: readonly Command[] = [
+  tool("box", "Select by a box", ["B"]),
+  tool("lasso", "Select by a lasso", ["L"]),
+  {
+    id: "tool-leave",
+    title: "Put the tool down",
+    group: "Select",
+    keys: ["Escape"],
+    enabled: () => useDesk.getState().tool !== "select",
+    run: () => setTool("select"),
+  },
+  ...sides,
+  look("iso", ["Numpad0"], isHere),
+  { id: "fit", title: "Fit all into the view", group: "View", keys: ["Home"], enabled: isHere, run: () => lookFrom("fit") },
+  { id: "frame", title: "Frame the selection", group: "View", keys: [".", "NumpadDecimal"], enabled: isHere, run: () => lookFrom("frame") },
+  { id: "projection", title: "Perspective or parallel projection", group: "View", keys: ["O"], run: switchProjection },
+  toggle("wireframe", "Wireframe", ["Z"]),
+  toggle("ghost", "Visual mesh as a ghost", ["V"]),
+  toggle("contacts", "Contact graph", ["C"]),
+  toggle("opaque", "Opaque pieces", []),
+  toggle("grid", "Grid and axes", []),
+  compare("slider", "Compare before and after by a line"),
+  compare("side", "Compare before and after side by side"),
+];

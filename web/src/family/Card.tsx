@@ -1,0 +1,104 @@
+// One asset: its picture, name, number of hulls, and how it stands.
+import { memo, useState } from "react";
+import { Thumbnail } from "../pictures/Thumbnail";
+import { openAsset, useDesk } from "../store/desk";
+import { setLayout } from "../store/layout";
+import { useProject } from "../store/project";
+import type { Card as CardData } from "../wire";
+import { Badges } from "./Badges";
+import css from "./card.module.css";
+import { MakeHulls } from "./NeedHulls";
+import { hulls, middle, spoken } from "./words";
+
+interface CardProps {
+  asset: string;
+  width: number;
+  place: number;
+  of: number;
+  large: boolean;
+}
+
+/** The id of a card's element, by which the list says which one is current. */
+export const cardId = (asset: string): string => `card ${asset}`.replace(/\s/g, "_");
+
+export const Card = memo(function Card({ asset, width, place, of, large }: CardProps) {
+  const card = useProject((state) => state.cards[asset]);
+  const current = useDesk((desk) => desk.asset === asset);
+  if (!card) return null;
+  return (
+    <div
+      id={cardId(asset)}
+      role="option"
+      aria-selected={current}
+      aria-label={spoken(card)}
+      aria-posinset={place + 1}
+      aria-setsize={of}
+      data-asset={asset}
+      className={css.card}
+      data-state={card.error === null ? "fine" : "broken"}
+      style={{ width }}
+      title={asset}
+      onClick={() => openAsset(asset)}
+      onDoubleClick={() => setLayout({ gallery: false })}
+    >
+      {card.error === null ? <Face card={card} large={large} /> : <Broken error={card.error} />}
+      <div className={css.foot}>
+        <span className={css.name}>{middle(asset, Math.floor((width - 16) / 6.3))}</span>
+        <span className={css.line}>
+          <Amount card={card} />
+          <Badges card={card} />
+        </span>
+      </div>
+    </div>
+  );
+});
+
+/** Why an asset cannot be read; the folder, which all assets share, is told by the tooltip only. */
+function Broken({ error }: { error: string }) {
+  return (
+    <p className={css.error} title={error}>
+      {error.replace(/^\S*[/\\](?=\S+:)/, "")}
+    </p>
+  );
+}
+
+/** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
+function Face({ card, large }: { card: CardData; large: boolean }) {
+  const [over, setOver] = useState(false);
+  const results = useDesk((desk) => desk.stage === "review" && desk.highlight === null);
+  const marked = useDesk((desk) => (desk.highlight ? (desk.highlight.assets[card.asset] ?? NONE) : undefined));
+  const edited = results && card.edited_picture !== null && card.output !== "failed";
+  const showing = edited && !(large && over) ? "output" : "source";
+  if (card.hulls === null) return <div className={css.skeleton} aria-hidden />;
+  if (card.hulls === 0 && card.sources > 0 && card.picture === null) {
+    return (
+      <div className={css.bare}>
+        <MakeHulls asset={card.asset} />
+      </div>
+    );
+  }
+  return (
+    <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
+      <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
+      {marked && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
+      {card.hulls === 0 && card.sources > 0 && (
+        <span className={css.over}>
+          <MakeHulls asset={card.asset} />
+        </span>
+      )}
+      {large && edited && <span className={css.which}>{showing === "output" ? "after" : "before"}</span>}
+    </div>
+  );
+}
+
+const NONE: readonly number[] = [];
+
+function Amount({ card }: { card: CardData }) {
+  if (card.hulls === null) return <span className={css.amount}>{card.error === null ? "reading…" : "unreadable"}</span>;
+  if (card.after === null || card.output === "none") return <span className={css.amount}>{hulls(card.hulls)}</span>;
+  return (
+    <span className={css.amount}>
+      {card.hulls} → {card.after}
+    </span>
+  );
+}

@@ -1,0 +1,81 @@
+// What to show of the family: words to find, how it should stand, in which order.
+import { ArrowDownUp, Search, X } from "lucide-react";
+import { type Filters as FiltersState, setFilters, useDesk } from "../store/desk";
+import { counted, FILTERS } from "../store/family";
+import { useProject } from "../store/project";
+import { IconButton } from "../ui/Button";
+import { Menu } from "../ui/Menu";
+import { ICONS } from "./Badges";
+import css from "./family.module.css";
+
+const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
+  name: "By name",
+  hulls: "Most hulls first",
+  unlabelled: "Most without a label first",
+  unsure: "Most unsure labels first",
+  changed: "Most changed first",
+};
+
+export function Filters() {
+  return (
+    <div className={css.filters}>
+      <SearchField />
+      <Chips />
+    </div>
+  );
+}
+
+function SearchField() {
+  const { search, sort } = useDesk((desk) => desk.filters);
+  return (
+    <div className={css.search}>
+      <Search size={14} aria-hidden />
+      <input
+        type="search"
+        placeholder="Find by name or label"
+        aria-label="Find assets by name or label"
+        value={search}
+        onChange={(event) => setFilters({ search: event.target.value })}
+        onKeyDown={(event) => event.key === "Escape" && (search ? setFilters({ search: "" }) : event.currentTarget.blur())}
+      />
+      {search && <IconButton icon={X} name="Clear" onClick={() => setFilters({ search: "" })} />}
+      <Menu
+        trigger={<IconButton icon={ArrowDownUp} name={`Order: ${SORTS[sort].toLowerCase()}`} />}
+        lines={Object.entries(SORTS).map(([value, label]) => ({
+          label: value === sort ? `✓ ${label}` : label,
+          onSelect: () => setFilters({ sort: value as FiltersState["sort"] }),
+        }))}
+      />
+    </div>
+  );
+}
+
+/** A chip for each way to stand that some asset has; several together show any of them. */
+function Chips() {
+  const only = useDesk((desk) => desk.filters.only);
+  const counts = counted(useProject((state) => state.cards));
+  const there = FILTERS.filter((name) => counts[name] > 0 || only.includes(name));
+  if (there.length === 0) return null;
+  return (
+    <div className={css.chips} role="group" aria-label="Show only">
+      {there.map((name) => {
+        const Icon = ICONS[name];
+        const on = only.includes(name);
+        return (
+          <button
+            key={name}
+            type="button"
+            className={css.chip}
+            aria-pressed={on}
+            data-badge={name}
+            title={on ? `No longer only ${name}` : `Show only ${name}`}
+            onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
+          >
+            <Icon size={12} aria-hidden />
+            {name} <b>{counts[name]}</b>
+          </button>
+        );
+      })}
+    </div>
+  );
+}

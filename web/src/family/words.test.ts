@@ -1,0 +1,52 @@
+// Words on cards.
+import { expect, test } from "vitest";
+import type { Card } from "../wire";
+import { badges, middle, spoken } from "./words";
+
+const card: Card = {
+  asset: "a.urdf",
+  hulls: 3,
+  labels: [0, -1, 0],
+  unsure: [0],
+  demonstrated: true,
+  output: "edited",
+  after: 2,
+  stale: ["program"],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 1,
+  sources: 0,
+  prepared: [],
+  picture: null,
+  edited_picture: null,
+};
+
+test("long names lose their middle, more of the front than of the end", () => {
+  expect(middle("assets/robots/very/long/name/robot_17.urdf", 20)).toHaveLength(20);
+  expect(middle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/^assets/);
+  expect(middle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/t_17\.urdf$/);
+  expect(middle("short", 20)).toBe("short");
+});
+
+test("every way an asset stands has a badge of its own", () => {
+  expect(badges(card).map((badge) => badge.name)).toEqual([
+    "stale",
+    "demonstrated",
+    "corrected",
+    "edited",
+    "unsure",
+    "unlabelled",
+  ]);
+});
+
+test("why an asset is flagged is told", () => {
+  const [first] = badges({ ...card, review: "flagged", note: "leg too short", flags: ["open mesh"] });
+  expect(first?.text).toBe("Flagged: leg too short; open mesh");
+});
+
+test("a screen reader hears name, hulls before and after, and how it stands", () => {
+  expect(spoken(card)).toMatch(/^a\.urdf; 3 hulls, 2 after; Not up to date: program; Demonstrated/);
+  expect(spoken({ ...card, hulls: null, error: "no mesh file" })).toContain("no mesh file");
+});

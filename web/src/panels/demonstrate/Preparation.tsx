@@ -1,0 +1,62 @@
+// What is done to an asset before any program sees it: hulls are split, pieces without hulls get some.
+import { Boxes, Slice, Undo2 } from "lucide-react";
+import { startCut } from "../../commands/demonstrating";
+import { api } from "../../server/api";
+import { setTool, useDesk } from "../../store/desk";
+import { perform } from "../../store/edits";
+import { useAssetView } from "../../store/hooks";
+import { useProject } from "../../store/project";
+import { complainedOf } from "../../store/toasts";
+import { counted } from "../../store/words";
+import { Button } from "../../ui/Button";
+import { Section } from "../../ui/Section";
+import css from "./demonstrate.module.css";
+
+export function Preparation() {
+  const view = useAssetView();
+  if (!view) return null;
+  return (
+    <Section title="Preparing this asset">
+      <div className={css.buttons}>
+        <Split />
+        <Decompose asset={view.asset} pieces={view.opaque.length} />
+      </div>
+      {view.prepared.length > 0 && (
+        <>
+          <ol className={css.prepared}>
+            {view.prepared.map((line, k) => (
+              <li key={k}>{line}</li>
+            ))}
+          </ol>
+          <Button icon={Undo2} onClick={() => void perform({ kind: "unprepare", asset: view.asset })}>
+            Take back the last
+          </Button>
+        </>
+      )}
+    </Section>
+  );
+}
+
+function Split() {
+  const cutting = useDesk((desk) => desk.tool === "cut");
+  const one = useDesk((desk) => desk.selection.size === 1);
+  if (cutting) return <Button onClick={() => setTool("select")}>Stop splitting</Button>;
+  return (
+    <Button icon={Slice} disabled={!one} onClick={startCut} tip={one ? "By a plane, before any step" : "Select one hull first"} keys="K">
+      Split the selected hull
+    </Button>
+  );
+}
+
+/** Pieces that are no hulls can be made into hulls. */
+function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
+  const sources = useProject((state) => state.cards[asset]?.sources ?? 0);
+  const busy = useProject((state) => state.jobs.some((job) => job.kind === "decompose" && job.state === "running"));
+  if (!sources) return null;
+  const what = pieces ? counted(pieces, "piece") : "what has none";
+  return (
+    <Button icon={Boxes} disabled={busy} onClick={() => void api.startJob({ kind: "decompose", assets: [asset] }).catch(complainedOf)} tip="Makes convex hulls of geometry that has none">
+      {busy ? "Making hulls…" : `Make hulls of ${what}`}
+    </Button>
+  );
+}

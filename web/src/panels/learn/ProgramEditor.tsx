@@ -1,0 +1,81 @@
+// The program as a text to edit, checked while one types.
+import { Check } from "lucide-react";
+import { type KeyboardEvent, useEffect, useState } from "react";
+import { writeProgram } from "../../commands/learning";
+import { api } from "../../server/api";
+import { ServerProblem } from "../../server/http";
+import { useProject } from "../../store/project";
+import { ProgramText } from "../../text/ProgramText";
+import type { ProgramCheck } from "../../wire";
+import { Button } from "../../ui/Button";
+import { Note } from "../../ui/Section";
+import css from "./learn.module.css";
+
+export function ProgramEditor({ onClose }: { onClose: () => void }) {
+  const [begun] = useState(() => useProject.getState().program);
+  const [text, setText] = useState(begun.text);
+  const elsewhere = useProject((state) => state.program.version !== begun.version);
+  const check = useCheck(text);
+  const mark = check?.mark ?? null;
+  const changed = text !== begun.text;
+  const save = async () => {
+    if (changed && !mark && (await writeProgram(text, begun.version))) onClose();
+  };
+  return (
+    <div className={css.editor} onKeyDown={(event) => keys(event, () => void save(), onClose)}>
+      <ProgramText text={text} onChange={setText} marks={mark ? [mark] : []} readOnly={false} />
+      {mark && (
+        <Note mood="bad">
+          Line {mark.line}, column {mark.column}: {mark.message}
+        </Note>
+      )}
+      {elsewhere && <Note mood="warn">It was changed elsewhere meanwhile: copy your text, cancel, and edit again.</Note>}
+      {!mark && check && <Sentences check={check} />}
+      <div className={css.row}>
+        <Button look="primary" icon={Check} disabled={!changed || mark !== null || elsewhere} onClick={() => void save()} tip="Make it the program" keys="Ctrl+Enter">
+          Save
+        </Button>
+        <Button onClick={onClose}>Cancel</Button>
+      </div>
+    </div>
+  );
+}
+
+function Sentences({ check }: { check: ProgramCheck }) {
+  return (
+    <ol className={css.sentences} aria-label="The program in words">
+      {check.orient_sentence && <li value={0}>{check.orient_sentence}</li>}
+      {check.rules.map((rule) => (
+        <li key={rule.rule} value={rule.rule}>
+          {rule.sentence}
+        </li>
+      ))}
+    </ol>
+  );
+}
+
+/** What the server says of a text, a moment after the last change; the answer before stays until then. */
+function useCheck(text: string): ProgramCheck | null {
+  const [check, setCheck] = useState<ProgramCheck | null>(null);
+  useEffect(() => {
+    const stop = new AbortController();
+    const timer = setTimeout(() => {
+      api.checkProgram(text, stop.signal).then(setCheck, (error: unknown) => {
+        if (error instanceof ServerProblem) setCheck({ mark: { line: 1, column: 1, message: error.problem.message }, rules: [], orient_sentence: "" });
+      });
+    }, 200);
+    return () => {
+      clearTimeout(timer);
+      stop.abort();
+    };
+  }, [text]);
+  return check;
+}
+
+function keys(event: KeyboardEvent, save: () => void, close: () => void): void {
+  const isSave = event.key === "Enter" && (event.ctrlKey || event.metaKey);
+  if (!isSave && (event.key !== "Escape" || event.defaultPrevented)) return;
+  event.preventDefault();
+  event.stopPropagation();
+  (isSave ? save : close)();
+}

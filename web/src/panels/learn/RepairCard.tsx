@@ -1,0 +1,61 @@
+// One label that is probably wrong: the hull, what it is labelled, and what it looks like.
+import { ArrowRight, Check, Crosshair, X } from "lucide-react";
+import { useMemo } from "react";
+import { settle, showRepair } from "../../commands/learning";
+import { useProject } from "../../store/project";
+import { shortName, sureness } from "../../store/words";
+import type { RepairView } from "../../wire";
+import { Button } from "../../ui/Button";
+import { Swatch } from "../../ui/Section";
+import { HullsPicture } from "./HullsPicture";
+import css from "./learn.module.css";
+import { useRulePicture } from "./useRulePicture";
+
+export function RepairCard({ repair }: { repair: RepairView }) {
+  const { asset, hull, was, to, belief, why } = repair;
+  const picture = useRulePicture(asset, 1);
+  const hulls = useMemo(() => [hull], [hull]);
+  return (
+    <article className={css.repair} aria-label={`${hull} of ${asset}`}>
+      <div className={css.repairPicture}>
+        <HullsPicture picture={picture} hulls={hulls} label={`${shortName(asset)} with ${hull} pointed out`} />
+      </div>
+      <div className={css.repairText}>
+        <p>
+          <strong>{hull}</strong> of <strong title={asset}>{shortName(asset)}</strong> looks like <strong>{to}</strong>; it{" "}
+          {was === null ? "has no label." : `is labelled ${was}.`}
+        </p>
+        <p className={css.change}>
+          <Label name={was} /> <ArrowRight size={14} aria-label="to" /> <Label name={to} />
+          {belief < 1 && (
+            <span className={css.dim} title={`${Math.min(99, Math.round(100 * belief))} %`}>
+              {sureness(belief)}
+            </span>
+          )}
+        </p>
+        <p className={css.dim}>{why}</p>
+      </div>
+      <div className={css.row}>
+        <Button look="primary" icon={Check} onClick={() => void settle(repair, true)}>
+          Accept
+        </Button>
+        <Button icon={X} tip="The label is right as it is; it is not proposed again" onClick={() => void settle(repair, false)}>
+          Reject
+        </Button>
+        <Button look="quiet" icon={Crosshair} tip="Open the asset with this hull selected" onClick={() => showRepair(repair)}>
+          Show
+        </Button>
+      </div>
+    </article>
+  );
+}
+
+function Label({ name }: { name: string | null }) {
+  const color = useProject((state) => state.project.vocabulary.find((label) => label.name === name)?.color);
+  return (
+    <span className={css.label}>
+      <Swatch color={color ?? "var(--hull-unlabelled)"} />
+      {name ?? "no label"}
+    </span>
+  );
+}

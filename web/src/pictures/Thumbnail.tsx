@@ -1,0 +1,47 @@
+// The small picture of an asset, in the colours of its labels, or pointing out some of its hulls.
+import { memo, useCallback, useMemo } from "react";
+import { api } from "../server/api";
+import { useProject } from "../store/project";
+import { hueOf } from "./colors";
+import { IdPicture } from "./IdPicture";
+import css from "./pictures.module.css";
+
+export interface ThumbnailProps {
+  asset: string;
+  of: "source" | "output";
+  /** Positions of hulls to point out; the others are pale. */
+  highlight?: readonly number[] | undefined;
+  /** Width in CSS pixels; it fills its place without. */
+  size?: number;
+  /** What a screen reader says; empty where words beside it say the same. */
+  label?: string;
+}
+
+export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, label }: ThumbnailProps) {
+  const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
+  const labels = useProject(({ cards }) => cards[asset]?.labels);
+  const unsure = useProject(({ cards }) => cards[asset]?.unsure);
+  const palette = useProject(({ project }) => project.vocabulary.map((entry) => entry.color).join(" "));
+  const marked = useMemo(() => (highlight ? new Set(highlight) : null), [highlight]);
+  const doubtful = useMemo(() => new Set(of === "source" ? unsure : []), [of, unsure]);
+  const colors = useCallback(
+    (k: number) => {
+      if (k < 0) return "var(--hull-opaque)";
+      if (marked) return marked.has(k) ? "var(--highlight)" : "var(--hull-pale)";
+      if (of === "output") return hueOf(k);
+      return palette.split(" ")[labels?.[k] ?? -1] || "var(--hull-unlabelled)";
+    },
+    [marked, of, labels, palette],
+  );
+  const hatched = useCallback((k: number) => !marked && doubtful.has(k), [marked, doubtful]);
+  if (version === null) return <Blank size={size} />;
+  const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
+  return (
+    <IdPicture url={api.thumbnail(asset, of, version)} label={said} colors={colors} hatched={hatched} width={size} />
+  );
+});
+
+/** Keeps the place of a picture that is not there. */
+function Blank({ size }: { size?: number | undefined }) {
+  return <div className={css.picture} style={size === undefined ? undefined : { width: size }} data-state="none" aria-hidden />;
+}

@@ -1,0 +1,68 @@
+// A line between two parts that can be moved, by pointer or arrow keys.
+import { useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
+import css from "./App.module.css";
+
+interface DividerProps {
+  name: string;
+  along: "x" | "y";
+  value: number;
+  range: readonly [number, number];
+  /** The part that is measured lies after the line. */
+  flipped?: boolean;
+  /** How many units of the value a pixel is; 1 unless it is a share. */
+  unit?: () => number;
+  onChange: (value: number) => void;
+  /** What dragging it far below the least does. */
+  onCollapse?: () => void;
+}
+
+export function Divider({ name, along, value, range, flipped, unit, onChange, onCollapse }: DividerProps) {
+  const from = useRef<{ at: number; value: number } | null>(null);
+  const [dragged, setDragged] = useState(false);
+  const [least, most] = range;
+  const place = (event: PointerEvent) => (along === "x" ? event.clientX : event.clientY);
+  const put = (wanted: number) => onChange(Math.min(Math.max(wanted, least), most));
+  const pixel = () => (unit?.() ?? 1) * (flipped ? -1 : 1);
+
+  function move(event: PointerEvent): void {
+    if (!from.current) return;
+    const wanted = from.current.value + (place(event) - from.current.at) * pixel();
+    if (onCollapse && wanted < least / 2) {
+      from.current = null;
+      setDragged(false);
+      return onCollapse();
+    }
+    put(wanted);
+  }
+  function key(event: KeyboardEvent): void {
+    const by = { ArrowLeft: -16, ArrowUp: -16, ArrowRight: 16, ArrowDown: 16 }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    put(value + by * pixel());
+  }
+  return (
+    <div
+      role="separator"
+      tabIndex={0}
+      aria-label={name}
+      aria-orientation={along === "x" ? "vertical" : "horizontal"}
+      aria-valuenow={Math.round(value * 100) / 100}
+      aria-valuemin={least}
+      aria-valuemax={most}
+      className={css.divider}
+      data-along={along}
+      data-dragged={dragged}
+      onPointerDown={(event) => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        from.current = { at: place(event), value };
+        setDragged(true);
+      }}
+      onPointerMove={move}
+      onPointerUp={() => {
+        from.current = null;
+        setDragged(false);
+      }}
+      onKeyDown={key}
+    />
+  );
+}

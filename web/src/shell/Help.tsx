@@ -1,0 +1,119 @@
+// All commands with their keys, and how it goes in four lines.
+import { X } from "lucide-react";
+import { Dialog } from "radix-ui";
+import { useState } from "react";
+import { all } from "../commands/all";
+import type { Command } from "../commands/command";
+import { useDesk } from "../store/desk";
+import { beginTour } from "../store/tour";
+import { Button, IconButton } from "../ui/Button";
+import { folded } from "./folded";
+import css from "./overlay.module.css";
+
+const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "Demonstrate", "Learn", "Review", "Edit"];
+
+const HOW = [
+  ["Label", "Give hulls labels: pick them and press a digit, on a few assets or on all."],
+  ["Demonstrate", "On one or two assets, pick hulls and choose what becomes of them, step by step."],
+  ["Learn", "The program that does the same is found at once; answer what it asks, until it is settled."],
+  ["Review", "Apply it to the family, look at each, accept or flag, and export."],
+] as const;
+
+const close = () => useDesk.setState({ overlay: "none" });
+
+export function Help() {
+  const open = useDesk((desk) => desk.overlay === "help");
+  return (
+    <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
+      <Dialog.Portal>
+        <Dialog.Overlay className={css.shade} />
+        <Dialog.Content className={css.help} aria-describedby={undefined}>
+          <Content />
+        </Dialog.Content>
+      </Dialog.Portal>
+    </Dialog.Root>
+  );
+}
+
+function Content() {
+  const [search, setSearch] = useState("");
+  const word = search.trim().toLowerCase();
+  const fits = (command: Command) =>
+    !word || `${command.title} ${command.group} ${command.keys.join(" ")}`.toLowerCase().includes(word);
+  const groups = GROUPS.map((group) => ({ group, commands: all.filter((one) => one.group === group && fits(one)) }));
+  const none = groups.every(({ commands }) => commands.length === 0);
+  return (
+    <>
+      <header className={css.head}>
+        <Dialog.Title className={css.title}>Keys and help</Dialog.Title>
+        <input
+          type="search"
+          className={css.field}
+          placeholder="Find a command or key"
+          aria-label="Find a command or key"
+          value={search}
+          onChange={(event) => setSearch(event.target.value)}
+        />
+        <Button
+          onClick={() => {
+            close();
+            beginTour();
+          }}
+        >
+          Guided tour
+        </Button>
+        <IconButton icon={X} name="Close" keys="Escape" onClick={close} />
+      </header>
+      <div className={css.scroll}>
+        {!word && <How />}
+        {none && <p className={css.none}>No command fits.</p>}
+        <div className={css.groups}>
+          {groups.map(({ group, commands }) => commands.length > 0 && <Group key={group} name={group} commands={commands} />)}
+        </div>
+      </div>
+    </>
+  );
+}
+
+function How() {
+  return (
+    <ol className={css.how} aria-label="How it goes">
+      {HOW.map(([name, text], k) => (
+        <li key={name}>
+          <span className={css.number}>{k + 1}</span>
+          <span>
+            <b>{name}.</b> {text}
+          </span>
+        </li>
+      ))}
+    </ol>
+  );
+}
+
+function Group({ name, commands }: { name: string; commands: readonly Command[] }) {
+  return (
+    <section className={css.group} aria-label={name}>
+      <h3>{name}</h3>
+      <dl>
+        {folded(commands).map((command) => (
+          <div key={command.id} className={css.pair}>
+            <dt>{command.title}</dt>
+            <dd>
+              {command.keys.map((key) => (
+                <kbd key={key}>{key}</kbd>
+              ))}
+            </dd>
+          </div>
+        ))}
+        {name === "Go" && (
+          <div className={css.pair}>
+            <dt>Next part of the window, previous</dt>
+            <dd>
+              <kbd>F6</kbd> <kbd>Shift+F6</kbd>
+            </dd>
+          </div>
+        )}
+      </dl>
+    </section>
+  );
+}

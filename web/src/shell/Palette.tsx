@@ -1,0 +1,96 @@
+// A list of what can be done now, and of all assets, by name.
+import { Dialog } from "radix-ui";
+import { type KeyboardEvent, useEffect, useId, useMemo, useRef, useState } from "react";
+import { useDesk } from "../store/desk";
+import css from "./overlay.module.css";
+import { choices } from "./choices";
+import { ranked } from "./ranked";
+
+const MOST = 60;
+const close = () => useDesk.setState({ overlay: "none" });
+
+export function Palette() {
+  const open = useDesk((desk) => desk.overlay === "palette");
+  return (
+    <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
+      <Dialog.Portal>
+        <Dialog.Overlay className={css.shade} />
+        <Dialog.Content className={css.palette} aria-describedby={undefined}>
+          <Dialog.Title className="visually-hidden">Find a command or an asset</Dialog.Title>
+          <List />
+        </Dialog.Content>
+      </Dialog.Portal>
+    </Dialog.Root>
+  );
+}
+
+function List() {
+  const id = useId();
+  const all = useMemo(choices, []);
+  const [search, setSearch] = useState("");
+  const [at, setAt] = useState(0);
+  const shown = ranked(all, search).slice(0, MOST);
+  const run = (place: number) => {
+    const choice = shown[place];
+    if (!choice) return;
+    close();
+    // once the dialog has given the focus back
+    setTimeout(choice.run);
+  };
+  function key(event: KeyboardEvent): void {
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (by !== undefined && shown.length) setAt((at + by + shown.length) % shown.length);
+    else if (event.key === "Enter") run(at);
+    else return;
+    event.preventDefault();
+  }
+  return (
+    <>
+      <input
+        className={css.wide}
+        role="combobox"
+        aria-expanded
+        aria-controls={id}
+        aria-activedescendant={shown[at] ? `${id}-${at}` : undefined}
+        aria-label="Find a command or an asset"
+        placeholder="Find a command or an asset"
+        value={search}
+        onChange={(event) => {
+          setSearch(event.target.value);
+          setAt(0);
+        }}
+        onKeyDown={key}
+      />
+      <ul id={id} role="listbox" aria-label="What fits" className={css.list}>
+        {shown.map((choice, place) => (
+          <Row key={choice.id} id={`${id}-${place}`} on={place === at} title={choice.title} aside={choice.aside} keys={choice.keys} onRun={() => run(place)} onPoint={() => setAt(place)} />
+        ))}
+        {shown.length === 0 && <li className={css.none}>Nothing fits.</li>}
+      </ul>
+    </>
+  );
+}
+
+interface RowProps {
+  id: string;
+  on: boolean;
+  title: string;
+  aside: string;
+  keys: string | undefined;
+  onRun: () => void;
+  onPoint: () => void;
+}
+
+function Row({ id, on, title, aside, keys, onRun, onPoint }: RowProps) {
+  const row = useRef<HTMLLIElement>(null);
+  useEffect(() => {
+    if (on) row.current?.scrollIntoView({ block: "nearest" });
+  }, [on]);
+  return (
+    <li ref={row} id={id} role="option" aria-selected={on} className={css.option} onClick={onRun} onPointerMove={onPoint}>
+      <span className={css.grow}>{title}</span>
+      <span className={css.aside}>{aside}</span>
+      {keys && <kbd>{keys}</kbd>}
+    </li>
+  );
+}

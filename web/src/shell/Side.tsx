@@ -1,0 +1,80 @@
+// The right column: the four stages, what is next, the panel of the stage, the list of hulls.
+import { Tabs } from "radix-ui";
+import { useRef } from "react";
+import { openStage, type StageName, STAGES, useDesk } from "../store/desk";
+import { setLayout, useLayout } from "../store/layout";
+import { useProject } from "../store/project";
+import { Divider } from "./Divider";
+import { NextLine } from "./NextLine";
+import { DemonstratePanel, HullList, LabelPanel, LearnPanel, ReviewPanel } from "./rooms";
+import css from "./Side.module.css";
+
+const TABS: Readonly<Record<StageName, { title: string; Panel: () => React.ReactNode }>> = {
+  label: { title: "Label", Panel: () => <LabelPanel /> },
+  demonstrate: { title: "Demonstrate", Panel: () => <DemonstratePanel /> },
+  learn: { title: "Learn", Panel: () => <LearnPanel /> },
+  review: { title: "Review", Panel: () => <ReviewPanel /> },
+};
+
+export function Side() {
+  const stage = useDesk((desk) => desk.stage);
+  const next = useProject((state) => state.project.next.stage);
+  return (
+    <Tabs.Root className={css.side} value={stage} onValueChange={(value) => openStage(value as StageName)}>
+      <Tabs.List className={css.tabs} aria-label="Stages" data-tour="stages">
+        {STAGES.map((name, k) => (
+          <Tabs.Trigger
+            key={name}
+            value={name}
+            className={css.tab}
+            title={`${TABS[name].title} (Alt+${k + 1})${name === next ? "; this is next" : ""}`}
+          >
+            <span className={css.number} data-next={name === next}>
+              {k + 1}
+            </span>
+            {TABS[name].title}
+            {name === next && <span className="visually-hidden">, next</span>}
+          </Tabs.Trigger>
+        ))}
+      </Tabs.List>
+      <NextLine />
+      {STAGES.map((name) => (
+        <Tabs.Content key={name} value={name} className={css.content} tabIndex={-1}>
+          <Panel stage={name} />
+        </Tabs.Content>
+      ))}
+    </Tabs.Root>
+  );
+}
+
+/** The panel of a stage; where hulls are picked, with the list of them below. */
+function Panel({ stage }: { stage: StageName }) {
+  const box = useRef<HTMLDivElement>(null);
+  const split = useLayout((layout) => layout.split);
+  const { Panel: Own } = TABS[stage];
+  if (stage === "learn" || stage === "review") {
+    return (
+      <div className={css.panel}>
+        <Own />
+      </div>
+    );
+  }
+  return (
+    <div className={css.halves} ref={box}>
+      <div className={css.panel} style={{ flex: `${split} 1 0` }}>
+        <Own />
+      </div>
+      <Divider
+        name="Height of the panel"
+        along="y"
+        value={split}
+        range={[0.15, 0.85]}
+        unit={() => 1 / (box.current?.clientHeight || 1)}
+        onChange={(share) => setLayout({ split: share })}
+      />
+      <div className={css.list} style={{ flex: `${1 - split} 1 0` }} data-part data-tour="hulls">
+        <HullList />
+      </div>
+    </div>
+  );
+}

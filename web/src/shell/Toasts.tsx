@@ -1,0 +1,64 @@
+// Short messages at the foot of the window: what was done fades, what went wrong stays.
+import { Check, CircleX, X } from "lucide-react";
+import { useEffect, useState } from "react";
+import { undo } from "../store/edits";
+import { dismissed, type Toast, useToasts } from "../store/toasts";
+import { Button, IconButton } from "../ui/Button";
+import css from "./toasts.module.css";
+
+const FADES_AFTER = 6000; // ms
+
+export function Toasts() {
+  const toasts = useToasts((state) => state.toasts);
+  return (
+    <div className={css.toasts} data-testid="toasts">
+      <div role="status" aria-live="polite">
+        {toasts.filter((toast) => toast.kind === "done").map(line)}
+      </div>
+      <div role="alert" aria-live="assertive">
+        {toasts.filter((toast) => toast.kind === "problem").map(line)}
+      </div>
+    </div>
+  );
+}
+
+const line = (toast: Toast) => <ToastLine key={toast.id} toast={toast} />;
+
+function ToastLine({ toast }: { toast: Toast }) {
+  const [held, setHeld] = useState(false);
+  const fades = toast.kind === "done" && !held;
+  useEffect(() => {
+    if (!fades) return;
+    const timer = setTimeout(() => dismissed(toast.id), FADES_AFTER);
+    return () => clearTimeout(timer);
+  }, [fades, toast.id]);
+  const Icon = toast.kind === "done" ? Check : CircleX;
+  return (
+    <div
+      className={css.toast}
+      data-kind={toast.kind}
+      onPointerEnter={() => setHeld(true)}
+      onPointerLeave={() => setHeld(false)}
+      onFocus={() => setHeld(true)}
+      onBlur={() => setHeld(false)}
+    >
+      <Icon size={16} aria-label={toast.kind === "done" ? "Done" : "Problem"} />
+      <div className={css.words}>
+        <p>{toast.text}</p>
+        {toast.remedy && <p className={css.remedy}>{toast.remedy}</p>}
+      </div>
+      {toast.undo && (
+        <Button
+          keys="Ctrl+Z"
+          onClick={() => {
+            dismissed(toast.id);
+            void undo();
+          }}
+        >
+          Undo
+        </Button>
+      )}
+      <IconButton icon={X} name="Dismiss" onClick={() => dismissed(toast.id)} />
+    </div>
+  );
+}

@@ -1,0 +1,118 @@
+// Which assets the family shows, and in which order.
+import type { Card, ProjectView } from "../wire";
+import { type FilterName, type Filters, useDesk } from "./desk";
+import { useProject } from "./project";
+
+export const FILTERS: readonly FilterName[] = [
+  "unlabelled",
+  "unsure",
+  "demonstrated",
+  "edited",
+  "accepted",
+  "flagged",
+  "failed",
+  "stale",
+];
+
+type Cards = Readonly<Record<string, Card>>;
+
+/** How many hulls of an asset have no label. */
+export const unlabelled = (card: Card): number => card.labels.filter((label) => label < 0).length;
+
+const HAS: Readonly<Record<FilterName, (card: Card) => boolean>> = {
+  unlabelled: (card) => card.labels.some((label) => label < 0),
+  unsure: (card) => card.unsure.length > 0,
+  demonstrated: (card) => card.demonstrated,
+  edited: (card) => card.output === "edited",
+  accepted: (card) => card.review === "accepted",
+  flagged: (card) => card.review === "flagged" || card.flags.length > 0,
+  failed: (card) => card.output === "failed" || card.error !== null,
+  stale: (card) => card.output !== "none" && card.stale.length > 0,
+};
+
+export const has = (card: Card, filter: FilterName): boolean => HAS[filter](card);
+
+/** How many cards each filter would show. */
+export function counted(cards: Cards): Record<FilterName, number> {
+  const all = Object.values(cards);
+  return Object.fromEntries(FILTERS.map((name) => [name, all.filter(HAS[name]).length])) as Record<FilterName, number>;
+}
+
+/** The assets to show: any of the filters that are on, every word of the search, sorted. */
+export function filtered(
+  cards: Cards,
+  order: readonly string[],
+  filters: Filters,
+  project: Pick<ProjectView, "vocabulary">,
+): readonly string[] {
+  const words = filters.search.toLowerCase().split(/\s+/).filter(Boolean);
+  const labels = project.vocabulary.map((label) => label.name.toLowerCase());
+  const kept = order.filter((asset) => {
+    const card = cards[asset];
+    if (!card) return false;
+    const wanted = filters.only.length === 0 || filters.only.some((name) => HAS[name](card));
+    return wanted && words.every((word) => found(card, word, labels));
+  });
+  return sorted(kept, cards, filters.sort);
+}
+
+/** Whether a word stands in the id of an asset, or begins a label that one of its hulls has. */
+function found(card: Card, word: string, labels: readonly string[]): boolean {
+  if (card.asset.toLowerCase().includes(word)) return true;
+  return card.labels.some((label) => labels[label]?.startsWith(word));
+}
+
+const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card) => number>> = {
+  hulls: (card) => card.hulls ?? -1,
+  unlabelled,
+  unsure: (card) => card.unsure.length,
+  changed: (card) => (card.after === null || card.hulls === null ? -1 : Math.abs(card.hulls - card.after)),
+};
+
+function sorted(assets: readonly string[], cards: Cards, by: Filters["sort"]): readonly string[] {
+  const natural = [...assets].sort(byName.compare);
+  if (by === "name") return natural;
+  const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by)]));
+  return natural.sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
+}
+
+const amount = (card: Card | undefined, by: Exclude<Filters["sort"], "name">) => (card ? AMOUNT[by](card) : -1);
+
+const byName = new Intl.Collator("en", { numeric: true });
+
+/** The asset before or after one, round the end; one that is not shown stands where the family has it. */
+export function neighbour(
+  shown: readonly string[],
+  order: readonly string[],
+  asset: string | null,
+  by: 1 | -1,
+  wanted: (asset: string) => boolean = () => true,
+): string | null {
+  const all = shown.length ? [...shown] : [...order];
+  const here = asset === null ? -1 : all.indexOf(asset);
+  const start = here >= 0 ? here : by === 1 ? -1 : 0;
+  for (let k = 1; k <= all.length; k++) {
+    const next = all[(start + by * k + 2 * all.length) % all.length];
+    if (next !== undefined && next !== asset && wanted(next)) return next;
+  }
+  return null;
+}
+
+let last: { cards: Cards; order: readonly string[]; filters: Filters; labels: unknown; shown: readonly string[] } | null =
+  null;
+
+/** The assets that the family shows now; the same array as long as it is the same. */
+export function shownAssets(): readonly string[] {
+  const { cards, order, project } = useProject.getState();
+  const { filters } = useDesk.getState();
+  const labels = project.vocabulary;
+  if (last && last.cards === cards && last.order === order && last.filters === filters && last.labels === labels) {
+    return last.shown;
+  }
+  const fresh = filtered(cards, order, filters, project);
+  const shown = last && equal(last.shown, fresh) ? last.shown : fresh;
+  last = { cards, order, filters, labels, shown };
+  return shown;
+}
+
+const equal = (a: readonly string[], b: readonly string[]) => a.length === b.length && a.every((x, k) => x === b[k]);

@@ -1,0 +1,114 @@
+import { describe, expect, it } from "vitest";
+import type { LessonView, ReadingView } from "../wire";
+import { choiceText, differing, extractorOf, highlightOfRule, learnedDiffers, lessonSummary, reachOfRule, readingsOf } from "./lessons";
+import { emptyProject } from "./project";
+
+const lesson = (more: Partial<LessonView>): LessonView => ({
+  number: 1,
+  status: "found",
+  program: "Is(a) => Delete",
+  rules: [],
+  settled: false,
+  readings: [],
+  repairs: [],
+  question: null,
+  nearest: null,
+  hint: null,
+  why: null,
+  advice: [],
+  suggested_orientation: null,
+  stale: [],
+  error: null,
+  seconds: 0.1,
+  ...more,
+});
+const reading = (more: Partial<ReadingView>): ReadingView => ({
+  id: "r",
+  rule: 1,
+  extractor: "Is(a)",
+  sentence: "",
+  size: 1,
+  belief: 0.5,
+  differs_on: [],
+  ...more,
+});
+const reach = {
+  one: { asset: "one", rules: [[0, 2], []], before: 3, after: 1, error: null },
+  two: { asset: "two", rules: [[], [1]], before: 2, after: 2, error: null },
+  three: { asset: "three", rules: [], before: 2, after: 0, error: "no leg" },
+};
+
+describe("the summary of a lesson", () => {
+  it("says that all readings agree once it is settled", () => {
+    const said = lessonSummary(lesson({ settled: true }), 60);
+    expect(said).toEqual({ mood: "good", title: "Settled", more: "All readings agree on your 60 assets." });
+  });
+
+  it("names where a less believable reading differs", () => {
+    const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
+    expect(lessonSummary(lesson({ readings }), 3).more).toBe("Rule 1 might mean something else on x and y.");
+  });
+
+  it("has words for every outcome", () => {
+    const statuses = ["found", "ambiguous", "repair", "none", "timeout", "error"] as const;
+    const titles = statuses.map((status) => lessonSummary(lesson({ status, why: "so", error: "broken" }), 2).title);
+    expect(new Set(titles).size).toBe(statuses.length);
+    expect(lessonSummary(null, 2).title).toBe("Nothing is demonstrated yet");
+  });
+
+  it("gives the reason why there is no program", () => {
+    const said = lessonSummary(lesson({ status: "none", why: "rule 2 takes two alike hulls apart" }), 2);
+    expect(said).toMatchObject({ mood: "bad", more: "rule 2 takes two alike hulls apart" });
+  });
+});
+
+describe("what a rule reaches", () => {
+  it("is pointed out on the assets on which the program runs", () => {
+    expect(highlightOfRule(reach, 1)).toEqual({ what: "rule 1", assets: { one: [0, 2], two: [] } });
+  });
+
+  it("is counted in hulls and in assets that have some", () => {
+    expect(reachOfRule(reach, 1)).toEqual({ hulls: 2, assets: 1 });
+    expect(reachOfRule({}, 1)).toBeNull();
+  });
+});
+
+describe("readings and programs", () => {
+  it("puts the reading of the program first, then by belief", () => {
+    const readings = [reading({ extractor: "Is(b)", belief: 0.2 }), reading({ extractor: "Is(c)", belief: 0.3 }), reading({ belief: 0.1 })];
+    const rule = { rule: 1, text: "Is(a)   => Delete", sentence: "", readings: 3 };
+    expect(readingsOf(lesson({ readings }), rule).map((row) => row.extractor)).toEqual(["Is(a)", "Is(c)", "Is(b)"]);
+  });
+
+  it("does not take an arrow in a label for the end of an extractor", () => {
+    expect(extractorOf('Is("a => b")  => Delete')).toBe('Is("a => b")');
+    expect(extractorOf("All => Merge as x")).toBe("All");
+  });
+
+  it("tells a learned program from one by hand, but not by blank lines at its end", () => {
+    const program = { ...emptyProject.program, text: "Is(a) => Delete\n" };
+    expect(learnedDiffers(program, lesson({}))).toBe(false);
+    expect(learnedDiffers(program, lesson({ program: "Is(b) => Delete" }))).toBe(true);
+    expect(learnedDiffers(program, lesson({ program: null }))).toBe(false);
+  });
+});
+
+describe("choices of a question", () => {
+  const choice = (...select: string[]) => ({ reading: select.join(), extractor: "", sentence: "", select });
+
+  it("differ by names that are not in all of them", () => {
+    expect(differing([["a", "b"], ["b", "c"], ["b"]])).toEqual(["a", "c"]);
+    expect(differing([["a"], ["a"]])).toEqual([]);
+  });
+
+  it("are told by how they differ from the first, where that is shorter", () => {
+    const choices = [choice("a", "b", "c"), choice("a", "b", "c", "d"), choice("b", "c", "e"), choice("x"), choice()];
+    expect(choices.map((_, k) => choiceText(choices, k))).toEqual([
+      "3 hulls",
+      "4 hulls: those of 1 and d",
+      "3 hulls: those of 1 and e, without a",
+      "1 hull",
+      "No hull",
+    ]);
+  });
+});

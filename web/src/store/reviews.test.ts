@@ -1,0 +1,132 @@
+import { describe, expect, it } from "vitest";
+import type { Card, EditedHeader, HullView } from "../wire";
+import { acceptable, after, behind, exportable, grouped, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+
+const card = (asset: string, more: Partial<Card> = {}): Card => ({
+  asset,
+  hulls: 4,
+  labels: [],
+  unsure: [],
+  demonstrated: false,
+  output: "edited",
+  after: 2,
+  stale: [],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 0,
+  sources: 0,
+  prepared: [],
+  picture: null,
+  edited_picture: null,
+  ...more,
+});
+const edited = (more: Partial<EditedHeader> = {}): EditedHeader => ({
+  rows: [],
+  hulls: [],
+  made: [],
+  removed: [],
+  note: null,
+  trace: [],
+  findings: [],
+  flags: [],
+  volume: [2, 1],
+  contacts: [],
+  ...more,
+});
+const family = [
+  card("a", { review: "accepted" }),
+  card("b"),
+  card("c", { output: "failed", error: "no leg" }),
+  card("d", { review: "flagged" }),
+  card("e", { flags: ["an edit by hand was left out"] }),
+  card("f", { stale: ["program"], review: "accepted" }),
+  card("g", { output: "none", after: null }),
+  card("h", { output: "none", after: null, hulls: null, error: "cannot be read" }),
+];
+
+describe("results in groups", () => {
+  it("puts each card into one", () => {
+    const rows = grouped(family);
+    expect(Object.fromEntries(Object.entries(rows).map(([group, cards]) => [group, cards.map((one) => one.asset)]))).toEqual({
+      failed: ["c"],
+      flagged: ["d", "e"],
+      stale: ["f"],
+      open: ["b"],
+      accepted: ["a"],
+      none: ["g", "h"],
+    });
+  });
+
+  it("takes an accepted result for accepted although something was left out", () => {
+    expect(groupOf(card("x", { flags: ["left out"], review: "accepted" }))).toBe("accepted");
+  });
+
+  it("lets a failure wait for the next run once what it failed on has changed", () => {
+    expect(groupOf(card("x", { output: "failed", stale: ["labels"] }))).toBe("stale");
+  });
+});
+
+describe("the queue of what wants a look", () => {
+  const order = family.map((one) => one.asset);
+
+  it("has what failed first, then what is flagged, then what nobody reviewed", () => {
+    expect(reviewQueue(family)).toEqual(["c", "d", "e", "b"]);
+  });
+
+  it("goes round", () => {
+    expect(after(["c", "d", "b"], order, "d")).toBe("b");
+    expect(after(["c", "d", "b"], order, "b")).toBe("c");
+  });
+
+  it("goes on behind an asset that is not in it", () => {
+    expect(after(["c", "d", "b"], order, "a")).toBe("c");
+    expect(after(["c", "d", "b"], order, "h")).toBe("c");
+    expect(after(["c", "d", "b"], order, null)).toBe("c");
+  });
+
+  it("has no next but itself", () => {
+    expect(after(["b"], order, "b")).toBeNull();
+    expect(after([], order, "b")).toBeNull();
+  });
+});
+
+describe("what can be done with all", () => {
+  it("accepts only what is up to date, unflagged and not reviewed", () => {
+    expect(acceptable(family)).toEqual(["b"]);
+  });
+
+  it("counts outputs that are missing or old, but not assets that cannot be read", () => {
+    expect(behind(family)).toEqual(["f", "g"]);
+  });
+
+  it("exports what is written, or only what is accepted", () => {
+    expect([exportable(family, false), exportable(family, true)]).toEqual([5, 2]);
+  });
+});
+
+describe("numbers about a result", () => {
+  it("sums vertices and faces before and after", () => {
+    const hull = (vertices: number, faces: number) => ({ vertices, faces }) as HullView;
+    const numbers = numbersOf([hull(8, 12), hull(4, 4)], edited({ hulls: [hull(8, 12)] }));
+    expect(numbers).toEqual({ hulls: [2, 1], vertices: [12, 8], faces: [16, 12], volume: [2, 1] });
+  });
+
+  it("is as legal as its worst finding", () => {
+    const finding = (severity: "error" | "warning" | "note") => ({ severity, text: "", hull: null });
+    expect(verdictOf(edited({ findings: [finding("note")] }))).toBe("legal");
+    expect(verdictOf(edited({ findings: [finding("note"), finding("warning")] }))).toBe("doubtful");
+    expect(verdictOf(edited({ findings: [finding("warning"), finding("error")] }))).toBe("illegal");
+  });
+
+  it("says why it is stale, also for a reason it does not know", () => {
+    expect(staleText(["labels", "weather"])).toBe("its labels changed, weather changed");
+  });
+
+  it("has no rate before it can be told", () => {
+    expect(rateOf({ done: 2, at: 1000 }, 2, 9000)).toBeNull();
+    expect(rateOf({ done: 2, at: 1000 }, 8, 1100)).toBeNull();
+    expect(rateOf({ done: 2, at: 1000 }, 8, 3000)).toBe(3);
+  });
+});

@@ -1,0 +1,104 @@
+// The results of the family: what to look at, in which order, and numbers about one; knows neither DOM nor three.js.
+import type { Card, EditedHeader, HullView } from "../wire";
+
+export type Group = "failed" | "flagged" | "stale" | "open" | "accepted" | "none";
+
+/** In the order in which they want a look. */
+export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "open", "accepted", "none"];
+
+/** Where the result of an asset belongs. */
+export function groupOf(card: Card): Group {
+  if (card.output === "failed") return card.stale.length ? "stale" : "failed";
+  if (card.output === "none") return "none";
+  if (card.review === "flagged" || (card.flags.length > 0 && card.review === null)) return "flagged";
+  if (card.stale.length) return "stale";
+  return card.review === "accepted" ? "accepted" : "open";
+}
+
+/** The cards by group, in the family's order. */
+export function grouped(cards: readonly Card[]): Readonly<Record<Group, readonly Card[]>> {
+  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], open: [], accepted: [], none: [] };
+  for (const card of cards) rows[groupOf(card)].push(card);
+  return rows;
+}
+
+/** Assets that want a look: failed and flagged first, then those that nobody reviewed. */
+export function reviewQueue(cards: readonly Card[]): readonly string[] {
+  const { failed, flagged, open } = grouped(cards);
+  return [...failed, ...flagged, ...open].map((card) => card.asset);
+}
+
+/** The one of a queue that comes after an asset, from the front again at its end. */
+export function after(queue: readonly string[], order: readonly string[], asset: string | null): string | null {
+  const at = queue.indexOf(asset ?? "");
+  if (at >= 0) return queue[(at + 1) % queue.length] === asset ? null : (queue[(at + 1) % queue.length] ?? null);
+  const places = new Map(order.map((name, k) => [name, k]));
+  const here = places.get(asset ?? "") ?? -1;
+  return queue.find((name) => (places.get(name) ?? -1) > here) ?? queue[0] ?? null;
+}
+
+/** Assets whose output is up to date, legal as far as is known, and not flagged by anyone or anything. */
+export function acceptable(cards: readonly Card[]): readonly string[] {
+  return cards.filter((card) => groupOf(card) === "open").map((card) => card.asset);
+}
+
+/** Assets whose output is missing or older than what it is made of. */
+export function behind(cards: readonly Card[]): readonly string[] {
+  return cards.filter(isBehind).map((card) => card.asset);
+}
+
+const isBehind = (card: Card): boolean => card.hulls !== null && (card.output === "none" || card.stale.length > 0);
+
+/** How many outputs an export takes. */
+export function exportable(cards: readonly Card[], acceptedOnly: boolean): number {
+  const written = cards.filter((card) => card.output === "edited" || card.output === "unchanged");
+  return acceptedOnly ? written.filter((card) => card.review === "accepted").length : written.length;
+}
+
+export interface Numbers {
+  hulls: readonly [number, number];
+  vertices: readonly [number, number];
+  faces: readonly [number, number];
+  volume: readonly [number, number];
+}
+
+/** Numbers before and after an edit. */
+export function numbersOf(before: readonly HullView[], edit: EditedHeader): Numbers {
+  const sum = (hulls: readonly HullView[], of: "vertices" | "faces"): number =>
+    hulls.reduce((total, hull) => total + hull[of], 0);
+  return {
+    hulls: [before.length, edit.hulls.length],
+    vertices: [sum(before, "vertices"), sum(edit.hulls, "vertices")],
+    faces: [sum(before, "faces"), sum(edit.hulls, "faces")],
+    volume: edit.volume,
+  };
+}
+
+/** What the check of legality says of an edited asset, at its worst. */
+export function verdictOf(edit: EditedHeader): "legal" | "doubtful" | "illegal" {
+  const worst = (severity: "error" | "warning") => edit.findings.some((finding) => finding.severity === severity);
+  return worst("error") ? "illegal" : worst("warning") ? "doubtful" : "legal";
+}
+
+/** Why outputs are stale, in words. */
+export function staleText(reasons: readonly string[]): string {
+  return reasons.map((reason) => STALE[reason] ?? `${reason} changed`).join(", ");
+}
+
+const STALE: Readonly<Record<string, string>> = {
+  asset: "the asset changed",
+  labels: "its labels changed",
+  program: "the program changed",
+  corrections: "its edits by hand changed",
+  templates: "a template changed",
+  preparation: "it was prepared differently",
+  settings: "settings changed",
+  software: "another version of MeshForge made it",
+  output: "written files are gone",
+};
+
+/** Assets a second, from when a job was first seen; null before that can be told. */
+export function rateOf(first: { done: number; at: number }, done: number, now: number): number | null {
+  const seconds = (now - first.at) / 1000;
+  return seconds < 0.5 || done <= first.done ? null : (done - first.done) / seconds;
+}

@@ -1,0 +1,43 @@
+// Counts and sizes as people write them.
+
+/** `1 hull`, `3 hulls`, `1,200 hulls`. */
+export function counted(count: number, one: string, many = `${one}s`): string {
+  return `${count.toLocaleString("en-GB")} ${count === 1 ? one : many}`;
+}
+
+/** `a`, `a and b`, `a, b and c`; of more than `most` only the first ones and how many there are besides. */
+export function listed(words: readonly string[], most = 4): string {
+  const rest = words.length - most;
+  const all = rest > 1 ? [...words.slice(0, most), `${rest} more`] : words;
+  return all.length < 2 ? all.join("") : `${all.slice(0, -1).join(", ")} and ${all.at(-1)}`;
+}
+
+/** The name of an asset without the folders it lies in. */
+export function shortName(asset: string): string {
+  return asset.slice(asset.lastIndexOf("/") + 1);
+}
+
+/** How sure something is, in words; belief in 0..1. */
+export function sureness(belief: number): string {
+  if (belief >= 0.95) return "almost certain";
+  if (belief >= 0.75) return "likely";
+  return belief >= 0.45 ? "about as likely as not" : "a guess";
+}
+
+/** A share in 0..1 as `about 1 asset in 5`. */
+export function oneIn(share: number): string {
+  if (share <= 0) return "no asset";
+  if (share > 0.75) return "almost every asset";
+  if (share > 0.4) return "about every second asset";
+  return `about 1 asset in ${Math.round(1 / share).toLocaleString("en-GB")}`;
+}
+
+/** The change from one number to another as `+12 %` or `−3 %`; null where there was nothing. */
+export function changeText(before: number, after: number): string | null {
+  if (before <= 0) return null;
+  const percent = (100 * (after - before)) / before;
+  const size = Math.abs(percent);
+  const digits = size < 10 && size >= 0.05 ? 1 : 0;
+  const sign = size < 0.05 ? "±" : percent < 0 ? "−" : "+";
+  return `${sign}${size.toFixed(digits)} %`;
+}

@@ -1,0 +1,34 @@
+// A program as text: coloured, with completion while it is written, and errors underlined.
+import { lintGutter } from "@codemirror/lint";
+import { EditorState } from "@codemirror/state";
+import { EditorView, highlightActiveLine, lineNumbers } from "@codemirror/view";
+import { useEffect, useRef } from "react";
+import { askLanguage } from "../store/language";
+import type { Mark } from "../wire";
+import { editing, reading } from "./editing";
+import css from "./text.module.css";
+import { useEditor } from "./useEditor";
+
+interface ProgramTextProps {
+  text: string;
+  onChange?: (text: string) => void;
+  marks: readonly Mark[];
+  readOnly: boolean;
+}
+
+export function ProgramText({ text, onChange, marks, readOnly }: ProgramTextProps) {
+  const changed = useRef(onChange);
+  useEffect(() => {
+    changed.current = onChange;
+  }, [onChange]);
+  useEffect(askLanguage, []);
+  const told = EditorView.updateListener.of((update) => {
+    if (update.docChanged) changed.current?.(update.state.doc.toString());
+  });
+  const box = useEditor(text, marks, () =>
+    readOnly
+      ? [reading("Program"), EditorState.readOnly.of(true), EditorView.lineWrapping]
+      : [editing(false, "Program"), told, lineNumbers(), lintGutter(), highlightActiveLine(), EditorView.lineWrapping],
+  );
+  return <div ref={box} className={css.program} data-testid="program-text" />;
+}

@@ -1,0 +1,68 @@
+import { describe, expect, it } from "vitest";
+import { labelText } from "../store/steps";
+import { begun, type Context, openCall, suggestions } from "./completion";
+
+const argument = (name: string, kind: "shape" | "words" | "factor", choices: string[], required = true) => ({
+  name,
+  kind,
+  wants: "",
+  choices,
+  required,
+});
+const context: Context = {
+  language: {
+    actions: [
+      { name: "Delete", summary: "Removes.", usage: "Delete", makes: false, arguments: [] },
+      {
+        name: "Replace",
+        summary: "Replaces.",
+        usage: "Replace(box)",
+        makes: true,
+        arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false)],
+      },
+    ],
+    operators: ["All", "Is(label)", "Attach(left, right)", "Geo(base, direction)"].map((usage) => ({
+      name: /^\w+/.exec(usage)?.[0] ?? "",
+      usage,
+      summary: "",
+    })),
+    directions: ["+X", "-X"],
+  },
+  labels: ["leg", "table top"],
+  templates: ["tray.obj"],
+  written: labelText,
+};
+const after = (line: string, bare = false) => suggestions(line, context, bare).map(({ label }) => label);
+
+describe("what may follow in a program", () => {
+  it.each([
+    ["", ["All", "Is", "Attach", "Geo"]],
+    ["Is(", ["leg", '"table top"']],
+    ["Is(le", ["leg", '"table top"']],
+    ["Attach(Is(leg), ", ["All", "Is"]],
+    ["Geo(Is(leg), -", ["+X", "-X"]],
+    ["Is(leg) => ", ["Delete", "Replace", "Each"]],
+    ["Is(leg) => Each(Re", ["Delete", "Replace"]],
+    ["Is(leg) => Replace(", ["box", "sphere", '"tray.obj"']],
+    ["Is(leg) => Each(Replace(box, ", ["tight"]],
+    ["Is(leg) => Replace(box) as ", ["leg", '"table top"']],
+    ["labels leg", []],
+    ["orient ", ["+X", "-X", "All", "Is"]],
+  ])("after %j is %j", (line, expected) => expect(after(line)).toEqual(expected));
+
+  it("is an extractor only, where only an extractor is typed", () => {
+    expect(after("Is(leg) => ", true)).toEqual(["All", "Is", "Attach", "Geo"]);
+  });
+
+  it("takes the place of the word that was begun", () => {
+    expect(begun("Is(le")).toBe("le");
+    expect(begun('Is("table t')).toBe('"table t');
+    expect(begun("Geo(All, -")).toBe("-");
+    expect(begun("Is(leg) ")).toBe("");
+  });
+
+  it("knows the call around it", () => {
+    expect(openCall("Attach(Is(a), ")).toEqual({ name: "Attach", commas: 1 });
+    expect(openCall("Is(a)")).toBeNull();
+  });
+});

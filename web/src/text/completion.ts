@@ -1,0 +1,94 @@
+// What may stand at a place of a program: operators, labels, directions, actions and their words.
+import type { LanguageView } from "../wire";
+
+export interface Suggestion {
+  readonly label: string;
+  /** What is put there where that is more than the label. */
+  readonly apply?: string;
+  readonly detail: string;
+  readonly info?: string;
+}
+
+export interface Context {
+  readonly language: LanguageView;
+  readonly labels: readonly string[];
+  readonly templates: readonly string[];
+  /** How labels are written. */
+  readonly written: (label: string) => string;
+}
+
+/** The word before the end of a text, which a suggestion takes the place of. */
+export function begun(text: string): string {
+  return /(?:"[^"]*|[+-]?[\p{L}\p{N}_]*)$/u.exec(text)?.[0] ?? "";
+}
+
+/** What may follow the text of a line; only an extractor where `bare`. */
+export function suggestions(line: string, context: Context, bare: boolean): Suggestion[] {
+  const before = line.slice(0, line.length - begun(line).length);
+  const action = bare ? -1 : before.lastIndexOf("=>");
+  if (action >= 0) return forAction(before.slice(action + 2), context);
+  if (/^\s*(?:labels|contact|extremity)\b/.test(before)) return [];
+  if (/^\s*orient\b/.test(before)) return [...directions(context), ...operators(context, ["All", "Is"])];
+  if (/\bIs\(\s*$/.test(before)) return labels(context);
+  const call = openCall(before);
+  if (call?.name === "Geo" && call.commas > 0) return directions(context);
+  const base = call?.name === "Geo" || call?.name === "Attach";
+  return operators(context, base ? ["All", "Is"] : null);
+}
+
+/** The call that the end of a text stands in, and how many of its arguments are complete. */
+export function openCall(text: string): { name: string; commas: number } | null {
+  let depth = 0;
+  let commas = 0;
+  for (let k = text.length - 1; k >= 0; k -= 1) {
+    const sign = text[k];
+    if (sign === ")") depth += 1;
+    else if (sign === "," && depth === 0) commas += 1;
+    else if (sign === "(" && depth-- === 0) return { name: /\w*$/.exec(text.slice(0, k))?.[0] ?? "", commas };
+  }
+  return null;
+}
+
+function forAction(before: string, context: Context): Suggestion[] {
+  if (/\bas\s*$/.test(before)) return labels(context);
+  const call = openCall(before);
+  if (!call || call.name === "Each") return [...actions(context), ...(call ? [] : each)];
+  const form = context.language.actions.find(({ name }) => name === call.name);
+  const argument = form?.arguments[call.commas];
+  if (!argument) return [];
+  const words = argument.choices.map((label) => ({ label, detail: argument.name }));
+  const files = argument.kind === "file" || argument.kind === "shape" ? context.templates : [];
+  return [...words, ...files.map((file) => ({ label: JSON.stringify(file), detail: "template" }))];
+}
+
+const each: readonly Suggestion[] = [
+  { label: "Each", apply: "Each(", detail: "Each(action)", info: "Does the action to every connected part." },
+];
+
+function actions({ language }: Context): Suggestion[] {
+  return language.actions.map((form) => ({
+    label: form.name,
+    ...(form.arguments.some((argument) => argument.required) ? { apply: `${form.name}(` } : {}),
+    detail: form.usage,
+    info: form.summary,
+  }));
+}
+
+function operators({ language }: Context, only: readonly string[] | null): Suggestion[] {
+  return language.operators
+    .filter(({ name }) => only === null || only.includes(name))
+    .map(({ name, usage, summary }) => ({
+      label: name,
+      ...(usage.includes("(") ? { apply: `${name}(` } : {}),
+      detail: usage,
+      info: summary,
+    }));
+}
+
+function labels({ labels: all, written }: Context): Suggestion[] {
+  return all.map((label) => ({ label: written(label), detail: "label" }));
+}
+
+function directions({ language }: Context): Suggestion[] {
+  return language.directions.map((label) => ({ label, detail: "direction" }));
+}

@@ -1,0 +1,90 @@
+// Coach marks beside the real places; they go on by what the person does.
+import { useEffect, useState } from "react";
+import { useProject } from "../store/project";
+import { beginTour, endTour, followTour, MARKS, turnTour, useTour } from "../store/tour";
+import { Button } from "../ui/Button";
+import css from "./tour.module.css";
+
+const KEY = "meshforge.tour";
+
+export function Tour() {
+  const wanted = useProject((state) => state.tour);
+  const step = useTour((tour) => tour.step);
+  useEffect(() => {
+    if (wanted && localStorage.getItem(KEY) !== "done") beginTour();
+  }, [wanted]);
+  useEffect(followTour, []);
+  useEffect(
+    () => useTour.subscribe((now, before) => before.step !== null && now.step === null && localStorage.setItem(KEY, "done")),
+    [],
+  );
+  return step === null ? null : <Mark step={step} />;
+}
+
+function Mark({ step }: { step: number }) {
+  const mark = MARKS[step];
+  const target = usePlace(mark?.at ?? "view");
+  if (!mark) return null;
+  const last = step === MARKS.length - 1;
+  return (
+    <>
+      {target && <div className={css.ring} style={ring(target)} aria-hidden />}
+      <div className={css.mark} style={beside(target, mark.at)} role="dialog" data-modeless aria-label={`Tour: ${mark.title}`}>
+        <h2>{mark.title}</h2>
+        <p aria-live="polite">{mark.text}</p>
+        <footer>
+          <span className={css.count}>
+            {step + 1} of {MARKS.length}
+          </span>
+          {!last && (
+            <Button look="quiet" onClick={endTour}>
+              Skip the tour
+            </Button>
+          )}
+          {step > 0 && (
+            <Button look="quiet" onClick={() => turnTour(-1)}>
+              Back
+            </Button>
+          )}
+          <Button look={mark.done ? "plain" : "primary"} onClick={() => turnTour(1)}>
+            {last ? "Done" : "Next"}
+          </Button>
+        </footer>
+      </div>
+    </>
+  );
+}
+
+/** Where a part of the window is, also after it moved. */
+function usePlace(at: string): DOMRect | null {
+  const [place, setPlace] = useState<DOMRect | null>(null);
+  useEffect(() => {
+    const look = () => {
+      const now = document.querySelector(`[data-tour="${at}"]`)?.getBoundingClientRect() ?? null;
+      setPlace((before) => (before && now && same(before, now) ? before : now));
+    };
+    look();
+    const timer = setInterval(look, 200);
+    return () => clearInterval(timer);
+  }, [at]);
+  return place;
+}
+
+const same = (a: DOMRect, b: DOMRect) => a.x === b.x && a.y === b.y && a.width === b.width && a.height === b.height;
+
+const ring = (place: DOMRect) => ({ left: place.x, top: place.y, width: place.width, height: place.height });
+
+const WIDTH = 320;
+const AWAY = 14;
+
+/** Beside its place, on whichever side there is room; in a corner of it where it is the view itself. */
+function beside(place: DOMRect | null, at: string): React.CSSProperties {
+  if (!place) return { left: AWAY, bottom: AWAY, width: WIDTH };
+  const { innerWidth: across, innerHeight: down } = window;
+  if (at === "view") return { right: across - place.right + AWAY, bottom: down - place.bottom + AWAY, width: WIDTH };
+  if (at === "steps") return { left: place.left + AWAY, bottom: down - place.top + AWAY, width: WIDTH };
+  const top = Math.min(Math.max(place.y + 12, 8), down - 220);
+  if (place.left >= WIDTH + 2 * AWAY) return { right: across - place.left + AWAY, top, width: WIDTH };
+  if (across - place.right >= WIDTH + 2 * AWAY) return { left: place.right + AWAY, top, width: WIDTH };
+  return { left: place.left + AWAY, bottom: down - place.bottom + AWAY, width: WIDTH };
+}

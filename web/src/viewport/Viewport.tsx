@@ -1,0 +1,56 @@
+// The view of an asset: a toolbar, the picture, and what lies over it.
+import { useEffect, useRef, useState } from "react";
+import { useDesk } from "../store/desk";
+import { useScenes } from "../store/scenes";
+import { CutBar } from "./overlay/CutBar";
+import { Divider } from "./overlay/Divider";
+import { Drawn } from "./overlay/Drawn";
+import { Gaps } from "./overlay/Gaps";
+import { Hud } from "./overlay/Hud";
+import { Landmarks } from "./overlay/Landmarks";
+import { Legend } from "./overlay/Legend";
+import { NoWebGl, State } from "./overlay/State";
+import { ViewCube } from "./overlay/ViewCube";
+import { Picture } from "./Picture";
+import { StageContext } from "./stage/context";
+import { expose } from "./stage/exposed";
+import { settingsOf } from "./stage/settings";
+import { Stage } from "./stage/stage";
+import { Toolbar } from "./toolbar/Toolbar";
+import { tryDrawing } from "./webgl";
+import css from "./viewport.module.css";
+
+export function Viewport() {
+  const [{ works, inSoftware }] = useState(tryDrawing);
+  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view)));
+  const root = useRef<HTMLElement>(null);
+  const asset = useScenes(({ scene }) => scene?.asset ?? "");
+  useEffect(() => (root.current ? expose(stage, root.current) : undefined), [stage]);
+  return (
+    <StageContext.Provider value={stage}>
+      <section ref={root} className={css.viewport} data-testid="viewport" data-asset={asset} aria-label="View">
+        <Toolbar />
+        <div className={css.stage}>
+          {works ? <Shown smooth={!inSoftware} /> : <NoWebGl />}
+          <State />
+        </div>
+      </section>
+    </StageContext.Provider>
+  );
+}
+
+function Shown({ smooth }: { smooth: boolean }) {
+  return (
+    <>
+      <Picture smooth={smooth} />
+      <Drawn />
+      <Divider />
+      <Gaps />
+      <Landmarks />
+      <ViewCube />
+      <Hud />
+      <Legend />
+      <CutBar />
+    </>
+  );
+}

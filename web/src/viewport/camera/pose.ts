@@ -1,0 +1,105 @@
+// Where one looks from: a point, a direction and a size, the same for perspective and parallel projection.
+import type { StandardView } from "../../store/desk";
+
+export type Vec = readonly [number, number, number];
+
+/** target: what is in the middle; azimuth, elevation: of the eye as seen from there; height: seen there [m]. */
+export interface Pose {
+  readonly target: Vec;
+  readonly azimuth: number;
+  readonly elevation: number;
+  readonly height: number;
+}
+
+export const FIELD = (32 * Math.PI) / 180;
+const QUARTER = Math.PI / 2;
+
+export const START: Pose = { target: [0, 0, 0], azimuth: -0.95, elevation: 0.42, height: 2 };
+
+export const STANDARD: Readonly<Record<StandardView, { azimuth: number; elevation: number }>> = {
+  front: { azimuth: -QUARTER, elevation: 0 },
+  back: { azimuth: QUARTER, elevation: 0 },
+  right: { azimuth: 0, elevation: 0 },
+  left: { azimuth: Math.PI, elevation: 0 },
+  top: { azimuth: -QUARTER, elevation: QUARTER },
+  bottom: { azimuth: -QUARTER, elevation: -QUARTER },
+  iso: { azimuth: START.azimuth, elevation: START.elevation },
+};
+
+/** The axes of the picture: right, up, and towards the eye. */
+export function axesOf({ azimuth, elevation }: Pose): { right: Vec; up: Vec; eye: Vec } {
+  const [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
+  const [ce, se] = [Math.cos(elevation), Math.sin(elevation)];
+  return { right: [-s, c, 0], up: [-se * c, -se * s, ce], eye: [ce * c, ce * s, se] };
+}
+
+/** How far the eye is away in perspective. */
+export const distanceOf = ({ height }: Pose): number => height / 2 / Math.tan(FIELD / 2);
+
+/** Turned by an angle sideways and up; never over the pole. */
+export function orbited(pose: Pose, sideways: number, up: number): Pose {
+  const elevation = Math.min(QUARTER, Math.max(-QUARTER, pose.elevation + up));
+  return { ...pose, azimuth: pose.azimuth + sideways, elevation };
+}
+
+/** Moved so that what was in the middle is that much of the height to the right and up. */
+export function panned(pose: Pose, right: number, up: number): Pose {
+  const axes = axesOf(pose);
+  const target = plus(plus(pose.target, axes.right, -right * pose.height), axes.up, -up * pose.height);
+  return { ...pose, target };
+}
+
+/** Nearer by a factor below 1; what is under a point, given in heights from the middle, stays there. */
+export function zoomed(pose: Pose, factor: number, right: number, up: number, limits: readonly [number, number]): Pose {
+  const height = Math.min(limits[1], Math.max(limits[0], pose.height * factor));
+  const kept = pose.height - height;
+  const axes = axesOf(pose);
+  const target = plus(plus(pose.target, axes.right, right * kept), axes.up, up * kept);
+  return { ...pose, target, height };
+}
+
+/** Seen from a standard side; what is in the middle and how large it is stay. */
+export function from(pose: Pose, side: StandardView): Pose {
+  return { ...pose, ...STANDARD[side] };
+}
+
+const MARGIN = 1.12;
+
+/** Shows all of some points in a picture of that width over height, from the same side. */
+export function fitted(pose: Pose, points: readonly Vec[], aspect: number, perspective: boolean): Pose {
+  const axes = axesOf(pose);
+  const rows = points.map((p) => [dot(p, axes.right), dot(p, axes.up), dot(p, axes.eye)] as const);
+  const [r, u, e] = [0, 1, 2].map((k) => middle(rows.map((row) => row[k] ?? 0))) as [number, number, number];
+  const slope = Math.tan(FIELD / 2);
+  const heights = rows.map((row) => {
+    const half = Math.max(Math.abs(row[1] - u), Math.abs(row[0] - r) / aspect) * MARGIN;
+    return perspective ? 2 * (half + (row[2] - e) * slope) : 2 * half;
+  });
+  const target = plus(plus(plus([0, 0, 0], axes.right, r), axes.up, u), axes.eye, e);
+  return { ...pose, target, height: heights.reduce((most, height) => Math.max(most, height), 1e-6) };
+}
+
+/** Between two poses; the shorter way round. */
+export function between(a: Pose, b: Pose, share: number): Pose {
+  const turn = ((((b.azimuth - a.azimuth + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
+  return {
+    target: plus(a.target, [b.target[0] - a.target[0], b.target[1] - a.target[1], b.target[2] - a.target[2]], share),
+    azimuth: a.azimuth + turn * share,
+    elevation: a.elevation + (b.elevation - a.elevation) * share,
+    height: a.height * (b.height / a.height) ** share,
+  };
+}
+
+/** The corners of a box given by its lowest and highest corner. */
+export function cornersOf(box: readonly number[]): Vec[] {
+  return Array.from({ length: 8 }, (_, k) => [box[k & 1 ? 3 : 0] ?? 0, box[k & 2 ? 4 : 1] ?? 0, box[k & 4 ? 5 : 2] ?? 0]);
+}
+
+export const plus = (a: Vec, b: Vec, times: number): Vec => [a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times];
+export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** Halfway between the lowest and the highest. */
+function middle(values: readonly number[]): number {
+  const [low, high] = values.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
+  return (low + high) / 2;
+}

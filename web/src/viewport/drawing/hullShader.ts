@@ -1,0 +1,109 @@
+// How hulls are drawn: flat faces under soft light, with colours and states looked up by the hull's place.
+import { FrontSide, type IUniform, ShaderMaterial } from "three";
+import type { Ink } from "./ink";
+import { WIDTH, type Table } from "./table";
+
+/** What is to become of a hull, as the third byte of its state has it. */
+export const ROLE = { plain: 0, washed: 1, removed: 2 } as const;
+
+/** What all materials of one set of hulls share; changing a value changes it for all. */
+export interface Shared {
+  readonly colors: IUniform;
+  readonly states: IUniform;
+  readonly explode: IUniform<number>;
+  readonly ink: Readonly<Record<"tint" | "pale" | "removed", IUniform>>;
+  readonly pixel: IUniform<number>;
+}
+
+export function shared(colors: Table, states: Table, ink: Ink): Shared {
+  return {
+    colors: { value: colors.texture },
+    states: { value: states.texture },
+    explode: { value: 0 },
+    ink: { tint: { value: ink.selected }, pale: { value: ink.pale }, removed: { value: ink.removed } },
+    pixel: { value: 1 },
+  };
+}
+
+/** Puts a vertex where its hull is, or out of sight; also used by lines and by the picture of places. */
+export const PLACING = /* glsl */ `
+  in float owner;
+  in vec3 away;
+  uniform sampler2D colors;
+  uniform sampler2D states;
+  uniform float explode;
+  ivec2 place() { int k = int(owner + 0.5); return ivec2(k % ${WIDTH}, k / ${WIDTH}); }
+  vec4 placed(vec4 state) {
+    if (state.r < 0.5) return vec4(0.0, 0.0, -2.0, 1.0);
+    return modelViewMatrix * vec4(position + explode * away, 1.0);
+  }
+`;
+
+/** Light on a face with a normal, as the camera sees it: from the sky, from the upper left, a little from the right. */
+export const LIGHT = /* glsl */ `
+  float light(vec3 n) {
+    float sky = 0.5 + 0.5 * dot(n, viewMatrix[2].xyz);
+    float key = max(dot(n, vec3(-0.450, 0.500, 0.740)), 0.0);
+    float fill = max(dot(n, vec3(0.862, 0.000, 0.507)), 0.0);
+    return 0.3 + 0.3 * sky + 0.5 * key + 0.12 * fill;
+  }
+`;
+
+// all that is the same on a whole face is reckoned at its last corner, so that pixels cost next to nothing
+const VERTEX = /* glsl */ `
+  ${PLACING}
+  flat out vec4 color;
+  flat out vec3 stripe;
+  flat out float role;
+  uniform vec3 tint;
+  uniform vec3 pale;
+  uniform vec3 removed;
+  #include <colorspace_pars_fragment>
+  ${LIGHT}
+  void main() {
+    vec4 base = texelFetch(colors, place(), 0);
+    vec4 state = texelFetch(states, place(), 0);
+    role = floor(state.b * 255.0 + 0.5);
+    if (role == ${ROLE.removed}.0) base.rgb = mix(base.rgb, removed, 0.55);
+    if (role == ${ROLE.washed}.0) base.rgb = mix(base.rgb, pale, 0.45);
+    float lit = light(mat3(modelViewMatrix) * normal);
+    vec3 glow = mix(vec3(1.0), tint, state.g);
+    float share = max(0.34 * state.g, 0.16 * state.a);
+    color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
+    stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
+    vec4 at = placed(state);
+    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  precision highp float;
+  flat in vec4 color;
+  flat in vec3 stripe;
+  flat in float role;
+  uniform float pixel;
+  uniform float opacity;
+  void main() {
+    gl_FragColor = vec4(color.rgb, opacity);
+    if (role < ${ROLE.removed}.0 && color.a > 0.5) return;
+    vec2 spot = gl_FragCoord.xy / pixel;
+    if (role == ${ROLE.removed}.0 && mod(floor(spot.x / 2.0) + floor(spot.y / 2.0), 2.0) > 0.5) discard;
+    if (color.a < 0.5 && fract((spot.x + spot.y) / 9.0) < 0.4) gl_FragColor.rgb = stripe;
+  }
+`;
+
+export function hullMaterial(common: Shared, opacity = 1): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: { ...placing(common), ...common.ink, opacity: { value: opacity } },
+    transparent: opacity < 1,
+    depthWrite: opacity === 1,
+    side: FrontSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+}
+
+export const placing = ({ colors, states, explode, pixel }: Shared) => ({ colors, states, explode, pixel });

@@ -1,0 +1,124 @@
+// Lines of a width in pixels: silhouettes of hulls as outlines, or lines between points.
+import {
+  BufferGeometry,
+  type Color,
+  DynamicDrawUsage,
+  Group,
+  InterleavedBuffer,
+  InterleavedBufferAttribute,
+  Mesh,
+  type ShaderMaterial,
+  BufferAttribute,
+} from "three";
+import { CORNER, type Eye, type Outline, roomFor, writeSilhouettes } from "../shapes/silhouette";
+import { strokeMaterial, strokeUniforms } from "./strokeShader";
+
+export interface StrokeStyle {
+  /** [px] */
+  readonly width: number;
+  /** Length of a dash [px], 0 for none. */
+  readonly dash?: number;
+  readonly opacity?: number;
+  /** How strongly it shows through what is before it; 1: nothing covers it. */
+  readonly behind?: number;
+}
+
+/** What strokes need to know of the picture: its size and pixels, where the eye is, how far hulls are apart. */
+export interface Frame {
+  readonly width: number;
+  readonly height: number;
+  readonly pixel: number;
+  readonly explode: number;
+  readonly eye: Eye;
+}
+
+export class Strokes {
+  readonly object = new Group();
+  private readonly uniforms;
+  private readonly materials: readonly ShaderMaterial[];
+  private geometry = new BufferGeometry();
+  private buffer = new InterleavedBuffer(new Float32Array(0), CORNER);
+  private outlines: readonly Outline[] = [];
+  private written = "";
+
+  constructor(
+    color: Color,
+    private readonly style: StrokeStyle,
+    order = 2,
+  ) {
+    this.uniforms = strokeUniforms(color);
+    this.materials = materialsOf(style, this.uniforms);
+    for (const one of this.materials) {
+      const mesh = new Mesh(this.geometry, one);
+      mesh.frustumCulled = false;
+      mesh.renderOrder = order;
+      this.object.add(mesh);
+    }
+    this.object.visible = false;
+  }
+
+  set(outlines: readonly Outline[]): void {
+    this.object.visible = outlines.length > 0;
+    this.outlines = outlines;
+    this.written = "";
+  }
+
+  recolor(color: Color): void {
+    this.uniforms.color.value = color;
+  }
+
+  /** To be called before drawing. */
+  measure({ width, height, pixel, explode, eye }: Frame): void {
+    this.uniforms.size.value.set(width * pixel, height * pixel);
+    this.uniforms.width.value = this.style.width * pixel;
+    this.uniforms.dash.value = (this.style.dash ?? 0) * pixel;
+    const key = `${eye.at} ${eye.parallel} ${explode}`;
+    if (!this.outlines.length || key === this.written) return;
+    this.written = key;
+    const room = roomFor(this.outlines);
+    if (room > this.buffer.array.length) this.grow(2 * room);
+    const count = writeSilhouettes(this.outlines, explode, eye, this.buffer.array as Float32Array);
+    this.buffer.clearUpdateRanges();
+    this.buffer.addUpdateRange(0, 4 * CORNER * count);
+    this.buffer.needsUpdate = true;
+    this.geometry.setDrawRange(0, 6 * count);
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+  }
+
+  private grow(numbers: number): void {
+    this.geometry.dispose();
+    this.geometry = new BufferGeometry();
+    this.buffer = new InterleavedBuffer(new Float32Array(numbers), CORNER);
+    this.buffer.setUsage(DynamicDrawUsage);
+    this.geometry.setAttribute("position", new InterleavedBufferAttribute(this.buffer, 3, 0));
+    this.geometry.setAttribute("other", new InterleavedBufferAttribute(this.buffer, 3, 3));
+    this.geometry.setAttribute("side", new InterleavedBufferAttribute(this.buffer, 1, 6));
+    this.geometry.setIndex(new BufferAttribute(quads(numbers / CORNER / 4), 1));
+    for (const mesh of this.object.children) (mesh as Mesh).geometry = this.geometry;
+  }
+}
+
+function materialsOf({ opacity = 1, behind = 0 }: StrokeStyle, uniforms: ReturnType<typeof strokeUniforms>) {
+  if (behind >= 1) return [strokeMaterial(uniforms, opacity, "over")];
+  const before = strokeMaterial(uniforms, opacity, "before");
+  return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind")] : [before];
+}
+
+function quads(count: number): Uint32Array {
+  const out = new Uint32Array(6 * count);
+  for (let k = 0; k < count; k++) out.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
+  return out;
+}
+
+/** Lines between points as outlines. */
+export function linesBetween(pairs: readonly (readonly [ArrayLike<number>, ArrayLike<number>])[]): Outline[] {
+  const records = new Float32Array(12 * pairs.length);
+  pairs.forEach(([a, b], k) => {
+    records.set(a, 12 * k);
+    records.set(b, 12 * k + 3);
+  });
+  return pairs.length ? [{ records, away: [0, 0, 0] }] : [];
+}

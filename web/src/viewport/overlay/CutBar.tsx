@@ -1,0 +1,74 @@
+// The controls of the cutting tool: along which axis, where, cut or leave.
+import { useEffect } from "react";
+import { useDesk } from "../../store/desk";
+import { type CutAxis, hullToCut, leaveCut, performCut, setCut, useCutting } from "../../store/cutting";
+import { useScenes } from "../../store/scenes";
+import { Button } from "../../ui/Button";
+import { Choice } from "../../ui/Choice";
+import { Slide } from "../../ui/Slide";
+import css from "./overlay.module.css";
+
+const AXES: readonly { value: CutAxis; label: string; name: string }[] = [
+  { value: "x", label: "X", name: "Across the X axis" },
+  { value: "y", label: "Y", name: "Across the Y axis" },
+  { value: "z", label: "Z", name: "Across the Z axis" },
+  { value: "free", label: "Free", name: "Along a line that you draw" },
+];
+
+export function CutBar() {
+  const inHand = useDesk((desk) => desk.tool === "cut");
+  return inHand ? <Bar /> : null;
+}
+
+function Bar() {
+  const selection = useDesk((desk) => desk.selection);
+  const scene = useScenes((state) => state.scene);
+  const { axis, share, drawn } = useCutting();
+  const hull = hullToCut(scene, selection);
+  useEffect(() => {
+    // before other commands that have these keys
+    window.addEventListener("keydown", press, true);
+    return () => window.removeEventListener("keydown", press, true);
+  }, []);
+  return (
+    <div className={css.bar} role="group" aria-label="Cut a hull">
+      {hull ? (
+        <>
+          <span>
+            Cut <b>{hull.name}</b>
+          </span>
+          <Choice name="Direction of the cut" value={axis} options={AXES} onChange={(next) => setCut({ axis: next })} />
+          {axis === "free" && !drawn ? (
+            <span>Draw a line across the hull.</span>
+          ) : (
+            <Slide name="Place of the cut" value={share} onChange={(next) => setCut({ share: next })} />
+          )}
+          <Button
+            look="primary"
+            disabled={axis === "free" && !drawn}
+            onClick={() => void performCut()}
+            tip="Split the hull in two along the plane"
+            keys="Enter"
+          >
+            Cut
+          </Button>
+        </>
+      ) : (
+        <span>Click the hull to cut; hulls that a step made cannot be cut.</span>
+      )}
+      <Button look="quiet" onClick={leaveCut} tip="Put the tool down" keys="Escape">
+        Leave
+      </Button>
+    </div>
+  );
+}
+
+function press(event: KeyboardEvent): void {
+  if (event.key === "Escape") leaveCut();
+  else if (event.key === "Enter" && !isOnButton(event)) void performCut();
+  else return;
+  event.preventDefault();
+}
+
+const isOnButton = ({ target }: KeyboardEvent): boolean =>
+  target instanceof Element && target.matches("button:focus-visible, input, textarea, [contenteditable=true]");

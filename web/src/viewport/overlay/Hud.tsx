@@ -1,0 +1,78 @@
+// What is pointed at, and how many hulls there are and are selected.
+import { useDesk } from "../../store/desk";
+import { useProject } from "../../store/project";
+import { type Scene, useScenes } from "../../store/scenes";
+import { Swatch } from "../../ui/Section";
+import type { HullView } from "../../wire";
+import { isUnsure } from "../colors/palette";
+import { lengthText, volumeText } from "../shapes/nice";
+import { useStage } from "../stage/context";
+import css from "./overlay.module.css";
+
+export function Hud() {
+  return (
+    <>
+      <Pointed />
+      <Counts />
+    </>
+  );
+}
+
+function Pointed() {
+  const name = useDesk((desk) => desk.hover);
+  const hull = useScenes(({ scene }) => scene?.hulls.find((one) => one.name === name));
+  const piece = useScenes(({ scene }) => scene?.view.opaque.find((one) => one.name === name));
+  if (hull) return <HullLine hull={hull} />;
+  if (!piece) return null;
+  return (
+    <div className={css.pointed}>
+      <b>{piece.name}</b>
+      <span>{piece.reason}</span>
+    </div>
+  );
+}
+
+function HullLine({ hull }: { hull: HullView }) {
+  const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
+  const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
+  return (
+    <div className={css.pointed}>
+      <b>{hull.name}</b>
+      {hull.label === null ? (
+        <span>no label</span>
+      ) : (
+        <span>
+          <Swatch color={color ?? "var(--hull-unlabelled)"} hatched={isUnsure(hull)} /> {hull.label}
+          {isUnsure(hull) ? `, unsure${share}` : share}
+        </span>
+      )}
+      <span>{volumeText(hull.volume)}</span>
+      <span>{hull.primitive ?? `${hull.vertices} vertices`}</span>
+    </div>
+  );
+}
+
+function Counts() {
+  const scene = useScenes((state) => state.scene);
+  const selected = useDesk((desk) => desk.selection.size);
+  const hidden = useDesk((desk) => desk.hidden.size);
+  const grid = useDesk((desk) => desk.view.grid);
+  const stage = useStage();
+  if (!scene) return null;
+  const parts = [countText(scene), selected ? `${selected} selected` : "", hidden ? `${hidden} hidden` : ""];
+  return (
+    <div className={css.counts} data-testid="counts">
+      {scene.view.unturned && <span className={css.warn}>Not turned: {scene.view.unturned}</span>}
+      <span>{parts.filter(Boolean).join(" · ")}</span>
+      {grid && <span className={css.faint}>grid {lengthText(stage.ground.step)}</span>}
+    </div>
+  );
+}
+
+function countText({ view, hulls, edit }: Scene): string {
+  const before = view.hulls.length;
+  if (edit) return `${before} → ${counted(hulls.length)}`;
+  return counted(before);
+}
+
+const counted = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);

@@ -1,0 +1,35 @@
+// What the stores say about the looks of both sides.
+import { useDesk } from "../../store/desk";
+import { usePreview } from "../../store/preview";
+import { useProject } from "../../store/project";
+import type { Scene } from "../../store/scenes";
+import { tones } from "../colors/palette";
+import type { Ink } from "../drawing/ink";
+import type { Appearance } from "../drawing/looks";
+import { goingOf } from "../drawing/made";
+import { usePointing } from "./pointing";
+
+/** The looks of what is shown, and of the asset as it comes beside it. */
+export function appearances(scene: Scene, ink: Ink): { shown: Appearance; before: Appearance } {
+  const { view, selection, hover, hidden } = useDesk.getState();
+  const { region } = usePointing.getState();
+  const names = scene.hulls.map((hull) => hull.name);
+  const going = goingOf(usePreview.getState().preview, names);
+  const lit = new Set([...region, ...highlighted(scene)]);
+  const tone = tones(scene, view.colorBy, useProject.getState().project.vocabulary);
+  const shown = { tone, selection, hover, hidden, lit, going, ink, changed: compared(scene) };
+  return { shown, before: { ...shown, going: new Set() } };
+}
+
+/** What was changed, where before and after are beside each other. */
+function compared({ edit }: Scene): ReadonlySet<string> | null {
+  if (!edit || useDesk.getState().view.compare === "off") return null;
+  const changed = new Set([...edit.made, ...edit.removed]);
+  return changed.size ? changed : null;
+}
+
+/** The hulls that a rule or an extractor points out on this asset. */
+function highlighted(scene: Scene): string[] {
+  const places = useDesk.getState().highlight?.assets[scene.asset] ?? [];
+  return places.flatMap((place) => scene.view.hulls[place]?.name ?? []);
+}

@@ -1,0 +1,24 @@
+// Gives the parts of the viewport the stage they belong to.
+import { createContext, useContext, useEffect, useRef } from "react";
+import type { Stage } from "./stage";
+
+export const StageContext = createContext<Stage | null>(null);
+
+export function useStage(): Stage {
+  const stage = useContext(StageContext);
+  if (!stage) throw new Error("this is a part of the viewport");
+  return stage;
+}
+
+/** Calls back after each frame, with no rendering by React. */
+export function useDrawn(drawn: () => void): void {
+  const stage = useStage();
+  const latest = useRef(drawn);
+  useEffect(() => {
+    latest.current = drawn;
+  });
+  useEffect(() => {
+    stage.invalidate();
+    return stage.onDrawn(() => latest.current());
+  }, [stage]);
+}

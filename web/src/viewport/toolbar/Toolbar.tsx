@@ -1,0 +1,34 @@
+// The bar over the picture: tools and selecting on the first line, looking on the second.
+import { useScenes } from "../../store/scenes";
+import { ExtractorField } from "../../text/ExtractorField";
+import { ColorChoice } from "./ColorChoice";
+import { CompareChoice } from "./CompareChoice";
+import { ExplodeSlide } from "./ExplodeSlide";
+import { SelectionMenu } from "./SelectionMenu";
+import { ShowingMenu } from "./ShowingMenu";
+import { Switches } from "./Switches";
+import css from "./toolbar.module.css";
+import { Tools } from "./Tools";
+import { ViewMenu } from "./ViewMenu";
+
+export function Toolbar() {
+  const there = useScenes(({ scene }) => scene !== null);
+  return (
+    <div className={css.bar} role="toolbar" aria-label="View" inert={!there}>
+      <div className={css.line}>
+        <Tools />
+        <SelectionMenu />
+        <ExtractorField />
+      </div>
+      <div className={css.line}>
+        <ShowingMenu />
+        <CompareChoice />
+        <span className={css.gap} />
+        <ColorChoice />
+        <Switches />
+        <ExplodeSlide />
+        <ViewMenu />
+      </div>
+    </div>
+  );
+}
