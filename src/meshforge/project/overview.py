@@ -27,6 +27,7 @@ def status(
     others: Iterable[AssetStatus],
     workers: int | None,
     progress: Callable[[], None] | None,
+    stop: Callable[[], bool] | None = None,
 ) -> Status:
     """How far everything is, or some assets; others: what is known of other ones, which counts for the advice.
 
@@ -35,7 +36,7 @@ def status(
     for asset in only or ():
         project.path(asset)
     settings, ids, work, reviews = project.settings, project.found.ids, jobs(project, only), project.reviews()
-    facts = survey(project.found, project.layout, only, workers=workers, progress=progress)
+    facts = survey(project.found, project.layout, only, workers=workers, progress=progress, stop=stop)
     program, what, problem = _program(project)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
     stands = standing(project, program)

@@ -420,10 +420,11 @@ class Project:
         others: Iterable[AssetStatus] = (),
         workers: int | None = None,
         progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
     ) -> Status:
         """How far everything is, what is stale, and the next sensible step.
 
         only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
-        known already. workers, progress: as of `meshforge.batch.isolated`, for assets that have to be read.
+        known already. workers, progress, stop: as of `meshforge.batch.isolated`, for assets that have to be read.
         """
-        return overview.status(self, only, others, workers, progress)
+        return overview.status(self, only, others, workers, progress, stop)

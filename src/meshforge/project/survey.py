@@ -53,10 +53,11 @@ def survey(
     *,
     workers: int | None = None,
     progress: Callable[[], None] | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> dict[str, Facts]:
     """The facts of all assets by id, or of some; those whose files changed since are read, in worker processes.
 
-    layout: where the project keeps preparations, and these facts; workers, progress: as of `meshforge.batch.isolated`.
+    layout: where the project keeps preparations, and these facts; workers, progress, stop: as of `isolated`.
     """
     memory, ids = layout.survey, found.ids
     known = _remembered(memory)
@@ -64,7 +65,7 @@ def survey(
     work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key: known[key] for key, own in work.items() if key in known and _holds(known[key], own)}
     todo = {key: own for key, own in work.items() if key not in fresh}
-    results = isolated(_facts, tuple(todo.values()), workers=workers, timeout=TIMEOUT, done=progress)
+    results = isolated(_facts, tuple(todo.values()), workers=workers, timeout=TIMEOUT, done=progress, stop=stop)
     for key, result in zip(todo, results, strict=True):
         fresh[key] = Facts(error=result.why) if isinstance(result, Lost) else result
     every = known | fresh

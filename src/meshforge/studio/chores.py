@@ -40,11 +40,17 @@ class Chores:
         with self._wake:
             return len(self._urgent | self._rest)
 
+    def is_closed(self) -> bool:
+        """Whether what is being done is to stop."""
+        return self._closed
+
     def close(self) -> None:
-        """Stop after what is being done."""
+        """Stop, and wait for the end of what is being done."""
         with self._wake:
             self._closed = True
             self._wake.notify()
+        if self._thread.is_alive():
+            self._thread.join()
 
     def _run(self) -> None:
         while True:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from typing import TYPE_CHECKING
 
-from meshforge.errors import MeshForgeError, told
+from meshforge.errors import MeshForgeError, StoppedError, told
 from meshforge.project import Project, Status
 from meshforge.studio.cards import card
 from meshforge.studio.next_step import next_step
@@ -41,6 +41,8 @@ class Refreshing:
         """Look at some assets, and at the project when none are left. Never raises."""
         try:
             self._refresh(tuple(asset for asset in assets if asset in self._desk.project.found.ids))
+        except StoppedError:  # the studio is being closed
+            return
         except MeshForgeError as error:
             self._desk.shown.set_problem(error.message)
         except Exception as error:
@@ -49,7 +51,7 @@ class Refreshing:
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         desk, project = self._desk, self._desk.project
-        status = project.status(assets, progress=self._count)
+        status = project.status(assets, progress=self._count, stop=desk.chores.is_closed)
         settings = project.settings
         desk.shown.set_cards([card(row, settings.vocabulary, settings.orient) for row in status.assets])
         self._tell()

@@ -70,8 +70,10 @@ class Watch:
         self._thread.start()
 
     def close(self) -> None:
-        """Stop."""
+        """Stop, and wait for the end of a look."""
         self._closed.set()
+        if self._thread.is_alive():
+            self._thread.join()
 
     def _run(self) -> None:
         while not self._closed.wait(EVERY):

@@ -1,12 +1,13 @@
-// All commands; where two share a key, the first that is enabled has it, so those of a stage come before the general.
+// All commands; where two share a key, the first that is enabled has it, so those of a stage come before the general,
+// and putting a tool down before letting the selection go.
 import type { Command } from "./command";
 import { demonstrating } from "./demonstrating";
 import { going } from "./going";
 import { labelling } from "./labelling";
 import { learning } from "./learning";
 import { reviewing } from "./reviewing";
-
-const others = import.meta.glob<Record<string, readonly Command[]>>(["./selecting.ts", "./viewing.ts"], { eager: true });
+import { selecting } from "./selecting";
+import { viewing } from "./viewing";
 
 export const all: readonly Command[] = [
   ...labelling,
@@ -14,7 +15,8 @@ export const all: readonly Command[] = [
   ...learning,
   ...reviewing,
   ...going,
-  ...Object.entries(others).flatMap(([path, module]) => module[path.slice(2, -3)] ?? []),
+  ...viewing,
+  ...selecting,
 ];
 
 /** The command that a key means now. */

@@ -1,9 +1,11 @@
 // Commands that demonstrate: actions are begun, accepted and put down; steps are taken away; hulls are cut.
+import { startDraft } from "../store/beginning";
 import { setTool, show, useDesk } from "../store/desk";
-import { acceptDraft, changeDraft, chosen, dropDraft, startDraft } from "../store/drafting";
+import { acceptDraft, changeDraft, chosen, dropDraft } from "../store/drafting";
 import { acceptGuess, guessFor } from "../store/guesses";
+import { dropStep } from "../store/saying";
 import { useScenes } from "../store/scenes";
-import { changeSteps, openRules, takenAway } from "../store/steps";
+import { openRules } from "../store/steps";
 import { complainedOf } from "../store/toasts";
 import type { Command } from "./command";
 
@@ -58,7 +60,7 @@ export function shownStep(): number | null {
 function takeStepAway(): void {
   const { asset } = useDesk.getState();
   const place = shownStep();
-  if (asset !== null && place !== null) changeSteps(asset, takenAway(place)).catch(complainedOf);
+  if (asset !== null && place !== null) dropStep(asset, place).catch(complainedOf);
 }
 
 export const demonstrating: readonly Command[] = [

@@ -101,7 +101,13 @@ export const going: readonly Command[] = [
     keys: [],
     run: () => useDesk.setState(({ theme }) => ({ theme: turned(theme) })),
   },
-  { id: "palette", title: "Find a command or an asset", group: "Go", keys: ["Ctrl+K", "/"], run: () => toggleOverlay("palette") },
+  {
+    id: "palette",
+    title: "Find a command or an asset",
+    group: "Go",
+    keys: ["Ctrl+K", "/"],
+    run: () => toggleOverlay("palette"),
+  },
   { id: "help", title: "Keys and help", group: "Go", keys: ["?", "F1"], run: () => toggleOverlay("help") },
   { id: "tour", title: "Guided tour", group: "Go", keys: [], run: beginTour },
 ];

@@ -3,24 +3,15 @@ import { api } from "../server/api";
 import { openAsset, openStage, setHighlight, useDesk, visit } from "../store/desk";
 import { perform } from "../store/edits";
 import { differing } from "../store/lessons";
-import { type Rival, type Selection, telling } from "../store/meaning";
+import { tellingAssets } from "../store/meaning";
 import { useProject } from "../store/project";
-import { complainedOf, told } from "../store/toasts";
+import { complainedOf } from "../store/toasts";
 import type { NearestView, QuestionView, ReadingView, RepairView } from "../wire";
 import type { Command } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
-export const learnNow = (): Promise<void> => saying(api.learn);
-export const stopLearning = (): Promise<void> => saying(api.stopLearning);
-
-async function saying(request: () => Promise<{ said: string }>): Promise<void> {
-  try {
-    const { said } = await request();
-    if (said) told(said);
-  } catch (error) {
-    complainedOf(error);
-  }
-}
+export const learnNow = (): Promise<unknown> => api.learn().catch(complainedOf);
+export const stopLearning = (): Promise<unknown> => api.stopLearning().catch(complainedOf);
 
 /** Answers a question with one of its choices, counted from 0, or with neither. */
 export function answer(question: QuestionView, choice: number | null): Promise<boolean> {
@@ -47,25 +38,6 @@ export async function meanReading(reading: ReadingView): Promise<void> {
   } catch (error) {
     complainedOf(error);
   }
-}
-
-/** So many of the most believable readings are told apart; the others hardly matter. */
-const RIVALS = 8;
-
-async function tellingAssets({ id, rule, extractor, differs_on }: ReadingView): Promise<string[]> {
-  const readings = (useProject.getState().lesson?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
-  const rivals = [...readings].sort((a, b) => b.belief - a.belief).slice(0, RIVALS);
-  const own = await everywhere(extractor, rule);
-  const known: Rival[] = [];
-  for (const { belief, extractor: other } of rivals) known.push({ belief, assets: await everywhere(other, rule) });
-  const found = telling(own, known);
-  return found.length ? found : differs_on.slice(0, 1);
-}
-
-/** What an extractor selects on all assets; asked once more, as the server drops a request for a newer one. */
-async function everywhere(extractor: string, rule: number): Promise<Selection> {
-  const asked = await api.generalise(extractor, rule).catch(() => api.generalise(extractor, rule));
-  return asked.assets;
 }
 
 export function settle({ asset, hull, was, to }: RepairView, accept: boolean): Promise<boolean> {

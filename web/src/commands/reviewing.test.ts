@@ -1,10 +1,11 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { initialDesk, useDesk } from "../store/desk";
+import { notApplicable } from "../store/jobs";
 import { emptyProject, useProject } from "../store/project";
 import { useToasts } from "../store/toasts";
 import type { AnyEdit, Card, EditedHeader } from "../wire";
-import { accept, acceptLegal, nextToReview, notApplicable, reviewing } from "./reviewing";
+import { accept, acceptLegal, nextToReview, reviewing } from "./reviewing";
 
 const card = (asset: string, more: Partial<Card> = {}): Card => ({
   asset,
@@ -83,6 +84,14 @@ describe("keys of the review stage", () => {
     expect(command("accept")?.enabled?.()).toBe(false);
   });
 
+  it("accept only what is up to date, which can be flagged all the same", () => {
+    family(card("a", { stale: ["program"] }), card("b"));
+    useDesk.setState({ asset: "a" });
+    expect([command("accept")?.enabled?.(), command("flag")?.enabled?.()]).toEqual([false, true]);
+    useDesk.setState({ asset: "b" });
+    expect(command("accept")?.enabled?.()).toBe(true);
+  });
+
   it("flag, and take a flag back", () => {
     family(card("a"), card("b", { review: "flagged" }));
     useDesk.setState({ asset: "b" });
@@ -96,6 +105,13 @@ describe("keys of the review stage", () => {
     family(card("a", { review: "accepted" }));
     nextToReview();
     expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing wants a look/);
+  });
+
+  it("do not call a failed asset reviewed that is the only one left", () => {
+    family(card("a", { review: "accepted" }), card("b", { output: "failed" }));
+    useDesk.setState({ asset: "b" });
+    nextToReview();
+    expect(useToasts.getState().toasts[0]?.text).toBe("No other result wants a look.");
   });
 });
 

@@ -1,50 +1,19 @@
 // What a person does with results: apply, accept, flag, correct, export, and go to the next that wants a look.
-import { api } from "../server/api";
+import { startDraft } from "../store/beginning";
 import { openAsset, openStage, useDesk, visit } from "../store/desk";
-import { startDraft } from "../store/drafting";
 import { perform } from "../store/edits";
+import { applyTo, notApplicable } from "../store/jobs";
 import { useProject } from "../store/project";
 import { acceptable, after, reviewQueue } from "../store/reviews";
 import { complainedOf, told } from "../store/toasts";
 import { verdict } from "../store/verdicts";
-import type { Card, JobRequest } from "../wire";
+import type { Card } from "../wire";
 import type { Command } from "./command";
 
 /** All cards in the family's order. */
 export function cardsInOrder(): Card[] {
   const { order, cards } = useProject.getState();
   return order.flatMap((asset) => cards[asset] ?? []);
-}
-
-/** Why the program cannot be applied, null where it can. */
-export function notApplicable(): string | null {
-  const { program, project, order, jobs } = useProject.getState();
-  if (!order.length) return "There are no assets yet.";
-  if (program.error) return `The program cannot be read: ${program.error}`;
-  if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
-  if (project.problem) return project.problem;
-  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
-}
-
-async function start(request: JobRequest): Promise<boolean> {
-  try {
-    await api.startJob(request);
-    return true;
-  } catch (error) {
-    complainedOf(error);
-    return false;
-  }
-}
-
-/** Applies the program to all assets, or to some. */
-export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
-  start({ kind: "apply", assets: assets && [...assets] });
-
-export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
-  start({ kind: "export", folder, accepted_only });
-
-export function cancelJob(id: string): void {
-  api.cancelJob(id).catch(complainedOf);
 }
 
 /** Accepts an output and goes on to the next that wants a look. */
@@ -108,9 +77,11 @@ function nextOf(asset: string | null): string | null {
 
 /** Opens the next asset that failed, is flagged, or was not reviewed yet. */
 export function nextToReview(): void {
-  const next = nextOf(useDesk.getState().asset);
-  if (next) openAsset(next);
-  else told("Nothing wants a look: every output is reviewed.");
+  const { asset } = useDesk.getState();
+  const next = nextOf(asset);
+  if (next) return openAsset(next);
+  const last = asset !== null && reviewQueue(cardsInOrder()).includes(asset);
+  told(last ? "No other result wants a look." : "Nothing wants a look: every output is reviewed.");
 }
 
 /** The card of the open asset, if it has an output that can be reviewed. */
@@ -126,7 +97,7 @@ export const reviewing: readonly Command[] = [
     title: "Accept the result, go to the next",
     group: "Review",
     keys: ["Y"],
-    enabled: () => reviewable() !== null,
+    enabled: () => reviewable()?.stale.length === 0,
     run: () => {
       const card = reviewable();
       if (card) void accept(card.asset);

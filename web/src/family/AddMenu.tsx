@@ -1,6 +1,6 @@
 // Adding assets from files or a folder.
 import { Plus } from "lucide-react";
-import { useRef } from "react";
+import { type RefObject, useRef } from "react";
 import { addAssets } from "../store/adding";
 import { Button } from "../ui/Button";
 import { Menu } from "../ui/Menu";
@@ -28,7 +28,13 @@ export function AddMenu({ words = "Add" }: { words?: string }) {
   );
 }
 
-function Picker({ input, name, folder = false }: { input: React.RefObject<HTMLInputElement | null>; name: string; folder?: boolean }) {
+interface PickerProps {
+  input: RefObject<HTMLInputElement | null>;
+  name: string;
+  folder?: boolean;
+}
+
+function Picker({ input, name, folder = false }: PickerProps) {
   return (
     <input
       ref={(element) => {

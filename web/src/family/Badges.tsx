@@ -1,8 +1,19 @@
 // Small signs on a card, each a shape of its own with its words behind it.
-import { Check, CircleAlert, Flag, Hand, Pencil, RefreshCw, Tag, CircleDot, type LucideIcon, CircleDashed } from "lucide-react";
+import {
+  Check,
+  CircleAlert,
+  CircleDashed,
+  CircleDot,
+  Flag,
+  Hand,
+  type LucideIcon,
+  Pencil,
+  RefreshCw,
+  Tag,
+} from "lucide-react";
 import type { Card } from "../wire";
 import css from "./card.module.css";
-import { type Badge, badges } from "./words";
+import { type Badge, badges, fitting } from "./words";
 
 export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   unlabelled: Tag,
@@ -16,10 +27,12 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   corrected: Hand,
 };
 
-export function Badges({ card }: { card: Card }) {
+/** room: for signs and their counts [px]. */
+export function Badges({ card, room }: { card: Card; room: number }) {
+  const { shown, rest } = fitting(badges(card), room);
   return (
     <span className={css.badges}>
-      {badges(card).map(({ name, text, count }) => {
+      {shown.map(({ name, text, count }) => {
         const Icon = ICONS[name];
         return (
           <span key={name} className={css.badge} data-badge={name} title={text}>
@@ -28,6 +41,11 @@ export function Badges({ card }: { card: Card }) {
           </span>
         );
       })}
+      {rest.length > 0 && (
+        <span className={css.badge} title={rest.map((badge) => badge.text).join("\n")}>
+          +{rest.length}
+        </span>
+      )}
     </span>
   );
 }

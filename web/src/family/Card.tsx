@@ -46,7 +46,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
         <span className={css.name}>{middle(asset, Math.floor((width - 16) / 6.3))}</span>
         <span className={css.line}>
           <Amount card={card} />
-          <Badges card={card} />
+          <Badges card={card} room={width - 72} />
         </span>
       </div>
     </div>

@@ -1,23 +1,26 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { type KeyboardEvent, useEffect, useRef } from "react";
 import { openAsset, setFilters, useDesk } from "../store/desk";
 import { setLayout } from "../store/layout";
 import { Button } from "../ui/Button";
 import { Card, cardId } from "./Card";
 import css from "./family.module.css";
+import { useFollowed, useWidth } from "./useRoom";
 import { useShown } from "./useShown";
 
 const GAP = 8;
 const WORDS = 44; // pixels below the picture
 
-/** least: width of a card [px]; large: before → after is told beside the picture. */
+/** least: width of a card [px]; large: the picture tells whether it is of before or after. */
 export function Cards({ least, large = false }: { least: number; large?: boolean }) {
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
   const asset = useDesk((desk) => desk.asset);
   const width = useWidth(box);
-  const columns = Math.max(1, Math.floor((width - GAP) / (least + GAP)));
+  // larger where there is much room
+  const wished = large ? Math.max(least, width / 10) : least;
+  const columns = Math.max(1, Math.floor((width - GAP) / (wished + GAP)));
   const card = Math.floor((width - GAP) / columns - GAP);
   const rows = useVirtualizer({
     count: Math.ceil(shown.length / columns),
@@ -29,7 +32,13 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
   });
   useEffect(() => rows.measure(), [rows, card]);
   useFollowed(asset, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
-  if (shown.length === 0) return <NoMatch />;
+  if (shown.length === 0) {
+    return (
+      <div ref={box} className={css.cards}>
+        <NoMatch />
+      </div>
+    );
+  }
   return (
     <div
       ref={box}
@@ -45,7 +54,12 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
     >
       <div className={css.rows} style={{ height: rows.getTotalSize() }} role="presentation">
         {rows.getVirtualItems().map(({ index, start }) => (
-          <div key={index} className={css.row} style={{ transform: `translateY(${start}px)`, gap: GAP }} role="presentation">
+          <div
+            key={index}
+            className={css.row}
+            style={{ transform: `translateY(${start}px)`, gap: GAP }}
+            role="presentation"
+          >
             {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
               <Card key={one} asset={one} width={card} place={index * columns + k} of={shown.length} large={large} />
             ))}
@@ -54,39 +68,6 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
       </div>
     </div>
   );
-}
-
-/** The width inside an element, as it changes. */
-function useWidth(box: React.RefObject<HTMLElement | null>): number {
-  const [width, setWidth] = useState(264);
-  useLayoutEffect(() => {
-    const element = box.current;
-    if (!element) return;
-    const measure = () => setWidth(element.clientWidth);
-    const observer = new ResizeObserver(measure);
-    observer.observe(element);
-    measure();
-    return () => observer.disconnect();
-  });
-  return width;
-}
-
-/** Scrolls to the asset that is opened, wherever that was done. */
-function useFollowed(
-  asset: string | null,
-  shown: readonly string[],
-  columns: number,
-  scrollTo: (row: number) => void,
-): void {
-  const latest = useRef({ shown, columns, scrollTo });
-  useLayoutEffect(() => {
-    latest.current = { shown, columns, scrollTo };
-  });
-  useEffect(() => {
-    const { shown: all, columns: across, scrollTo: go } = latest.current;
-    const at = asset === null ? -1 : all.indexOf(asset);
-    if (at >= 0) go(Math.floor(at / across));
-  }, [asset]);
 }
 
 /** Arrow keys go to the assets beside, above and below; Enter shows the one that is open in the view. */

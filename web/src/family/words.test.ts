@@ -1,7 +1,7 @@
 // Words on cards.
 import { expect, test } from "vitest";
 import type { Card } from "../wire";
-import { badges, middle, spoken } from "./words";
+import { badges, fitting, middle, spoken } from "./words";
 
 const card: Card = {
   asset: "a.urdf",
@@ -49,4 +49,13 @@ test("why an asset is flagged is told", () => {
 test("a screen reader hears name, hulls before and after, and how it stands", () => {
   expect(spoken(card)).toMatch(/^a\.urdf; 3 hulls, 2 after; Not up to date: program; Demonstrated/);
   expect(spoken({ ...card, hulls: null, error: "no mesh file" })).toContain("no mesh file");
+});
+
+test("signs that do not fit are counted; what matters most stays", () => {
+  const all = badges(card);
+  expect(fitting(all, 500)).toEqual({ shown: all, rest: [] });
+  const { shown, rest } = fitting(all, 60);
+  expect(shown.map((badge) => badge.name)).toEqual(["stale", "demonstrated"]);
+  expect(rest).toHaveLength(all.length - 2);
+  expect(fitting(all, 0)).toEqual({ shown: [], rest: all });
 });

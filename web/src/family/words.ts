@@ -1,5 +1,6 @@
 // Words on cards: names that fit, and what a screen reader says.
-import { unlabelled } from "../store/family";
+import type { FilterName } from "../store/desk";
+import { has, unlabelled } from "../store/family";
 import type { Card } from "../wire";
 
 /** A text of at most so many letters, shortened in the middle, where ids differ least. */
@@ -12,7 +13,7 @@ export function middle(text: string, most: number): string {
 export const hulls = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);
 
 export interface Badge {
-  name: "unlabelled" | "unsure" | "demonstrated" | "edited" | "stale" | "accepted" | "flagged" | "failed" | "corrected";
+  name: FilterName | "corrected";
   /** What it says, in words. */
   text: string;
   count?: number;
@@ -20,23 +21,38 @@ export interface Badge {
 
 /** How an asset stands, what matters most first. */
 export function badges(card: Card): readonly Badge[] {
-  const bare = unlabelled(card);
+  const { output, review, corrections, stale } = card;
+  const [bare, unsure] = [unlabelled(card), card.unsure.length];
   const out: (Badge | false)[] = [
-    card.output === "failed" && { name: "failed", text: "The program fails on it" },
-    (card.review === "flagged" || card.flags.length > 0) && { name: "flagged", text: flagged(card) },
-    card.review === "accepted" && { name: "accepted", text: "Accepted" },
-    card.output !== "none" && card.stale.length > 0 && { name: "stale", text: `Not up to date: ${card.stale.join(", ")}` },
+    output === "failed" && { name: "failed", text: "The program fails on it" },
+    has(card, "flagged") && { name: "flagged", text: flagged(card) },
+    review === "accepted" && { name: "accepted", text: "Accepted" },
+    has(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
-    card.corrections > 0 && { name: "corrected", text: card.corrections === 1 ? "1 edit by hand" : `${card.corrections} edits by hand`, count: card.corrections },
-    card.output === "edited" && card.review === null && { name: "edited", text: "Edited by the program" },
-    card.unsure.length > 0 && {
-      name: "unsure",
-      text: card.unsure.length === 1 ? "1 label is not sure" : `${card.unsure.length} labels are not sure`,
-      count: card.unsure.length,
-    },
-    bare > 0 && { name: "unlabelled", text: bare === 1 ? "1 hull has no label" : `${bare} hulls have no label`, count: bare },
+    corrections > 0 && counted("corrected", corrections, "edit by hand", "edits by hand"),
+    output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
+    unsure > 0 && counted("unsure", unsure, "label is not sure", "labels are not sure"),
+    bare > 0 && counted("unlabelled", bare, "hull has no label", "hulls have no label"),
   ];
   return out.filter((badge) => badge !== false);
+}
+
+const counted = (name: Badge["name"], count: number, one: string, several: string): Badge => ({
+  name,
+  count,
+  text: count === 1 ? `1 ${one}` : `${count} ${several}`,
+});
+
+const SIGN = 16; // pixels that a sign takes
+const DIGIT = 7;
+
+/** Those that fit into a width [px], and the rest, which then takes the place of a sign. */
+export function fitting(all: readonly Badge[], room: number): { shown: readonly Badge[]; rest: readonly Badge[] } {
+  const widths = all.map(({ count }) => SIGN + (count === undefined ? 0 : DIGIT * String(count).length));
+  const sum = (count: number) => widths.slice(0, count).reduce((a, b) => a + b, 0);
+  if (sum(all.length) <= room) return { shown: all, rest: [] };
+  const most = widths.findLastIndex((_, k) => sum(k) + SIGN <= room);
+  return { shown: all.slice(0, Math.max(most, 0)), rest: all.slice(Math.max(most, 0)) };
 }
 
 function flagged(card: Card): string {

@@ -43,5 +43,6 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, l
 
 /** Keeps the place of a picture that is not there. */
 function Blank({ size }: { size?: number | undefined }) {
-  return <div className={css.picture} style={size === undefined ? undefined : { width: size }} data-state="none" aria-hidden />;
+  const style = size === undefined ? undefined : { width: size };
+  return <div className={css.picture} style={style} data-state="none" aria-hidden />;
 }

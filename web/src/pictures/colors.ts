@@ -37,4 +37,4 @@ function measured(color: string): Rgb {
 
 /** Of hulls of which only the place is known: as the view has them, yet paler, since it says less. */
 export const hueOf = (position: number): string =>
-  `color-mix(in srgb, ${PALETTE[position % PALETTE.length] ?? "gray"} 68%, var(--hull-pale))`;
+  `color-mix(in srgb, ${PALETTE[position % PALETTE.length] ?? "gray"} 55%, var(--hull-pale))`;

@@ -1,14 +1,15 @@
 // The middle of the window: the view of one asset with its steps below, or the whole family.
 import { Gallery } from "../family/Gallery";
-import { Nothing } from "./Nothing";
+import { StepStrip } from "../steps/StepStrip";
 import { useLayout } from "../store/layout";
 import { useProject } from "../store/project";
+import { Viewport } from "../viewport/Viewport";
 import css from "./App.module.css";
-import { StepStrip, Viewport } from "./rooms";
+import { Nothing } from "./Nothing";
 
 export function Centre() {
   const gallery = useLayout((layout) => layout.gallery);
-  const none = useProject((state) => state.order.length === 0);
+  const none = useProject(({ cards }) => Object.values(cards).every((card) => card.error !== null));
   if (none) return <Nothing />;
   return (
     <main className={css.centre}>

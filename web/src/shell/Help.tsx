@@ -68,7 +68,11 @@ function Content() {
         {!word && <How />}
         {none && <p className={css.none}>No command fits.</p>}
         <div className={css.groups}>
-          {groups.map(({ group, commands }) => commands.length > 0 && <Group key={group} name={group} commands={commands} />)}
+          {groups
+            .filter(({ commands }) => commands.length > 0)
+            .map(({ group, commands }) => (
+              <Group key={group} name={group} commands={commands} />
+            ))}
         </div>
       </div>
     </>

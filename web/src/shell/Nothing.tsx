@@ -5,6 +5,7 @@ import { useProject } from "../store/project";
 import css from "./nothing.module.css";
 
 export function Nothing() {
+  const broken = useProject((state) => state.order.length);
   const folder = useProject((state) => state.project.folder);
   const reading = useProject((state) => state.jobs.some((job) => job.kind === "read" && job.state === "running"));
   if (reading) {
@@ -17,10 +18,11 @@ export function Nothing() {
   return (
     <main className={css.nothing} data-part>
       <FolderPlus size={40} strokeWidth={1.2} aria-hidden />
-      <h2>No assets yet</h2>
+      <h2>{broken ? "No asset can be read" : "No assets yet"}</h2>
+      {broken > 0 && <p>On the left each card says what is wrong with its file, and what mends it.</p>}
       <p>
-        Drop files or a folder onto this window: URDF, MJCF, USD, GLB or OBJ, with the meshes that they name. They are
-        copied into the project.
+        Drop files or a folder onto this window: URDF, MJCF, GLB, OBJ, STL, PLY or VRML, with all files that they name.
+        They are copied into the project.
       </p>
       <AddMenu words="Add assets" />
       <p className={css.small}>

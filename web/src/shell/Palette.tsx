@@ -3,7 +3,7 @@ import { Dialog } from "radix-ui";
 import { type KeyboardEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { useDesk } from "../store/desk";
 import css from "./overlay.module.css";
-import { choices } from "./choices";
+import { type ChoiceLine, choices } from "./choices";
 import { ranked } from "./ranked";
 
 const MOST = 60;
@@ -63,7 +63,14 @@ function List() {
       />
       <ul id={id} role="listbox" aria-label="What fits" className={css.list}>
         {shown.map((choice, place) => (
-          <Row key={choice.id} id={`${id}-${place}`} on={place === at} title={choice.title} aside={choice.aside} keys={choice.keys} onRun={() => run(place)} onPoint={() => setAt(place)} />
+          <Row
+            key={choice.id}
+            id={`${id}-${place}`}
+            choice={choice}
+            on={place === at}
+            onRun={() => run(place)}
+            onPoint={() => setAt(place)}
+          />
         ))}
         {shown.length === 0 && <li className={css.none}>Nothing fits.</li>}
       </ul>
@@ -73,21 +80,27 @@ function List() {
 
 interface RowProps {
   id: string;
+  choice: ChoiceLine;
   on: boolean;
-  title: string;
-  aside: string;
-  keys: string | undefined;
   onRun: () => void;
   onPoint: () => void;
 }
 
-function Row({ id, on, title, aside, keys, onRun, onPoint }: RowProps) {
+function Row({ id, choice: { title, aside, keys }, on, onRun, onPoint }: RowProps) {
   const row = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (on) row.current?.scrollIntoView({ block: "nearest" });
   }, [on]);
   return (
-    <li ref={row} id={id} role="option" aria-selected={on} className={css.option} onClick={onRun} onPointerMove={onPoint}>
+    <li
+      ref={row}
+      id={id}
+      role="option"
+      aria-selected={on}
+      className={css.option}
+      onClick={onRun}
+      onPointerMove={onPoint}
+    >
       <span className={css.grow}>{title}</span>
       <span className={css.aside}>{aside}</span>
       {keys && <kbd>{keys}</kbd>}

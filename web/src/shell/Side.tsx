@@ -1,19 +1,23 @@
 // The right column: the four stages, what is next, the panel of the stage, the list of hulls.
 import { Tabs } from "radix-ui";
-import { useRef } from "react";
+import { type ComponentType, useRef } from "react";
+import { DemonstratePanel } from "../panels/demonstrate/DemonstratePanel";
+import { LabelPanel } from "../panels/label/LabelPanel";
+import { LearnPanel } from "../panels/learn/LearnPanel";
+import { ReviewPanel } from "../panels/review/ReviewPanel";
 import { openStage, type StageName, STAGES, useDesk } from "../store/desk";
 import { setLayout, useLayout } from "../store/layout";
 import { useProject } from "../store/project";
+import { HullList } from "../viewport/HullList";
 import { Divider } from "./Divider";
 import { NextLine } from "./NextLine";
-import { DemonstratePanel, HullList, LabelPanel, LearnPanel, ReviewPanel } from "./rooms";
 import css from "./Side.module.css";
 
-const TABS: Readonly<Record<StageName, { title: string; Panel: () => React.ReactNode }>> = {
-  label: { title: "Label", Panel: () => <LabelPanel /> },
-  demonstrate: { title: "Demonstrate", Panel: () => <DemonstratePanel /> },
-  learn: { title: "Learn", Panel: () => <LearnPanel /> },
-  review: { title: "Review", Panel: () => <ReviewPanel /> },
+const TABS: Readonly<Record<StageName, { title: string; Panel: ComponentType }>> = {
+  label: { title: "Label", Panel: LabelPanel },
+  demonstrate: { title: "Demonstrate", Panel: DemonstratePanel },
+  learn: { title: "Learn", Panel: LearnPanel },
+  review: { title: "Review", Panel: ReviewPanel },
 };
 
 export function Side() {

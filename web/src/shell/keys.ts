@@ -10,8 +10,8 @@ const MOVES = /^(Shift\+)?Tab$|^Arrow/;
 const MAY_REPEAT = /Tab$|^Ctrl\+(Shift\+)?[ZY]$/;
 const FIELDS =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, [contenteditable=true]";
-const CONTROLS =
-  "button, a, summary, input, [role=tab], [role=option], [role=switch], [role=checkbox], [role=radio], [role=slider], [role=row], [role=gridcell], [role=listbox], [role=grid]";
+const ROLES = ["tab", "option", "switch", "checkbox", "radio", "slider", "row", "gridcell", "listbox", "grid"];
+const CONTROLS = ["button", "a", "summary", "input", ...ROLES.map((role) => `[role=${role}]`)].join(", ");
 /** Where Tab goes to the next asset even though a key brought one there. */
 const ASSET_TABS = "[data-tab-assets], [data-testid=viewport]";
 
@@ -24,7 +24,7 @@ export function bindKeys(): void {
   window.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.isComposing) return;
     const key = pressed(event);
-    const run = meaning(key, event.target, byKey);
+    const run = meaning(key, event.target, byKey && event.target !== document.body);
     if (run ? key.endsWith("F6") : MOVES.test(key)) byKey = true;
     if (!run) return;
     event.preventDefault();

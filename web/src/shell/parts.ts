@@ -1,6 +1,6 @@
 // The parts of the window, between which F6 moves the focus: top, family, view, steps, panel, hulls.
 
-const FOCUSABLE = "[data-first], button:not(:disabled), input:not([hidden]), [tabindex='0'], [role=tab][aria-selected=true]";
+const FOCUSABLE = "button:not(:disabled), input:not([hidden]), [tabindex='0'], [role=tab][aria-selected=true]";
 
 /** Puts the focus on the next part, or the one before, that can take it. */
 export function toNextPart(by: 1 | -1): void {

@@ -1,8 +1,8 @@
 // One step: its number, what it does to how many hulls, and the menu of what can be done with it.
 import { Ellipsis, TriangleAlert } from "lucide-react";
-import type { KeyboardEvent } from "react";
+import { type KeyboardEvent, useEffect } from "react";
 import { select, show, useDesk } from "../store/desk";
-import { draftStep } from "../store/drafting";
+import { draftStep } from "../store/beginning";
 import { light, unlight } from "../store/lighting";
 import { useProject } from "../store/project";
 import { actionOf } from "../store/steps";
@@ -28,6 +28,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
   const inHand = useDesk((desk) => desk.draft?.editing === place && desk.stage === "demonstrate");
   const text = step?.action ?? family ?? actionOf(place);
   const { action, label } = splitAction(text);
+  useEffect(() => unlight, []);
   const Icon = actionIcon(text);
   const isOpen = step?.select == null;
   return (
@@ -48,7 +49,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         aria-label={`Step ${place + 1}: ${text}, ${amount(step)}${step?.error ? `, ${step.error}` : ""}`}
         data-chip
         tabIndex={-1}
-        title={step?.error ?? text}
+        title={step?.error ?? (isOpen ? `${text}: nothing is said here, so that the program decides` : text)}
         onClick={() => open(view, place)}
         onKeyDown={(event) => keyed(event, view, place, count)}
       >
@@ -58,7 +59,10 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         <span className={css.amount}>{amount(step)}</span>
         {label && <Made label={label} />}
       </button>
-      <Menu trigger={<IconButton icon={Ellipsis} name={`More for step ${place + 1}`} className={css.more} />} lines={stepLines(view, place, count)} />
+      <Menu
+        trigger={<IconButton icon={Ellipsis} name={`More for step ${place + 1}`} className={css.more} />}
+        lines={stepLines(view, place, count)}
+      />
       {step?.error && <span className={css.error}>{step.error}</span>}
     </li>
   );

@@ -15,7 +15,11 @@ export function StepStrip() {
   if (stage === "review") return <Corrections view={view} />;
   const said = view.steps.filter((step) => step.select !== null).length;
   if (stage === "label") {
-    return <div className={css.line}>{said ? `${counted(said, "step")} shown on this asset` : "No steps on this asset yet"}</div>;
+    return (
+      <div className={css.line}>
+        {said ? `${counted(said, "step")} shown on this asset` : "No steps on this asset yet"}
+      </div>
+    );
   }
   return <Steps view={view} count={Math.max(rules, view.steps.length)} />;
 }

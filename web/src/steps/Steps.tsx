@@ -14,18 +14,35 @@ export function Steps({ view, count }: { view: AssetView; count: number }) {
   useEffect(() => {
     list.current?.children[shown]?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }, [shown, count]);
-  const source = useDesk(({ showing }) => showing.kind === "source" || (showing.kind === "steps" && showing.steps === 0));
+  const source = useDesk(
+    ({ showing }) => showing.kind === "source" || (showing.kind === "steps" && showing.steps === 0),
+  );
   return (
-    <ol ref={list} className={css.strip} aria-label="Steps of this asset" data-tour="steps" onKeyDown={(event) => arrows(event, list.current)}>
+    <ol
+      ref={list}
+      className={css.strip}
+      aria-label="Steps of this asset"
+      data-tour="steps"
+      onKeyDown={(event) => arrows(event, list.current)}
+    >
       <li className={css.chip} data-shown={source || undefined}>
-        <button type="button" className={css.chipButton} aria-pressed={source} tabIndex={0} data-chip onClick={() => show({ kind: "source" })}>
+        <button
+          type="button"
+          className={css.chipButton}
+          aria-pressed={source}
+          tabIndex={0}
+          data-chip
+          onClick={() => show({ kind: "source" })}
+        >
           As it comes
         </button>
       </li>
       {Array.from({ length: count }, (_, place) => (
         <StepChip key={place} view={view} place={place} count={count} drag={reorder(place, place === count - 1)} />
       ))}
-      {count === 0 && <li className={css.empty}>Select hulls, then choose what happens to them: that is the first step.</li>}
+      {count === 0 && (
+        <li className={css.empty}>Select hulls, then choose what happens to them: that is the first step.</li>
+      )}
     </ol>
   );
 }

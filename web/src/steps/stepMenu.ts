@@ -1,8 +1,9 @@
 // What can be done with a step, as lines of a menu.
-import { draftStep, dropDraft, sayStep } from "../store/drafting";
+import { draftStep } from "../store/beginning";
+import { dropDraft } from "../store/drafting";
 import { useDesk } from "../store/desk";
 import { perform } from "../store/edits";
-import { changeSteps, takenAway } from "../store/steps";
+import { dropStep, sayStep } from "../store/saying";
 import { complainedOf } from "../store/toasts";
 import type { MenuLine } from "../ui/Menu";
 import type { AssetView } from "../wire";
@@ -16,11 +17,24 @@ export function stepLines(view: AssetView, place: number, rules: number): (MenuL
     { label: "Nothing here", disabled: select?.length === 0, onSelect: () => void say(asset, place, []) },
     { label: "Leave open", disabled: select == null, onSelect: () => void say(asset, place, null) },
     "line",
-    { label: "Earlier, on all assets", keys: "Alt+←", disabled: place === 0, onSelect: () => moveRule(place, place - 1) },
-    { label: "Later, on all assets", keys: "Alt+→", disabled: place >= rules - 1, onSelect: () => moveRule(place, place + 1) },
+    {
+      label: "Earlier, on all assets",
+      keys: "Alt+←",
+      disabled: place === 0,
+      onSelect: () => moveRule(place, place - 1),
+    },
+    {
+      label: "Later, on all assets",
+      keys: "Alt+→",
+      disabled: place >= rules - 1,
+      onSelect: () => moveRule(place, place + 1),
+    },
     "line",
     { label: "Take it away here", keys: "Del", disabled: select == null, onSelect: () => takeAway(asset, place) },
-    { label: "Take the rule away, on all assets", onSelect: () => void perform({ kind: "delete-rule", rule: place + 1 }) },
+    {
+      label: "Take the rule away, on all assets",
+      onSelect: () => void perform({ kind: "delete-rule", rule: place + 1 }),
+    },
   ];
 }
 
@@ -40,5 +54,5 @@ export function moveRule(from: number, to: number): void {
 }
 
 export function takeAway(asset: string, place: number): void {
-  changeSteps(asset, takenAway(place)).catch(complainedOf);
+  dropStep(asset, place).catch(complainedOf);
 }

@@ -85,7 +85,7 @@ export interface DeskState {
   theme: "system" | "light" | "dark";
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
-  overlay: "none" | "help" | "tour" | "palette";
+  overlay: "none" | "help" | "palette";
   /** Counts up when the camera is asked to move: to a standard view, to fit all, or to frame the selection. */
   cameraOrder: { count: number; to: StandardView | "fit" | "frame" };
 }

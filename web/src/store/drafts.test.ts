@@ -1,7 +1,16 @@
 import { describe, expect, it } from "vitest";
 import type { ActionForm, Argument, StepView } from "../wire";
 import type { Draft } from "./desk";
-import { goesWith, missingArgument, openPlaces, parsedAction, placeFor, placeOf, usualArguments, withArgument } from "./drafts";
+import {
+  goesWith,
+  missingArgument,
+  openPlaces,
+  parsedAction,
+  placeFor,
+  placeOf,
+  usualArguments,
+  withArgument,
+} from "./drafts";
 import { draftText } from "./steps";
 
 const argument = (name: string, kind: Argument["kind"], choices: string[] = [], required = true): Argument => ({
@@ -11,7 +20,13 @@ const argument = (name: string, kind: Argument["kind"], choices: string[] = [], 
   choices,
   required,
 });
-const form = (name: string, ...args: Argument[]): ActionForm => ({ name, summary: "", usage: "", makes: true, arguments: args });
+const form = (name: string, ...args: Argument[]): ActionForm => ({
+  name,
+  summary: "",
+  usage: "",
+  makes: true,
+  arguments: args,
+});
 const replace = form(
   "Replace",
   argument("geometry", "shape", ["box", "cylinder", "capsule", "sphere"]),
@@ -25,7 +40,14 @@ const add = form(
 );
 const scale = form("Scale", argument("axis", "words", ["all", "X", "Y", "Z"]), argument("factor", "factor"));
 const forms = [form("Delete"), form("Merge"), replace, add, scale];
-const draft = (more: Partial<Draft>): Draft => ({ action: "Delete", arguments: {}, each: false, label: "", editing: null, ...more });
+const draft = (more: Partial<Draft>): Draft => ({
+  action: "Delete",
+  arguments: {},
+  each: false,
+  label: "",
+  editing: null,
+  ...more,
+});
 
 describe("the text of a step, read as a draft and written again", () => {
   it.each([
@@ -63,7 +85,10 @@ describe("arguments", () => {
 
   it("that no longer go with a shape are left out", () => {
     expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "sphere")).toEqual({ geometry: "sphere" });
-    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "capsule")).toEqual({ geometry: "capsule", fit: "tight" });
+    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "capsule")).toEqual({
+      geometry: "capsule",
+      fit: "tight",
+    });
     expect(goesWith("longest", { geometry: "bar.obj" })).toBe(true);
   });
 });
@@ -71,7 +96,14 @@ describe("arguments", () => {
 describe("the rule that a draft is for", () => {
   const rule = (number: number, action: string) => ({ rule: number, action, shown: ["a"], nothing: [] });
   const rules = [rule(1, "Delete"), rule(2, "Each(Merge)"), rule(3, "Delete")];
-  const step = (select: string[] | null): StepView => ({ rule: 1, select, action: "Delete", error: null, made: [], removed: [] });
+  const step = (select: string[] | null): StepView => ({
+    rule: 1,
+    select,
+    action: "Delete",
+    error: null,
+    made: [],
+    removed: [],
+  });
 
   it("is the first open one with such an action", () => {
     expect(placeFor("Delete", rules, { steps: [] }, forms)).toBe(0);

@@ -25,8 +25,7 @@ function assigned(words: readonly string[], wanted: readonly Argument[]): Record
     while (at < wanted.length && !takes(wanted[at], word)) at += 1;
     const argument = wanted[at++];
     if (!argument) return null;
-    given[argument.name] =
-      argument.kind === "flag" ? true : argument.kind === "factor" ? Number(word) : unquoted(word);
+    given[argument.name] = argument.kind === "flag" ? true : argument.kind === "factor" ? Number(word) : unquoted(word);
   }
   return given;
 }
@@ -70,7 +69,8 @@ export function withArgument(given: Draft["arguments"], name: string, value: Val
 export function missingArgument(draft: Draft, form: ActionForm): Argument | undefined {
   return form.arguments.find(({ name, kind, required }) => {
     const value = draft.arguments[name];
-    if (kind === "factor" && value !== undefined) return !(typeof value === "number" && value > 0 && Number.isFinite(value));
+    if (kind === "factor" && value !== undefined)
+      return !(typeof value === "number" && value > 0 && Number.isFinite(value));
     return required && (value === undefined || value === "");
   });
 }

@@ -6,7 +6,9 @@ import { complainedOf } from "./toasts";
 export async function changeEverywhere(assets: readonly string[], place: number, action: string): Promise<void> {
   try {
     for (const asset of assets) {
-      const done = await changeSteps(asset, (steps) => steps.map((step, k) => (k === place ? { ...step, action } : step)));
+      const done = await changeSteps(asset, (steps) =>
+        steps.map((step, k) => (k === place ? { ...step, action } : step)),
+      );
       if (!done) return;
     }
   } catch (error) {

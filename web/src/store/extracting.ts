@@ -9,13 +9,15 @@ import { complainedOf } from "./toasts";
 
 interface ExtractingState {
   text: string;
-  /** What the text selects on the asset in hand; null until it is known. */
+  /** What a text selects; it stays until the next answer is there. */
   found: Selected | null;
+  /** The text and the state of the asset that `found` is of. */
+  of: string;
   /** How many hulls it selects on all assets, and on how many. */
   family: { hulls: number; assets: number } | null;
 }
 
-const nothing: ExtractingState = { text: "", found: null, family: null };
+const nothing: ExtractingState = { text: "", found: null, of: "", family: null };
 
 export const useExtracting = create<ExtractingState>()(() => nothing);
 
@@ -37,12 +39,18 @@ export function typed(text: string): void {
   timer = setTimeout(() => void look(text.trim(), signal).catch(complainedOf), WAIT);
 }
 
-/** Selects what was found; whether there was anything. */
-export function takeFound(): boolean {
-  const { found } = useExtracting.getState();
-  const { scene } = useScenes.getState();
-  if (!found || found.mark) return false;
-  const there = new Set(scene?.hulls.map((hull) => hull.name));
+/** Selects what the text selects, once that is known; whether the text is an extractor. */
+export async function takeFound(): Promise<boolean> {
+  const { text } = useExtracting.getState();
+  clearTimeout(timer);
+  try {
+    if (useExtracting.getState().of !== asked(text)) await look(text.trim(), stop.signal);
+  } catch (error) {
+    complainedOf(error);
+  }
+  const { found, of } = useExtracting.getState();
+  if (!found || found.mark || of !== asked(text)) return false;
+  const there = new Set(useScenes.getState().scene?.hulls.map((hull) => hull.name));
   select(found.select.filter((name) => there.has(name)));
   return true;
 }
@@ -57,21 +65,34 @@ export function left(): void {
 
 async function look(extractor: string, signal: AbortSignal): Promise<void> {
   const { asset, showing } = useDesk.getState();
-  if (asset === null) return;
+  if (asset === null || !extractor) return;
+  const of = asked(extractor);
   try {
     const found = await api.select({ asset, steps: stepsOf(showing), extractor }, signal);
-    useExtracting.setState({ found, family: null });
+    useExtracting.setState({ found, of, family: null });
     if (found.mark) return setHighlight(null);
-    const { assets } = await api.generalise(extractor, stepsOf(showing) + 1, signal);
-    const counts = Object.values(assets).map((hulls) => hulls.length);
-    const family = { hulls: counts.reduce((sum, n) => sum + n, 0), assets: counts.filter((n) => n > 0).length };
-    useExtracting.setState({ family });
-    setHighlight({ what: extractor, assets });
+    void spread(extractor, stepsOf(showing) + 1, signal).catch(complainedOf);
   } catch (error) {
     if (signal.aborted) return;
     if (!(error instanceof ServerProblem)) throw error;
-    useExtracting.setState({ found: { select: [], sentence: "", mark: markOf(error) }, family: null });
+    useExtracting.setState({ found: { select: [], sentence: "", mark: markOf(error) }, of, family: null });
   }
+}
+
+/** Shows on all thumbnails what an extractor selects, as a rule of that number meets them. */
+async function spread(extractor: string, rule: number, signal: AbortSignal): Promise<void> {
+  const { assets } = await api.generalise(extractor, rule, signal);
+  if (signal.aborted) return;
+  const counts = Object.values(assets).map((hulls) => hulls.length);
+  const family = { hulls: counts.reduce((sum, n) => sum + n, 0), assets: counts.filter((n) => n > 0).length };
+  useExtracting.setState({ family });
+  setHighlight({ what: extractor, assets });
+}
+
+/** What an answer belongs to. */
+function asked(text: string): string {
+  const { asset, showing } = useDesk.getState();
+  return JSON.stringify([text.trim(), asset, showing]);
 }
 
 const stepsOf = (showing: DeskState["showing"]): number => (showing.kind === "steps" ? showing.steps : 0);

@@ -45,10 +45,11 @@ async function usual(asset: string, stage: DeskState["stage"]): Promise<Showing>
     const broken = view.steps.findIndex((step) => step.error !== null);
     return { kind: "steps", steps: broken < 0 ? view.steps.length : broken };
   }
-  const { cards, program } = useProject.getState();
-  const output = cards[asset]?.output;
+  const { cards, program, reach } = useProject.getState();
+  const { output, stale } = cards[asset] ?? { output: "none", stale: [] };
   if (stage === "review" && (output === "edited" || output === "unchanged")) return { kind: "result", of: "output" };
-  return program.text ? { kind: "result", of: "program" } : { kind: "source" };
+  const fails = reach[asset] ? reach[asset].error !== null : output === "failed" && !stale.length;
+  return program.text && !fails ? { kind: "result", of: "program" } : { kind: "source" };
 }
 
 function same(a: Showing, b: Showing): boolean {

@@ -4,8 +4,9 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { Guess } from "../wire";
 import { useDesk } from "./desk";
-import { draftStep, sayStep, stepKey, useDrafting } from "./drafting";
+import { draftStep } from "./beginning";
 import { useProject } from "./project";
+import { isDeclined, isPassedOver, sayStep } from "./saying";
 import { details } from "./scenes";
 import { openRules } from "./steps";
 import { complainedOf } from "./toasts";
@@ -80,12 +81,12 @@ async function offer(): Promise<void> {
   const { asset } = useGuesses.getState();
   if (asset === null) return;
   const { view } = await details(asset);
-  const place = openRules(view)[0];
+  const place = openRules(view).find((k) => !isDeclined(asset, k));
   if (place === undefined) return;
   const guess = guessFor(place + 1);
   const { asset: now, draft, selection, tool, stage } = useDesk.getState();
   const isFree = now === asset && stage === "demonstrate" && draft === null && !selection.size && tool === "select";
-  if (guess?.select.length && isFree && stepKey(asset, place) !== useDrafting.getState().last) await draftStep(place, guess.select);
+  if (guess?.select.length && isFree && !isPassedOver(asset, place)) await draftStep(place, guess.select);
 }
 
 /** The guess for a rule (from 1), where there is a sound one. */
@@ -97,5 +98,6 @@ export function guessFor(rule: number): Guess | undefined {
 export async function acceptGuess(rule: number): Promise<void> {
   const { asset } = useGuesses.getState();
   const guess = guessFor(rule);
-  if (asset !== null && guess && useDesk.getState().asset === asset) await sayStep(asset, rule - 1, guess.select, guess.action);
+  if (asset !== null && guess && useDesk.getState().asset === asset)
+    await sayStep(asset, rule - 1, guess.select, guess.action);
 }

@@ -20,7 +20,12 @@ export function applyLabel(label: string | null): void {
 }
 
 /** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
-export async function labelHulls(asset: string, hulls: readonly string[], label: string | null, quiet = false): Promise<boolean> {
+export async function labelHulls(
+  asset: string,
+  hulls: readonly string[],
+  label: string | null,
+  quiet = false,
+): Promise<boolean> {
   const before = useScenes.getState().scene;
   if (before?.asset === asset) useScenes.setState({ scene: relabelled(before, hulls, label) });
   const shown = useScenes.getState().scene;
@@ -73,7 +78,11 @@ export async function confirmLabels(): Promise<void> {
   if (asset === null || scene?.asset !== asset) return;
   const hulls = scene.hulls.filter((hull) => selection.has(hull.name) && hull.label !== null);
   for (const label of new Set(hulls.map((hull) => hull.label))) {
-    await labelHulls(asset, hulls.filter((hull) => hull.label === label).map((hull) => hull.name), label);
+    await labelHulls(
+      asset,
+      hulls.filter((hull) => hull.label === label).map((hull) => hull.name),
+      label,
+    );
   }
   if (hulls.length) await goToUnsure();
 }

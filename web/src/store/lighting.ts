@@ -9,8 +9,14 @@ const WHAT = "step";
 /** Points out hulls of an asset by name, and on the other assets what the rule in a place (from 0) selects there. */
 export function light(view: AssetView, names: readonly string[], place: number | null = null): void {
   const { reach } = useProject.getState();
-  const others = Object.values(reach).map(({ asset, rules }) => [asset, (place === null ? undefined : rules[place]) ?? []] as const);
-  setHighlight({ what: WHAT, assets: { ...Object.fromEntries(others), [view.asset]: ownPositions(names, view.hulls) } });
+  const others = Object.values(reach).map(
+    ({ asset, rules }) => [asset, (place === null ? undefined : rules[place]) ?? []] as const,
+  );
+  if (!names.length && !others.some(([, hulls]) => hulls.length)) return;
+  setHighlight({
+    what: WHAT,
+    assets: { ...Object.fromEntries(others), [view.asset]: ownPositions(names, view.hulls) },
+  });
 }
 
 /** Points them out no longer; what others point out stays. */

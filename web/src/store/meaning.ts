@@ -1,4 +1,8 @@
 // Which assets tell a reading from the others of its rule; knows neither DOM nor three.js.
+import { api } from "../server/api";
+import type { ReadingView } from "../wire";
+import { useProject } from "./project";
+
 export type Selection = Readonly<Record<string, readonly number[]>>;
 
 export interface Rival {
@@ -34,4 +38,24 @@ function best(own: Selection, rivals: readonly Rival[]): [string | null, number]
 
 function same(a: readonly number[] | undefined, b: readonly number[] | undefined): boolean {
   return a === b || (a !== undefined && b !== undefined && a.length === b.length && a.every((k) => b.includes(k)));
+}
+
+/** So many of the most believable readings are told apart; the others hardly matter. */
+const RIVALS = 8;
+
+/** Assets on which an answer tells a reading from the others of its rule. */
+export async function tellingAssets({ id, rule, extractor, differs_on }: ReadingView): Promise<string[]> {
+  const readings = (useProject.getState().lesson?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
+  const rivals = [...readings].sort((a, b) => b.belief - a.belief).slice(0, RIVALS);
+  const own = await everywhere(extractor, rule);
+  const known: Rival[] = [];
+  for (const { belief, extractor: other } of rivals) known.push({ belief, assets: await everywhere(other, rule) });
+  const found = telling(own, known);
+  return found.length ? found : differs_on.slice(0, 1);
+}
+
+/** What an extractor selects on all assets; asked once more, as the server drops a request for a newer one. */
+async function everywhere(extractor: string, rule: number): Promise<Selection> {
+  const asked = await api.generalise(extractor, rule).catch(() => api.generalise(extractor, rule));
+  return asked.assets;
 }

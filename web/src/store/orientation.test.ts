@@ -17,9 +17,12 @@ describe("the text of an orientation", () => {
     expect(directiveOf("orient snap +Z: Is(leg)->Is(panel)")).toEqual({ snap: true, pairs: [up] });
   });
 
-  it.each(["+Z", "+Z: Is(leg) -> ", "Is(a) -> Is(b)", "+Z: Is(leg) -> Is(panel) +X: All -> All"])("is not understood: %j", (text) => {
-    expect(directiveOf(text)).toBeNull();
-  });
+  it.each(["+Z", "+Z: Is(leg) -> ", "Is(a) -> Is(b)", "+Z: Is(leg) -> Is(panel) +X: All -> All"])(
+    "is not understood: %j",
+    (text) => {
+      expect(directiveOf(text)).toBeNull();
+    },
+  );
 });
 
 describe("a clicked direction", () => {

@@ -23,7 +23,11 @@ export function directiveOf(text: string): Directive | null {
   const rest = whole?.[2] ?? "";
   if (!rest) return { snap: false, pairs: [] };
   if (!new RegExp(`^${PAIR}(?:\\s*,\\s*${PAIR})*$`, "u").test(rest)) return null;
-  const pairs = [...rest.matchAll(new RegExp(PAIR, "gu"))].map(([, direction = "", from = "", to = ""]) => ({ direction, from, to }));
+  const pairs = [...rest.matchAll(new RegExp(PAIR, "gu"))].map(([, direction = "", from = "", to = ""]) => ({
+    direction,
+    from,
+    to,
+  }));
   return { snap: whole?.[1] !== undefined, pairs };
 }
 

@@ -12,7 +12,12 @@ describe("what an action would do, in words", () => {
 });
 
 it("says how much a step takes", () => {
-  expect([{ select: ["a", "b"] }, { select: [] }, { select: null }, undefined].map(amount)).toEqual(["×2", "nothing here", "open", "open"]);
+  expect([{ select: ["a", "b"] }, { select: [] }, { select: null }, undefined].map(amount)).toEqual([
+    "×2",
+    "nothing here",
+    "open",
+    "open",
+  ]);
 });
 
 it("parts an action from the label that it gives", () => {

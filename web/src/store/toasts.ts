@@ -30,7 +30,8 @@ export function complainedOf(error: unknown): void {
   if (error instanceof ServerProblem) return complained(error.problem);
   if (error instanceof DOMException && error.name === "AbortError") return;
   const message = error instanceof Error ? error.message : String(error);
-  complained({ message, where: null, remedy: "This is a fault of the studio; reloading the page loses nothing.", conflict: false });
+  const remedy = "This is a fault of the studio; reloading the page loses nothing.";
+  complained({ message, where: null, remedy, conflict: false });
 }
 
 export function dismissed(id: number): void {

@@ -29,7 +29,9 @@ export const MARKS: readonly TourMark[] = [
   {
     at: "family",
     title: "A family of tables",
-    text: "Each table is a set of convex hulls, and every hull has a label: that is its colour. You show on one table what is to be done; MeshForge learns it and does it to all.",
+    text:
+      "Each table is a set of convex hulls, and every hull has a label: that is its colour. " +
+      "You show on one table what is to be done; MeshForge learns it and does it to all.",
   },
   {
     at: "stages",
@@ -40,7 +42,9 @@ export const MARKS: readonly TourMark[] = [
   {
     at: "view",
     title: "Pick the splinters",
-    text: "Small hulls named misc are left over from cutting. Click one, then press Shift+L: all hulls with its label are selected.",
+    text:
+      "What lies on the tables, and splinters of the cutting, are labelled misc. " +
+      "Click one, then press Shift+L: all hulls with its label are selected.",
     done: (project, desk) => only(desk, "misc") || project.project.rules.length > 0,
   },
   {
@@ -62,47 +66,61 @@ export const MARKS: readonly TourMark[] = [
     done: (project) => demonstrated(project) > 1,
   },
   {
+    at: "stages",
+    title: "It has learned meanwhile",
+    text: "Open 3 Learn to see the program.",
+    done: (_, desk) => desk.stage === "learn",
+  },
+  {
     at: "panel",
-    title: "What was learned",
-    text: "Open 3 Learn: the program, a sentence for each rule. Point at a rule, and its hulls light up on all tables. If it asks something, choose the picture that is right.",
+    title: "The program, in words",
+    text:
+      "Point at a rule, and its hulls light up on all tables. " +
+      "What is still open is asked: choose the picture that you mean. Then go on to 4 Review.",
     done: (_, desk) => desk.stage === "review",
   },
   {
     at: "panel",
     title: "Do it to all",
-    text: "In 4 Review, press Apply. Then look at before and after, accept what is right, and export.",
+    text: "Press Apply to all: the program edits every table, each into a file of its own.",
     done: (project) => Object.values(project.cards).some((card) => card.output === "edited"),
   },
   {
     at: "panel",
     title: "That is all",
-    text: "Flag what is wrong, correct it by hand, or demonstrate it and the program learns. Press ? for all keys; undo takes anything back.",
+    text:
+      "Compare before and after, accept what is right, flag what is not, or correct it by hand; then export. " +
+      "Press ? for all keys. Undo takes anything back.",
   },
 ];
 
-/** step: of the mark that is shown, null while the tour is not. */
-export const useTour = create<{ step: number | null }>()(() => ({ step: null }));
+/** step: of the mark that is shown, null while the tour is not; back: one came back to it, and stays till Next. */
+export const useTour = create<{ step: number | null; back: boolean }>()(() => ({ step: null, back: false }));
 
 export function beginTour(): void {
-  useTour.setState({ step: 0 });
+  useTour.setState({ step: 0, back: false });
 }
 
 export function endTour(): void {
-  useTour.setState({ step: null });
+  useTour.setState({ step: null, back: false });
 }
 
+/** To the next mark whose deed is not done yet, or back to the one before. */
 export function turnTour(by: 1 | -1): void {
-  useTour.setState(({ step }) => {
-    const next = (step ?? 0) + by;
-    return { step: next >= MARKS.length ? null : Math.max(next, 0) };
-  });
+  const step = useTour.getState().step ?? 0;
+  if (by === -1) return useTour.setState({ step: Math.max(step - 1, 0), back: true });
+  const next = MARKS.findIndex((mark, k) => k > step && !isDone(mark));
+  useTour.setState({ step: next < 0 ? null : next, back: false });
 }
+
+const isDone = (mark: TourMark) => mark.done?.(useProject.getState(), useDesk.getState()) ?? false;
 
 /** Goes on whenever the person has done what a mark asks for; until the returned function is called. */
 export function followTour(): () => void {
   const look = () => {
-    const { step } = useTour.getState();
-    if (step !== null && MARKS[step]?.done?.(useProject.getState(), useDesk.getState())) turnTour(1);
+    const { step, back } = useTour.getState();
+    const mark = step === null || back ? undefined : MARKS[step];
+    if (mark && isDone(mark)) turnTour(1);
   };
   const stops = [useProject.subscribe(look), useDesk.subscribe(look)];
   return () => stops.forEach((stop) => stop());

@@ -26,8 +26,8 @@ const order = ["a", "b", "c"];
 
 describe("the queue of unsure hulls", () => {
   it("goes from hull to hull, asset to asset, and round", () => {
-    const walked = [null, { asset: "b", position: 0 }, { asset: "b", position: 2 }, { asset: "c", position: 0 }].map((from) =>
-      nextUnsure(cards, order, from),
+    const walked = [null, { asset: "b", position: 0 }, { asset: "b", position: 2 }, { asset: "c", position: 0 }].map(
+      (from) => nextUnsure(cards, order, from),
     );
     expect(walked).toEqual([
       { asset: "b", position: 0 },

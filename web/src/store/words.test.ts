@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { changeText, counted, listed, oneIn, shortName, sureness } from "./words";
+import { changeText, counted, errorParts, listed, oneIn, shortName, sureness } from "./words";
 
 describe("words", () => {
   it("counts one and many", () => {
@@ -39,5 +39,12 @@ describe("words", () => {
       "±0 %",
       null,
     ]);
+  });
+
+  it("takes an error apart, and leaves the asset's own path out", () => {
+    const error = "/some/where/a/b.urdf: there is no leg\n  Label it.";
+    expect(errorParts(error, "a/b.urdf")).toEqual({ message: "there is no leg", remedy: "Label it." });
+    expect(errorParts("it is broken", "b.urdf")).toEqual({ message: "it is broken", remedy: null });
+    expect(errorParts("rule 2 of b.urdf: broken", "b.urdf").message).toBe("rule 2 of b.urdf: broken");
   });
 });

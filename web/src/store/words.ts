@@ -41,3 +41,12 @@ export function changeText(before: number, after: number): string | null {
   const sign = size < 0.05 ? "±" : percent < 0 ? "−" : "+";
   return `${sign}${size.toFixed(digits)} %`;
 }
+
+/** An error as the server writes it, in parts: what is wrong, without the path of the asset itself, and the remedy. */
+export function errorParts(error: string, asset: string): { message: string; remedy: string | null } {
+  const [first = "", ...rest] = error.split("\n");
+  const at = first.indexOf(`${asset}: `);
+  const message = at >= 0 && !first.slice(0, at).includes(" ") ? first.slice(at + asset.length + 2) : first;
+  const remedy = rest.map((line) => line.trim()).filter(Boolean).join(" ");
+  return { message, remedy: remedy || null };
+}

@@ -19,7 +19,12 @@ export function ExtractorField() {
   const marks = useMemo(() => (mark && text ? [mark] : []), [mark, text]);
   useEffect(askLanguage, []);
   const box = useEditor(text, marks, () => [
-    Prec.high(keymap.of([{ key: "Enter", run: taken }, { key: "Escape", run: blurred }])),
+    Prec.high(
+      keymap.of([
+        { key: "Enter", run: taken },
+        { key: "Escape", run: blurred },
+      ]),
+    ),
     editing(true, "Select by a rule"),
     single,
     oneLine,
@@ -59,7 +64,12 @@ function Found() {
   const found = useExtracting((state) => state.found);
   const family = useExtracting((state) => state.family);
   if (!found) return <p role="status">Looking…</p>;
-  if (found.mark) return <p role="status" className={css.wrong}>{found.mark.message}</p>;
+  if (found.mark)
+    return (
+      <p role="status" className={css.wrong}>
+        {found.mark.message}
+      </p>
+    );
   return (
     <>
       <p role="status">{found.sentence}</p>
@@ -68,7 +78,13 @@ function Found() {
           <strong>{counted(found.select.length, "hull")}</strong> here
           {family && `, ${family.hulls} on ${counted(family.assets, "asset")}`}
         </span>
-        <Button look="primary" disabled={!found.select.length} onClick={takeFound} tip="Select these hulls" keys="Enter">
+        <Button
+          look="primary"
+          disabled={!found.select.length}
+          onClick={() => void takeFound()}
+          tip="Select these hulls"
+          keys="Enter"
+        >
           Select
         </Button>
       </div>
@@ -82,7 +98,7 @@ const single = [
 ];
 
 function taken(view: EditorView): boolean {
-  if (takeFound()) view.contentDOM.blur();
+  void takeFound().then((done) => done && view.contentDOM.blur());
   return true;
 }
 

@@ -1,5 +1,4 @@
 // A program as text: coloured, with completion while it is written, and errors underlined.
-import { lintGutter } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
 import { EditorView, highlightActiveLine, lineNumbers } from "@codemirror/view";
 import { useEffect, useRef } from "react";
@@ -27,8 +26,8 @@ export function ProgramText({ text, onChange, marks, readOnly }: ProgramTextProp
   });
   const box = useEditor(text, marks, () =>
     readOnly
-      ? [reading("Program"), EditorState.readOnly.of(true), EditorView.lineWrapping]
-      : [editing(false, "Program"), told, lineNumbers(), lintGutter(), highlightActiveLine(), EditorView.lineWrapping],
+      ? [reading("Program"), EditorState.readOnly.of(true)]
+      : [editing(false, "Program"), told, lineNumbers(), highlightActiveLine()],
   );
   return <div ref={box} className={css.program} data-testid="program-text" />;
 }

@@ -28,7 +28,10 @@ function decorated(view: EditorView): DecorationSet {
       piecesOf(line.text).map((piece) => {
         const color = piece.label === null ? undefined : colors.get(piece.label);
         const underlined = color ? { attributes: { style: `border-bottom: 2px solid ${color}` } } : {};
-        return Decoration.mark({ class: `mf-${piece.kind}`, ...underlined }).range(line.from + piece.from, line.from + piece.to);
+        return Decoration.mark({ class: `mf-${piece.kind}`, ...underlined }).range(
+          line.from + piece.from,
+          line.from + piece.to,
+        );
       }),
     );
   });

@@ -3,8 +3,8 @@ import type { LanguageView } from "../wire";
 
 export interface Suggestion {
   readonly label: string;
-  /** What is put there where that is more than the label. */
-  readonly apply?: string;
+  /** Whether brackets follow. */
+  readonly call?: boolean;
   readonly detail: string;
   readonly info?: string;
 }
@@ -62,13 +62,13 @@ function forAction(before: string, context: Context): Suggestion[] {
 }
 
 const each: readonly Suggestion[] = [
-  { label: "Each", apply: "Each(", detail: "Each(action)", info: "Does the action to every connected part." },
+  { label: "Each", call: true, detail: "Each(action)", info: "Does the action to every connected part." },
 ];
 
 function actions({ language }: Context): Suggestion[] {
   return language.actions.map((form) => ({
     label: form.name,
-    ...(form.arguments.some((argument) => argument.required) ? { apply: `${form.name}(` } : {}),
+    call: form.arguments.some((argument) => argument.required),
     detail: form.usage,
     info: form.summary,
   }));
@@ -79,7 +79,7 @@ function operators({ language }: Context, only: readonly string[] | null): Sugge
     .filter(({ name }) => only === null || only.includes(name))
     .map(({ name, usage, summary }) => ({
       label: name,
-      ...(usage.includes("(") ? { apply: `${name}(` } : {}),
+      call: usage.includes("("),
       detail: usage,
       info: summary,
     }));

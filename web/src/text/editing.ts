@@ -3,8 +3,11 @@ import {
   autocompletion,
   closeBrackets,
   closeBracketsKeymap,
+  type Completion,
   type CompletionContext,
   type CompletionResult,
+  insertBracket,
+  startCompletion,
 } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { bracketMatching } from "@codemirror/language";
@@ -16,7 +19,7 @@ import { useProject } from "../store/project";
 import { labelText } from "../store/steps";
 import type { Mark } from "../wire";
 import { coloured } from "./coloured";
-import { begun, suggestions } from "./completion";
+import { begun, type Suggestion, suggestions } from "./completion";
 import { looks } from "./looks";
 
 /** Editing program text, or, where `bare`, an extractor alone. */
@@ -48,13 +51,31 @@ function completed(context: CompletionContext, bare: boolean): CompletionResult 
   const { vocabulary, templates } = useProject.getState().project;
   const labels = vocabulary.map((label) => label.name);
   const options = suggestions(before, { language, labels, templates, written: labelText }, bare);
-  if (options.some(({ label, apply }) => label === word && !apply)) return null;
-  return options.length ? { from: context.pos - word.length, options, validFor: /^(?:"[^"]*"?|[+-]?[\p{L}\p{N}_]*)$/u } : null;
+  const done = (text: string) => options.some(({ label, call }) => label === text && !call);
+  if (!options.length || done(word)) return null;
+  const going = (text: string) => /^(?:"[^"]*"?|[+-]?[\p{L}\p{N}_]*)$/u.test(text) && !done(text);
+  return { from: context.pos - word.length, options: options.map(completion), validFor: going };
+}
+
+function completion({ call, ...rest }: Suggestion): Completion {
+  return call ? { ...rest, apply: called } : rest;
+}
+
+/** Puts a call there, with its brackets, and goes on inside of them. */
+function called(view: EditorView, { label }: Completion, from: number, to: number): void {
+  view.dispatch({ changes: { from, to, insert: label }, selection: { anchor: from + label.length } });
+  view.dispatch(insertBracket(view.state, "(") ?? view.state.replaceSelection("("));
+  startCompletion(view);
 }
 
 /** Underlines from each mark to the end of its word. */
 export function underline(view: EditorView, marks: readonly Mark[]): void {
-  view.dispatch(setDiagnostics(view.state, marks.map((mark) => diagnostic(view.state.doc, mark))));
+  view.dispatch(
+    setDiagnostics(
+      view.state,
+      marks.map((mark) => diagnostic(view.state.doc, mark)),
+    ),
+  );
 }
 
 export function diagnostic(doc: Text, { line, column, message }: Mark): Diagnostic {

@@ -14,7 +14,13 @@ describe("a line of a program", () => {
   });
 
   it("ends where its comment begins, which is not inside of quotes", () => {
-    expect(read('Is("a # b") => Delete # so')).toEqual(["operator Is", 'label "a # b"', "arrow =>", "action Delete", "comment # so"]);
+    expect(read('Is("a # b") => Delete # so')).toEqual([
+      "operator Is",
+      'label "a # b"',
+      "arrow =>",
+      "action Delete",
+      "comment # so",
+    ]);
     expect(read('  # "quoted" words')).toEqual(['comment # "quoted" words']);
   });
 

@@ -2,7 +2,12 @@
 import { EditorView } from "@codemirror/view";
 
 export const looks = EditorView.theme({
-  "&": { color: "var(--text)", backgroundColor: "var(--sunken)", border: "1px solid var(--line-strong)", borderRadius: "var(--radius)" },
+  "&": {
+    color: "var(--text)",
+    backgroundColor: "var(--sunken)",
+    border: "1px solid var(--line-strong)",
+    borderRadius: "var(--radius)",
+  },
   "&.cm-focused": { outline: "2px solid var(--accent)", outlineOffset: "1px" },
   ".cm-scroller": { font: "var(--mono)" },
   ".cm-content": { caretColor: "var(--text)", padding: "6px 0" },
@@ -25,7 +30,6 @@ export const looks = EditorView.theme({
     textUnderlineOffset: "3px",
     textDecorationSkipInk: "none",
   },
-  ".cm-lint-marker-error": { content: "none", width: "8px", height: "8px", borderRadius: "50%", background: "var(--bad)" },
   ".cm-tooltip": {
     border: "1px solid var(--line)",
     borderRadius: "var(--radius)",
@@ -36,7 +40,10 @@ export const looks = EditorView.theme({
   },
   ".cm-tooltip.cm-tooltip-autocomplete > ul": { font: "var(--mono)", maxHeight: "260px" },
   ".cm-tooltip.cm-tooltip-autocomplete > ul > li": { padding: "3px 8px" },
-  ".cm-tooltip-autocomplete > ul > li[aria-selected]": { backgroundColor: "var(--accent-soft)", color: "var(--accent-text)" },
+  ".cm-tooltip-autocomplete > ul > li[aria-selected]": {
+    backgroundColor: "var(--accent-soft)",
+    color: "var(--accent-text)",
+  },
   ".cm-completionDetail": { color: "var(--text-faint)", fontStyle: "normal" },
   ".cm-completionMatchedText": { textDecoration: "none", fontWeight: "700" },
   ".cm-completionInfo": { padding: "6px 9px", maxWidth: "280px", font: "inherit" },

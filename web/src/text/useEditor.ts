@@ -6,7 +6,11 @@ import type { Mark } from "../wire";
 import { underline } from "./editing";
 
 /** The element to mount the editor in; extensions are those of the first time. */
-export function useEditor(text: string, marks: readonly Mark[], extensions: () => Extension): RefObject<HTMLDivElement | null> {
+export function useEditor(
+  text: string,
+  marks: readonly Mark[],
+  extensions: () => Extension,
+): RefObject<HTMLDivElement | null> {
   const box = useRef<HTMLDivElement>(null);
   const editor = useRef<EditorView>(null);
   const first = useRef({ text, extensions });
@@ -19,7 +23,8 @@ export function useEditor(text: string, marks: readonly Mark[], extensions: () =
   }, []);
   useEffect(() => {
     const view = editor.current;
-    if (view && view.state.doc.toString() !== text) view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } });
+    if (view && view.state.doc.toString() !== text)
+      view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } });
   }, [text]);
   useEffect(() => {
     if (editor.current) underline(editor.current, marks);

@@ -14,12 +14,11 @@ export function Tour() {
     if (wanted && localStorage.getItem(KEY) !== "done") beginTour();
   }, [wanted]);
   useEffect(followTour, []);
-  useEffect(
-    () => useTour.subscribe((now, before) => before.step !== null && now.step === null && localStorage.setItem(KEY, "done")),
-    [],
-  );
+  useEffect(() => useTour.subscribe((now, before) => now.step === null && before.step !== null && rememberEnd()), []);
   return step === null ? null : <Mark step={step} />;
 }
+
+const rememberEnd = () => localStorage.setItem(KEY, "done");
 
 function Mark({ step }: { step: number }) {
   const mark = MARKS[step];
@@ -83,6 +82,10 @@ function beside(place: DOMRect | null, at: string): React.CSSProperties {
   const { innerWidth: across, innerHeight: down } = window;
   if (at === "view") return { right: across - place.right + AWAY, bottom: down - place.bottom + AWAY, width: WIDTH };
   if (at === "steps") return { left: place.left + AWAY, bottom: down - place.top + AWAY, width: WIDTH };
+  // above the steps, where the controls of the view are not
+  if (at === "panel" && place.left >= WIDTH + 2 * AWAY) {
+    return { right: across - place.left + AWAY, bottom: 62, width: WIDTH };
+  }
   const top = Math.min(Math.max(place.y + 12, 8), down - 220);
   if (place.left >= WIDTH + 2 * AWAY) return { right: across - place.left + AWAY, top, width: WIDTH };
   if (across - place.right >= WIDTH + 2 * AWAY) return { left: place.right + AWAY, top, width: WIDTH };

@@ -13,7 +13,12 @@ interface CheckProps {
 export function Check({ checked, disabled = false, keys, onChange, children }: CheckProps) {
   return (
     <label className={css.check}>
-      <input type="checkbox" checked={checked} disabled={disabled} onChange={(event) => onChange(event.target.checked)} />
+      <input
+        type="checkbox"
+        checked={checked}
+        disabled={disabled}
+        onChange={(event) => onChange(event.target.checked)}
+      />
       <span>{children}</span>
       {keys && <kbd>{keys}</kbd>}
     </label>

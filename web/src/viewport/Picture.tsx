@@ -1,7 +1,7 @@
 // The canvas: three.js draws the stage on it when something changed, the pointer acts on it.
 import { Canvas, useFrame, useThree } from "@react-three/fiber";
 import { useEffect, useRef, useState } from "react";
-import { useDesk } from "../store/desk";
+import { setTool, useDesk } from "../store/desk";
 import { useScenes } from "../store/scenes";
 import { Gestures } from "./pointer/gestures";
 import { gripOf } from "./pointer/grips";
@@ -18,6 +18,7 @@ export function Picture({ smooth }: { smooth: boolean }) {
     if (!holder.current) return;
     return new Gestures(holder.current, stage, gripOf(stage)).listen();
   }, [stage]);
+  useEffect(leavingByEscape, []);
   const cursor = useDesk(({ tool, brush }) => (tool === "select" ? (brush === null ? "select" : "brush") : tool));
   const name = useScenes(({ scene }) => (scene ? `${scene.asset}, ${scene.hulls.length} hulls` : "nothing"));
   return (
@@ -27,6 +28,18 @@ export function Picture({ smooth }: { smooth: boolean }) {
       </Canvas>
     </div>
   );
+}
+
+/** Escape puts a tool down before it means anything else; the cutting tool sees to it itself. */
+function leavingByEscape(): () => void {
+  const press = (event: KeyboardEvent) => {
+    const { tool } = useDesk.getState();
+    if (event.key !== "Escape" || event.defaultPrevented || tool === "select" || tool === "cut") return;
+    event.preventDefault();
+    setTool("select");
+  };
+  window.addEventListener("keydown", press, true);
+  return () => window.removeEventListener("keydown", press, true);
 }
 
 /** Hands the frames and the size of the canvas to the stage. */

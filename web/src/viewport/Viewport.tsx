@@ -22,7 +22,7 @@ import css from "./viewport.module.css";
 
 export function Viewport() {
   const [{ works, inSoftware }] = useState(tryDrawing);
-  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view)));
+  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view), !inSoftware));
   const root = useRef<HTMLElement>(null);
   const asset = useScenes(({ scene }) => scene?.asset ?? "");
   useEffect(() => (root.current ? expose(stage, root.current) : undefined), [stage]);

@@ -1,6 +1,6 @@
 // The actions of the language, each with its key.
 import { ACTION_KEYS } from "../../commands/demonstrating";
-import { startDraft } from "../../store/drafting";
+import { startDraft } from "../../store/beginning";
 import { actionIcon } from "../../steps/actionLooks";
 import type { ActionForm } from "../../wire";
 import { Tip } from "../../ui/Tip";
@@ -13,7 +13,12 @@ export function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; 
         const Icon = actionIcon(name);
         return (
           <Tip key={name} text={summary} keys={ACTION_KEYS[name]}>
-            <button type="button" className={css.action} aria-pressed={action === name} onClick={() => void startDraft(name)}>
+            <button
+              type="button"
+              className={css.action}
+              aria-pressed={action === name}
+              onClick={() => void startDraft(name)}
+            >
               <Icon size={17} aria-hidden />
               {name}
               <kbd aria-hidden>{(ACTION_KEYS[name] ?? "").replace("Shift+", "⇧")}</kbd>

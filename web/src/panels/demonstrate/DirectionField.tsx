@@ -15,7 +15,13 @@ export function DirectionField({ value, onChange }: { value: string; onChange: (
         <div key={axis} data-axis={axis}>
           {words.map((word) => (
             <label key={word} data-on={word === value || undefined}>
-              <input type="radio" className="visually-hidden" name="direction" checked={word === value} onChange={() => onChange(word)} />
+              <input
+                type="radio"
+                className="visually-hidden"
+                name="direction"
+                checked={word === value}
+                onChange={() => onChange(word)}
+              />
               {word.replace("-", "−")}
               {MEANING[word] && <small>{MEANING[word]}</small>}
             </label>

@@ -43,7 +43,9 @@ function isAccepting({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): 
 
 function Hint() {
   const selected = useDesk((desk) => desk.selection.size);
-  return <p className={css.hint}>{selected ? "Choose what happens to them." : "Select hulls in the view, then choose."}</p>;
+  return (
+    <p className={css.hint}>{selected ? "Choose what happens to them." : "Select hulls in the view, then choose."}</p>
+  );
 }
 
 function Form({ draft, form, onAccept }: { draft: Draft; form: ActionForm; onAccept: () => void }) {
@@ -83,7 +85,14 @@ function Form({ draft, form, onAccept }: { draft: Draft; form: ActionForm; onAcc
       <div className={css.ending}>
         <PreviewNote lacking={lacking ? `Still needed: ${lacking.wants}.` : null} />
         <div className={css.buttons}>
-          <Button type="submit" look="primary" icon={Check} disabled={!selected || lacking !== undefined || sending} keys="Enter" tip={selected ? "Keep it" : "Select hulls first"}>
+          <Button
+            type="submit"
+            look="primary"
+            icon={Check}
+            disabled={!selected || lacking !== undefined || sending}
+            keys="Enter"
+            tip={selected ? "Keep it" : "Select hulls first"}
+          >
             {isReview ? "Keep this edit" : draft.editing === null ? "Add step" : `Keep as step ${draft.editing + 1}`}
           </Button>
           <Button onClick={() => void dropDraft().catch(complainedOf)} keys="Esc" tip="Put the action down">

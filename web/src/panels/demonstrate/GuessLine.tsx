@@ -1,5 +1,5 @@
 // What the program would select for an open rule: to be accepted, corrected, or answered with nothing.
-import { draftStep } from "../../store/drafting";
+import { draftStep } from "../../store/beginning";
 import { acceptGuess } from "../../store/guesses";
 import { complainedOf } from "../../store/toasts";
 import { say } from "../../steps/stepMenu";
@@ -36,11 +36,15 @@ export function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
         <Button onClick={() => void draftStep(place, sound?.select)} tip="Select the hulls yourself">
           {count ? "Correct…" : "Show it…"}
         </Button>
-        {count > 0 || !sound ? (
-          <Button look="quiet" onClick={() => void say(view.asset, place, [])} tip="The rule selects nothing on this asset">
+        {isNext && (count > 0 || !sound) && (
+          <Button
+            look="quiet"
+            onClick={() => void say(view.asset, place, [])}
+            tip="The rule selects nothing on this asset"
+          >
             Nothing here
           </Button>
-        ) : null}
+        )}
       </div>
     </div>
   );

@@ -17,7 +17,11 @@ export function LandmarkClicks({ directive }: { directive: Directive }) {
   const [direction, setDirection] = useState("+Z");
   if (!clicking) {
     return (
-      <Button icon={Crosshair} onClick={startLandmarks} tip="Click a hull at the start and one at the end of a direction">
+      <Button
+        icon={Crosshair}
+        onClick={startLandmarks}
+        tip="Click a hull at the start and one at the end of a direction"
+      >
         {directive.pairs.length ? "Another direction by clicking" : "Tell it by clicking"}
       </Button>
     );

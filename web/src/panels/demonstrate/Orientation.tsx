@@ -50,7 +50,11 @@ function Pairs({ directive }: { directive: Directive }) {
             <span className={css.code}>
               {pair.from} → {pair.to}
             </span>
-            <IconButton icon={X} name={`Take ${pair.direction} away`} onClick={() => orient(withoutPair(directive, k))} />
+            <IconButton
+              icon={X}
+              name={`Take ${pair.direction} away`}
+              onClick={() => orient(withoutPair(directive, k))}
+            />
           </li>
         ))}
       </ul>

@@ -41,8 +41,9 @@ function Split() {
   const cutting = useDesk((desk) => desk.tool === "cut");
   const one = useDesk((desk) => desk.selection.size === 1);
   if (cutting) return <Button onClick={() => setTool("select")}>Stop splitting</Button>;
+  if (!one) return <p className={css.hint}>To split a hull by a plane, select it alone.</p>;
   return (
-    <Button icon={Slice} disabled={!one} onClick={startCut} tip={one ? "By a plane, before any step" : "Select one hull first"} keys="K">
+    <Button icon={Slice} onClick={startCut} tip="By a plane, before any step" keys="K">
       Split the selected hull
     </Button>
   );
@@ -55,7 +56,12 @@ function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
   if (!sources) return null;
   const what = pieces ? counted(pieces, "piece") : "what has none";
   return (
-    <Button icon={Boxes} disabled={busy} onClick={() => void api.startJob({ kind: "decompose", assets: [asset] }).catch(complainedOf)} tip="Makes convex hulls of geometry that has none">
+    <Button
+      icon={Boxes}
+      disabled={busy}
+      onClick={() => void api.startJob({ kind: "decompose", assets: [asset] }).catch(complainedOf)}
+      tip="Makes convex hulls of geometry that has none"
+    >
       {busy ? "Making hulls…" : `Make hulls of ${what}`}
     </Button>
   );

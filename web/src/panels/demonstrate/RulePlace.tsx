@@ -17,19 +17,21 @@ export function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
   if (!rules.length) return null;
   return (
     <>
-      <Labelled name="Shown is" inline>
+      <Labelled name="Rule" inline>
         <select
           className={css.input}
           aria-label="Rule that it shows"
           value={draft.editing ?? "new"}
-          onChange={(event) => changeDraft({ editing: event.target.value === "new" ? null : Number(event.target.value) })}
+          onChange={(event) =>
+            changeDraft({ editing: event.target.value === "new" ? null : Number(event.target.value) })
+          }
         >
           {rules.map((rule, place) => (
             <option key={rule.rule} value={place}>
-              rule {rule.rule}: {rule.action}
+              {rule.rule}: {rule.action}
             </option>
           ))}
-          <option value="new">a new rule</option>
+          <option value="new">a new one</option>
         </select>
       </Labelled>
       {draft.editing !== null && <Differs place={draft.editing} text={draftText(draft, form.arguments)} />}

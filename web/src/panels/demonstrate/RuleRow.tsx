@@ -1,7 +1,8 @@
 // One rule on the asset in hand: shown, nothing here, or open, then with a guess to accept or to correct.
 import { Check, Circle, CircleDashed, CircleOff, Ellipsis } from "lucide-react";
+import { useEffect } from "react";
 import { useDesk } from "../../store/desk";
-import { draftStep } from "../../store/drafting";
+import { draftStep } from "../../store/beginning";
 import { useGuesses } from "../../store/guesses";
 import { light, unlight } from "../../store/lighting";
 import { amount } from "../../store/stepWords";
@@ -24,13 +25,21 @@ interface RuleRowProps {
 
 export function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
   const step = view.steps[place];
-  const guess = useGuesses((state) => (state.asset === view.asset ? state.guesses.find((one) => one.rule === rule.rule) : undefined));
+  const guess = useGuesses((state) =>
+    state.asset === view.asset ? state.guesses.find((one) => one.rule === rule.rule) : undefined,
+  );
   const inHand = useDesk((desk) => desk.draft?.editing === place);
   const isOpen = step?.select == null;
   const names = step?.select ?? guess?.select ?? [];
+  useEffect(() => unlight, []);
   const Icon = actionIcon(rule.action);
   return (
-    <li className={css.rule} data-in-hand={inHand || undefined} onPointerEnter={() => light(view, names, place)} onPointerLeave={unlight}>
+    <li
+      className={css.rule}
+      data-in-hand={inHand || undefined}
+      onPointerEnter={() => light(view, names, place)}
+      onPointerLeave={unlight}
+    >
       <State step={step} />
       <button
         type="button"
@@ -45,7 +54,10 @@ export function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
         <span className={css.code}>{step?.action ?? rule.action}</span>
         <span className={css.amount}>{amount(step)}</span>
       </button>
-      <Menu trigger={<IconButton icon={Ellipsis} name={`More for rule ${rule.rule}`} />} lines={stepLines(view, place, rules)} />
+      <Menu
+        trigger={<IconButton icon={Ellipsis} name={`More for rule ${rule.rule}`} />}
+        lines={stepLines(view, place, rules)}
+      />
       {step?.error && <p className={css.error}>{step.error}</p>}
       {isOpen && !inHand && <GuessLine guess={guess} view={view} place={place} isNext={isNext} />}
     </li>

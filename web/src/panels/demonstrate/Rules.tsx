@@ -20,10 +20,19 @@ export function Rules() {
       {error && open.length > 0 && <Note mood="warn">No guesses: {error}</Note>}
       <ol className={css.rules}>
         {rules.map((rule, place) => (
-          <RuleRow key={rule.rule} rule={rule} place={place} view={view} rules={rules.length} isNext={place === open[0]} />
+          <RuleRow
+            key={rule.rule}
+            rule={rule}
+            place={place}
+            view={view}
+            rules={rules.length}
+            isNext={place === open[0]}
+          />
         ))}
       </ol>
-      {!open.length && rules.length > 0 && <p className={css.hint}>All rules are shown on this asset. Another one may show a case that differs.</p>}
+      {!open.length && rules.length > 0 && (
+        <p className={css.hint}>All rules are shown on this asset. Another one may show a case that differs.</p>
+      )}
     </Section>
   );
 }

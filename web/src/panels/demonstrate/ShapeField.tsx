@@ -18,7 +18,13 @@ export function ShapeField({ primitives, value, onChange }: ShapeFieldProps) {
         {primitives.map((shape) => {
           const Icon = ICONS[shape] ?? Box;
           return (
-            <button key={shape} type="button" className={css.shape} aria-pressed={value === shape} onClick={() => onChange(shape)}>
+            <button
+              key={shape}
+              type="button"
+              className={css.shape}
+              aria-pressed={value === shape}
+              onClick={() => onChange(shape)}
+            >
               <Icon size={18} aria-hidden />
               {shape}
             </button>

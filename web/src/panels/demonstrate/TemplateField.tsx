@@ -38,12 +38,25 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
       }}
     >
       {all.map((name) => (
-        <button key={name} type="button" className={css.template} aria-pressed={value === name} onClick={() => onChange(name)} title={name}>
+        <button
+          key={name}
+          type="button"
+          className={css.template}
+          aria-pressed={value === name}
+          onClick={() => onChange(name)}
+          title={name}
+        >
           <FileBox size={15} aria-hidden />
           <span>{name}</span>
         </button>
       ))}
-      <Button icon={Upload} look="quiet" disabled={sending} onClick={() => input.current?.click()} tip="Mesh files of one or more convex hulls; they can be dropped here, too">
+      <Button
+        icon={Upload}
+        look="quiet"
+        disabled={sending}
+        onClick={() => input.current?.click()}
+        tip="Mesh files of one or more convex hulls; they can be dropped here, too"
+      >
         {sending ? "Uploading…" : templates.length ? "Upload…" : "Upload a template…"}
       </Button>
       <input

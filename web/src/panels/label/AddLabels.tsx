@@ -25,7 +25,11 @@ export function AddLabels({ names }: { names: readonly string[] }) {
         onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
       />
       <IconButton icon={Plus} name="Add labels" type="submit" disabled={labels.length === names.length} />
-      {known && <p role="status" className={css.known}>It is in the list already.</p>}
+      {known && (
+        <p role="status" className={css.known}>
+          It is in the list already.
+        </p>
+      )}
     </form>
   );
 }

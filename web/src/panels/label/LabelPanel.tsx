@@ -24,9 +24,7 @@ function Brush() {
   return (
     <div className={css.brush} role="status">
       <Note>
-        <span>
-          Painting {brush ? <strong>{brush}</strong> : "labels away"}: click hulls, or drag over them.
-        </span>
+        <span>Painting {brush ? <strong>{brush}</strong> : "labels away"}: click hulls, or drag over them.</span>
         <Button look="quiet" onClick={() => setBrush(null)} keys="Esc" tip="Select again">
           Stop
         </Button>

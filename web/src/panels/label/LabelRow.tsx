@@ -71,7 +71,13 @@ function removed(names: readonly string[], name: string): void {
 }
 
 /** What a key does to a row that has the focus. */
-function keyed(event: KeyboardEvent, place: number, move: (to: number) => void, rename: () => void, remove: () => void) {
+function keyed(
+  event: KeyboardEvent,
+  place: number,
+  move: (to: number) => void,
+  rename: () => void,
+  remove: () => void,
+) {
   if (event.key === "F2") return rename;
   if (event.key === "Delete" || event.key === "Backspace") return remove;
   if (event.altKey && event.key === "ArrowUp") return () => move(place - 1);

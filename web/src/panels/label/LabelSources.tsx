@@ -17,12 +17,20 @@ export function LabelSources() {
     <Section title="Labels that are there already">
       <div className={css.sources}>
         {files > 0 && (
-          <Button icon={FileText} onClick={() => void perform({ kind: "label-files" })} tip="Take over the labels files that lie beside the assets">
+          <Button
+            icon={FileText}
+            onClick={() => void perform({ kind: "label-files" })}
+            tip="Take over the labels files that lie beside the assets"
+          >
             From files beside {counted(files, "asset")}
           </Button>
         )}
         {names > 0 && (
-          <Button icon={Type} onClick={() => void perform({ kind: "label-names" })} tip="Where the name of a hull or of its body holds a label">
+          <Button
+            icon={Type}
+            onClick={() => void perform({ kind: "label-names" })}
+            tip="Where the name of a hull or of its body holds a label"
+          >
             From names ({counted(names, "hull")})
           </Button>
         )}

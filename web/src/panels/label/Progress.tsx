@@ -8,7 +8,10 @@ export function Progress() {
   const cards = useProject((state) => state.cards);
   const { hulls, labelled } = labelProgress(cards);
   if (!hulls) return null;
-  const text = labelled < hulls ? `${labelled.toLocaleString("en-GB")} of ${counted(hulls, "hull")} labelled` : "Every hull is labelled";
+  const text =
+    labelled < hulls
+      ? `${labelled.toLocaleString("en-GB")} of ${counted(hulls, "hull")} labelled`
+      : "Every hull is labelled";
   return (
     <div className={css.progress}>
       <div

@@ -45,7 +45,13 @@ function Doubtful({ hull }: { hull: SceneHull }) {
           <br />
           {[sure, FROM[hull.source ?? ""] ?? "by machine"].filter(Boolean).join(", ")}
         </span>
-        <Button look="primary" icon={Check} onClick={() => void confirmLabels()} tip="It is right; go on to the next" keys="Enter">
+        <Button
+          look="primary"
+          icon={Check}
+          onClick={() => void confirmLabels()}
+          tip="It is right; go on to the next"
+          keys="Enter"
+        >
           Right
         </Button>
       </div>

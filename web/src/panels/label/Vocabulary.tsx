@@ -18,7 +18,9 @@ export function Vocabulary() {
   const reorder = useReorder("y", move);
   return (
     <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
-      {vocabulary.length === 0 && <Note>What are the parts called? Type their names: the same ones on every asset.</Note>}
+      {vocabulary.length === 0 && (
+        <Note>What are the parts called? Type their names: the same ones on every asset.</Note>
+      )}
       <ul className={css.labels}>
         {vocabulary.map((label, place) => (
           <LabelRow
@@ -40,7 +42,9 @@ export function Vocabulary() {
 
 function Hint() {
   const some = useDesk((desk) => desk.selection.size > 0);
-  return <span className={css.hint}>{some ? "a click labels the selection" : "a click paints, Shift+click selects"}</span>;
+  return (
+    <span className={css.hint}>{some ? "a click labels the selection" : "a click paints, Shift+click selects"}</span>
+  );
 }
 
 function NoLabel() {

@@ -30,27 +30,34 @@ export function ProgramEditor({ onClose }: { onClose: () => void }) {
         </Note>
       )}
       {elsewhere && <Note mood="warn">It was changed elsewhere meanwhile: copy your text, cancel, and edit again.</Note>}
-      {!mark && check && <Sentences check={check} />}
       <div className={css.row}>
-        <Button look="primary" icon={Check} disabled={!changed || mark !== null || elsewhere} onClick={() => void save()} tip="Make it the program" keys="Ctrl+Enter">
+        <Button
+          look="primary"
+          icon={Check}
+          disabled={!changed || mark !== null || elsewhere}
+          tip="Make it the program"
+          keys="Ctrl+Enter"
+          onClick={() => void save()}
+        >
           Save
         </Button>
         <Button onClick={onClose}>Cancel</Button>
       </div>
+      {!mark && check && <Sentences check={check} />}
     </div>
   );
 }
 
 function Sentences({ check }: { check: ProgramCheck }) {
   return (
-    <ol className={css.sentences} aria-label="The program in words">
-      {check.orient_sentence && <li value={0}>{check.orient_sentence}</li>}
-      {check.rules.map((rule) => (
-        <li key={rule.rule} value={rule.rule}>
-          {rule.sentence}
-        </li>
-      ))}
-    </ol>
+    <>
+      {check.orient_sentence && <p className={css.dim}>{check.orient_sentence}</p>}
+      <ol className={css.sentences} aria-label="The program in words">
+        {check.rules.map((rule) => (
+          <li key={rule.rule}>{rule.sentence}</li>
+        ))}
+      </ol>
+    </>
   );
 }
 

@@ -3,7 +3,7 @@ import { learnNow } from "../../commands/learning";
 import { visit } from "../../store/desk";
 import { learnedDiffers } from "../../store/lessons";
 import { useProject } from "../../store/project";
-import { counted, shortName } from "../../store/words";
+import { counted, errorParts, shortName } from "../../store/words";
 import { Button } from "../../ui/Button";
 import { Note } from "../../ui/Section";
 import css from "./learn.module.css";
@@ -50,7 +50,7 @@ function Fails() {
     <Note mood="warn">
       <div className={css.split}>
         <span>
-          Does not run on {counted(failing.length, "asset")}; {shortName(first.asset)}: {first.error}
+          Does not run on {counted(failing.length, "asset")}, first {shortName(first.asset)}: {errorParts(first.error ?? "", first.asset).message}.
         </span>
         <Button look="quiet" onClick={() => visit(first.asset, { kind: "source" })}>
           Open

@@ -23,6 +23,7 @@ function OneAsset({ asset }: { asset: string }) {
   const of = useOf(asset);
   const result = useResult(asset, of);
   const program = useProject((state) => state.program.text.trim() !== "");
+  const told = useProject((state) => state.cards[asset]?.error != null);
   const correcting = useDesk((state) => state.draft !== null);
   return (
     <>
@@ -30,11 +31,11 @@ function OneAsset({ asset }: { asset: string }) {
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
       {program && <ViewChoice asset={asset} of={of} />}
-      {result.kind === "problem" && (
+      {result.kind === "problem" && !told && (
         <Section title="Result">
           <Note mood="bad">
             {result.problem.message}
-            {result.problem.remedy && <p>{result.problem.remedy}</p>}
+            {result.problem.remedy && <p className={css.remedy}>{result.problem.remedy}</p>}
           </Note>
         </Section>
       )}

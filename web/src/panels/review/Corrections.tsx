@@ -15,6 +15,8 @@ export function Corrections({ asset }: { asset: string }) {
   const corrections = useCorrections(asset);
   const correcting = useDesk((state) => state.draft !== null);
   const program = useProject((state) => state.program.text.trim() !== "");
+  const runs = useProject((state) => program && !state.reach[asset]?.error);
+  if (!program && !corrections.length) return null;
   return (
     <Section title="Where the program is wrong" aside={corrections.length ? counted(corrections.length, "edit by hand", "edits by hand") : null}>
       {corrections.length > 0 && (
@@ -30,9 +32,11 @@ export function Corrections({ asset }: { asset: string }) {
         <CorrectForm asset={asset} />
       ) : (
         <div className={css.row}>
-          <Button icon={Hand} disabled={!program} tip="Mends this result alone; it is kept and done again after the program" onClick={() => beginCorrection(asset)}>
-            Correct by hand
-          </Button>
+          {runs && (
+            <Button icon={Hand} tip="Mends this result alone; it is kept and done again after the program" onClick={() => beginCorrection(asset)}>
+              Correct by hand
+            </Button>
+          )}
           <Button icon={GraduationCap} tip="Show the steps on this asset; the program is learned again" onClick={() => demonstrate(asset)}>
             Demonstrate this one
           </Button>

@@ -1,7 +1,7 @@
 // Copying outputs into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useState } from "react";
-import { exportTo } from "../../commands/reviewing";
+import { exportTo } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { exportable } from "../../store/reviews";
 import { complainedOf, told } from "../../store/toasts";

@@ -1,7 +1,7 @@
 // Progress of a job with its rate, and a button that stops it.
 import { Square } from "lucide-react";
 import { useState } from "react";
-import { cancelJob } from "../../commands/reviewing";
+import { cancelJob } from "../../store/jobs";
 import { rateOf } from "../../store/reviews";
 import { counted } from "../../store/words";
 import type { Job } from "../../wire";

@@ -3,7 +3,7 @@ import { memo, useEffect } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { openAsset, useDesk } from "../../store/desk";
 import { staleText } from "../../store/reviews";
-import { shortName } from "../../store/words";
+import { errorParts, shortName } from "../../store/words";
 import { useVerdicts, verdict, verdictKey } from "../../store/verdicts";
 import type { Card } from "../../wire";
 import css from "./review.module.css";
@@ -36,12 +36,22 @@ export const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card;
 
 /** The most pressing thing to say of a result. */
 function Line({ card }: { card: Card }) {
-  if (card.output === "failed" || card.error) return <span className={css.bad}>✗ {card.error ?? "failed"}</span>;
+  if (card.output === "failed" || card.error) return <Failure card={card} />;
   if (card.stale.length) return <span className={css.warn}>not up to date: {staleText(card.stale)}</span>;
   if (card.review === "flagged") return <span className={css.warn}>⚑ {card.note ?? "flagged"}</span>;
   const flag = card.flags[0];
   if (flag) return <span className={css.warn}>⚑ {flag}</span>;
   return card.review === "accepted" ? <span className={css.good}>✓ accepted</span> : null;
+}
+
+function Failure({ card }: { card: Card }) {
+  const { message, remedy } = errorParts(card.error ?? "failed", card.asset);
+  return (
+    <>
+      <span className={css.bad}>✗ {message}</span>
+      {remedy && <span className={css.dim}>{remedy}</span>}
+    </>
+  );
 }
 
 function Legality({ card }: { card: Card }) {

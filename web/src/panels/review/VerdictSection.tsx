@@ -11,13 +11,22 @@ import css from "./review.module.css";
 
 export function VerdictSection({ asset }: { asset: string }) {
   const card = useProject((state) => state.cards[asset]);
+  const some = useProject((state) => Object.values(state.cards).some(({ output }) => output !== "none"));
   if (!card) return null;
   const written = card.output === "edited" || card.output === "unchanged";
+  const stale = card.stale.length > 0;
   return (
     <Section title={shortName(asset)} aside={<Standing card={card} />}>
       <div className={css.row}>
         {written && card.review !== "accepted" && (
-          <Button look="primary" icon={Check} tip="Accept, and go to the next that wants a look" keys="Y" onClick={() => void accept(asset)}>
+          <Button
+            look={stale ? "plain" : "primary"}
+            icon={Check}
+            disabled={stale}
+            tip={stale ? "It is not up to date: apply first" : "Accept, and go to the next that wants a look"}
+            keys="Y"
+            onClick={() => void accept(asset)}
+          >
             Accept
           </Button>
         )}
@@ -31,9 +40,11 @@ export function VerdictSection({ asset }: { asset: string }) {
             {card.review === "accepted" ? "Not accepted" : "Take flag back"}
           </Button>
         )}
-        <Button look="quiet" icon={SkipForward} tip="The next that failed, is flagged, or not reviewed" keys="N" onClick={nextToReview}>
-          Next
-        </Button>
+        {some && (
+          <Button look="quiet" icon={SkipForward} tip="The next that failed, is flagged, or not reviewed" keys="N" onClick={nextToReview}>
+            Next
+          </Button>
+        )}
       </div>
       {card.review === "flagged" && <NoteField key={card.note ?? ""} card={card} />}
     </Section>

@@ -54,6 +54,15 @@ export class View {
     else this.go(pose, now);
   }
 
+  /** Of one pane; one that becomes narrower shows as much as before from side to side, and the other way round. */
+  resize(width: number, height: number): void {
+    const was = Math.min(this.aspect, 1.2);
+    const known = this.width > 0 && this.height > 0;
+    [this.width, this.height] = [width, height];
+    const is = Math.min(this.aspect, 1.2);
+    if (known && was !== is) this.pose = { ...this.pose, height: (this.pose.height * was) / is };
+  }
+
   /** By a drag of so many pixels. */
   orbit(dx: number, dy: number): void {
     this.jump(orbited(this.pose, -dx * 0.0085, dy * 0.0085));

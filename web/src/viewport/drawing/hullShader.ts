@@ -68,7 +68,7 @@ const VERTEX = /* glsl */ `
     if (role == ${ROLE.washed}.0) base.rgb = mix(base.rgb, pale, 0.45);
     float lit = light(mat3(modelViewMatrix) * normal);
     vec3 glow = mix(vec3(1.0), tint, state.g);
-    float share = max(0.34 * state.g, 0.16 * state.a);
+    float share = max(0.26 * state.g, 0.16 * state.a);
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
     vec4 at = placed(state);

@@ -2,6 +2,7 @@
 import { useDesk } from "../../store/desk";
 import { useProject } from "../../store/project";
 import { type Scene, useScenes } from "../../store/scenes";
+import { counted } from "../../store/words";
 import { Swatch } from "../../ui/Section";
 import type { HullView } from "../../wire";
 import { isUnsure } from "../colors/palette";
@@ -11,11 +12,17 @@ import css from "./overlay.module.css";
 
 export function Hud() {
   return (
-    <>
+    <div className={css.hud}>
       <Pointed />
+      <Unturned />
       <Counts />
-    </>
+    </div>
   );
+}
+
+function Unturned() {
+  const why = useScenes(({ scene }) => (scene?.hulls.length ? scene.view.unturned : null));
+  return why ? <div className={css.unturned}>Not turned: {why}</div> : null;
 }
 
 function Pointed() {
@@ -62,7 +69,6 @@ function Counts() {
   const parts = [countText(scene), selected ? `${selected} selected` : "", hidden ? `${hidden} hidden` : ""];
   return (
     <div className={css.counts} data-testid="counts">
-      {scene.view.unturned && <span className={css.warn}>Not turned: {scene.view.unturned}</span>}
       <span>{parts.filter(Boolean).join(" · ")}</span>
       {grid && <span className={css.faint}>grid {lengthText(stage.ground.step)}</span>}
     </div>
@@ -71,8 +77,5 @@ function Counts() {
 
 function countText({ view, hulls, edit }: Scene): string {
   const before = view.hulls.length;
-  if (edit) return `${before} → ${counted(hulls.length)}`;
-  return counted(before);
+  return edit ? `${before} → ${counted(hulls.length, "hull")}` : counted(before, "hull");
 }
-
-const counted = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);

@@ -48,7 +48,7 @@ function howOf(pressed: PointerEvent, event: PointerEvent): "replace" | "add" | 
 /** Finds the names of hulls in a region, in the picture as it is now. */
 function finderOf(stage: Stage, side: Side, pane: Pane): (region: Region) => ReadonlySet<string> {
   const { hulls } = side;
-  const [width, height] = [pane.width, stage.height];
+  const [width, height] = [Math.ceil(pane.width), Math.ceil(stage.height)];
   const places = stage.gl ? seenPlaces(stage.gl, hulls, stage.view.camera(), width, height) : new Uint32Array();
   const spots = vertexSpots(stage, side, pane);
   return (region) => {

@@ -11,10 +11,10 @@ import { usePointing } from "./pointing";
 
 /** The looks of what is shown, and of the asset as it comes beside it. */
 export function appearances(scene: Scene, ink: Ink): { shown: Appearance; before: Appearance } {
-  const { view, selection, hover, hidden } = useDesk.getState();
+  const { view, selection, hover, hidden, tool } = useDesk.getState();
   const { region } = usePointing.getState();
   const names = scene.hulls.map((hull) => hull.name);
-  const going = goingOf(usePreview.getState().preview, names);
+  const going = goingOf(tool === "cut" ? null : usePreview.getState().preview, names);
   const lit = new Set([...region, ...highlighted(scene)]);
   const tone = tones(scene, view.colorBy, useProject.getState().project.vocabulary);
   const shown = { tone, selection, hover, hidden, lit, going, ink, changed: compared(scene) };

@@ -30,7 +30,8 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   gl.render(side.root, camera);
 }
 
-const MANY_LINES = 6000;
+/** Edges from which on a scene is too much for thin lines where drawing is slow. */
+export const MANY_LINES = 6000;
 
 function prepare({ settings, graph, ghost, coarse }: Stage, side: Side): void {
   side.hulls.setWireframe(settings.wireframe, coarse && side.hulls.sharpEdges > MANY_LINES);

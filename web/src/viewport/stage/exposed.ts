@@ -25,7 +25,7 @@ export function expose(stage: Stage, root: HTMLElement): () => void {
       return seen && { x: left + seen.x, y: top + seen.y };
     },
     hullAt: (x, y) => hullAt(stage, x - corner().left, y - corner().top),
-    frames: () => stage.frames, stage,
+    frames: () => stage.frames,
   };
   window.meshforgeViewport = exposed;
   const stop = stage.onDrawn(() => {

@@ -24,7 +24,9 @@ export function follow(stage: Stage): () => void {
   };
   const stops = [
     useScenes.subscribe((now, before) => {
-      if (now.scene !== before.scene) shown(now.scene);
+      if (now.scene === before.scene) return;
+      if (now.scene) forgetGone(now.scene);
+      shown(now.scene);
     }),
     useDesk.subscribe((now, before) => {
       if (now.view !== before.view) stage.set(settingsOf(now.view));
@@ -67,13 +69,24 @@ function paint(stage: Stage): void {
   stage.setGraph(nodes, lines);
 }
 
-/** Shows the cutting plane where the tool is in hand and a hull is chosen. */
+/** Hulls that are no more are neither selected nor hidden. */
+function forgetGone({ asset, hulls }: Scene): void {
+  const desk = useDesk.getState();
+  if (desk.asset !== asset) return;
+  const there = new Set(hulls.map((hull) => hull.name));
+  const left = (names: ReadonlySet<string>) => new Set([...names].filter((name) => there.has(name)));
+  const [selection, hidden] = [left(desk.selection), left(desk.hidden)];
+  if (selection.size < desk.selection.size || hidden.size < desk.hidden.size) useDesk.setState({ selection, hidden });
+}
+
+/** Shows the cutting plane where the tool is in hand and a hull is chosen; previews stand back then. */
 function placeCut(stage: Stage): void {
   const scene = stage.shown?.scene;
   const { tool, selection } = useDesk.getState();
   const hull = tool === "cut" ? hullToCut(scene ?? null, selection) : null;
   const plane = scene && hull ? planeOf(scene, hull, useCutting.getState()) : null;
   const away = stage.shown?.hulls.aways[stage.shown.hulls.places.get(hull?.name ?? "") ?? -1] ?? [0, 0, 0];
+  stage.showMade(tool !== "cut");
   stage.cut.set(plane, hull?.shape ?? null, away.map((value) => value * stage.settings.explode));
   stage.invalidate();
 }

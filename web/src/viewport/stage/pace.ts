@@ -2,7 +2,7 @@
 const SLOW = 0.04;
 const REST = 0.16;
 const PAUSE = 0.3;
-const SHARE = 0.55;
+const SHARE = 0.5;
 
 export class Pace {
   /** How long frames took lately while all was drawn [s]. */

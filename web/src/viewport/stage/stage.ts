@@ -14,10 +14,12 @@ import { Surfaces } from "../drawing/surface";
 import type { Point } from "../shapes/merged";
 import type { Eye } from "../shapes/silhouette";
 import { turnedBox } from "../shapes/turned";
-import { drawPanes } from "./draw";
+import { drawPanes, MANY_LINES } from "./draw";
 import { Pace } from "./pace";
 import { type Pane, paneAt, panesOf } from "./panes";
 import type { Settings } from "./settings";
+
+const MANY_PIXELS = 1.2e6;
 
 export class Stage {
   readonly view = new View();
@@ -42,9 +44,14 @@ export class Stage {
   private readonly pace = new Pace(() => this.invalidate());
   private centre: Point = [0, 0, 0];
   private wantsFit = false;
+  private compiled = false;
   private readonly drawn = new Set<() => void>();
 
-  constructor(public settings: Settings) {
+  /** smooth: whether the canvas itself smooths edges. */
+  constructor(
+    public settings: Settings,
+    private readonly smooth: boolean,
+  ) {
     this.graph = new ContactGraph(this.ink);
     this.cut = new CutPlane(this.ink);
   }
@@ -74,6 +81,10 @@ export class Stage {
     this.made = packet && this.shown ? new Made(packet, this.centre, this.ink) : null;
     if (this.made) this.shown?.turned.add(this.made.object);
     this.invalidate();
+  }
+
+  showMade(on: boolean): void {
+    if (this.made) this.made.object.visible = on;
   }
 
   setGhost(packet: ShapesPacket | null): void {
@@ -168,13 +179,16 @@ export class Stage {
     this.gl = gl;
     this.refine(gl, this.pace.begin(now));
     const panes = this.panes();
-    [this.view.width, this.view.height] = [panes[0]?.width ?? this.width, this.height];
+    this.view.resize(panes[0]?.width ?? this.width, this.height);
     if (this.wantsFit && this.height > 0) {
       this.wantsFit = false;
       this.frame(null, null);
     }
     const moves = this.view.advance(now);
     drawPanes(gl, this, panes);
+    // so that the first selection does not wait for shaders
+    if (!this.compiled && this.shown) gl.compile(this.shown.root, this.view.camera());
+    this.compiled ||= this.shown !== null;
     this.frames++;
     for (const listener of this.drawn) listener();
     if (moves) this.moveCamera(() => undefined);
@@ -200,7 +214,10 @@ export class Stage {
   /** Draws with a share of the pixels, and without thin lines where that is below 1. */
   private refine(gl: WebGLRenderer, share: number): void {
     this.coarse = share < 1;
-    const pixel = share * this.screenPixel;
+    const isLight = (this.shown?.hulls.sharpEdges ?? 0) < MANY_LINES && this.width * this.height < MANY_PIXELS;
+    // where the canvas does not smooth edges, light scenes are drawn larger and shrunk
+    const finest = !this.smooth && isLight ? Math.max(2, this.screenPixel) : this.screenPixel;
+    const pixel = share * finest;
     if (pixel !== gl.getPixelRatio()) gl.setPixelRatio(pixel);
     this.pixel = pixel;
   }

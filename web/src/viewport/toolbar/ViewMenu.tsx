@@ -1,6 +1,7 @@
 // The camera: projection, fitting, standard views; and the grid.
 import { Box, Check, Cuboid, Maximize, Video } from "lucide-react";
 import { lookFrom, setView, useDesk } from "../../store/desk";
+import { useScenes } from "../../store/scenes";
 import { IconButton } from "../../ui/Button";
 import { Menu } from "../../ui/Menu";
 import { commandOf, keyOf, linesOf } from "./keys";
@@ -9,6 +10,8 @@ import css from "./toolbar.module.css";
 export function ViewMenu() {
   const parallel = useDesk((desk) => desk.view.projection === "orthographic");
   const grid = useDesk((desk) => desk.view.grid);
+  // whether something is shown decides which lines make sense
+  useScenes(({ scene }) => scene === null);
   return (
     <div className={css.group} role="group" aria-label="Camera">
       <IconButton

@@ -1,0 +1,33 @@
+"""How much work five rules are, from labelled assets to a learned program, in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import Studio, opened
+from tests.e2e.walk import PAGE, address, demonstrate_tables, learned
+from tests.studio_project import demo_project
+
+MOST = 60
+"""Clicks and keys for five rules, shown on two assets."""
+
+
+def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, capsys: object) -> None:
+    project = demo_project(tmp_path, demonstrated=False, orient="")
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        person = hand(browser)
+        person.open(address(studio))
+        demonstrate_tables(person)
+        program = learned(studio)
+        assert [line.split("=>")[1].strip() for line in program.splitlines() if "=>" in line] == [
+            "Delete",
+            "Replace(box)",
+            "Each(Merge)",
+            'Each(Replace("tray.obj"))',
+            "Each(Replace(capsule))",
+        ]
+        assert not person.complaints
+    print(f"\nfive rules, two demonstrations: {person.actions} clicks and keys (at most {MOST})")
+    assert person.actions <= MOST

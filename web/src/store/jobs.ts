@@ -1,0 +1,36 @@
+// Long work that a person starts on results: applying the program, and exporting.
+import { api } from "../server/api";
+import type { JobRequest } from "../wire";
+import { useProject } from "./project";
+import { complainedOf } from "./toasts";
+
+/** Why the program cannot be applied, null where it can. */
+export function notApplicable(): string | null {
+  const { program, project, order, jobs } = useProject.getState();
+  if (!order.length) return "There are no assets yet.";
+  if (program.error) return `The program cannot be read: ${program.error}`;
+  if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
+  if (project.problem) return project.problem;
+  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
+}
+
+async function start(request: JobRequest): Promise<boolean> {
+  try {
+    await api.startJob(request);
+    return true;
+  } catch (error) {
+    complainedOf(error);
+    return false;
+  }
+}
+
+/** Applies the program to all assets, or to some. */
+export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
+  start({ kind: "apply", assets: assets && [...assets] });
+
+export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
+  start({ kind: "export", folder, accepted_only });
+
+export function cancelJob(id: string): void {
+  api.cancelJob(id).catch(complainedOf);
+}
