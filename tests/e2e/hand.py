@@ -118,8 +118,19 @@ def chromium() -> Iterator[Browser]:
         browser = tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
         try:
             yield browser
+        except BaseException:
+            _photograph(browser)
+            raise
         finally:
             browser.close()
+
+
+def _photograph(browser: Browser) -> None:
+    """Keep how the pages of a failed test look, in the folder that MESHFORGE_SCREENSHOTS names, if it does."""
+    folder = os.environ.get("MESHFORGE_SCREENSHOTS")
+    pages = [page for context in browser.contexts for page in context.pages] if folder else []
+    for number, page in enumerate(pages):
+        page.screenshot(path=f"{folder}/{number}.png")
 
 
 def hand(browser: Browser, width: int = 1440, height: int = 900) -> Hand:

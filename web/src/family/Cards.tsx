@@ -2,7 +2,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
 import { openAsset, setFilters, useDesk } from "../store/desk";
-import { setLayout } from "../store/layout";
+import { setLayout, useLayout } from "../store/layout";
 import { Button } from "../ui/Button";
 import { Card, cardId } from "./Card";
 import css from "./family.module.css";
@@ -79,11 +79,12 @@ function moved(event: KeyboardEvent, shown: readonly string[], columns: number):
   const by = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -columns, ArrowDown: columns, PageUp: -page, PageDown: page };
   const end = { Home: 0, End: shown.length - 1 }[event.key];
   const step = (by as Record<string, number>)[event.key];
-  if (event.key === "Enter") setLayout({ gallery: false });
-  else if (end === undefined && step === undefined) return;
+  const opens = event.key === "Enter" && useLayout.getState().gallery;
+  if (opens) setLayout({ gallery: false });
+  else if (end === undefined && step === undefined) return; // Enter beside the view is for what is in hand there
   event.preventDefault();
   const to = end ?? Math.min(Math.max(here + (step ?? 0), 0), shown.length - 1);
-  if (event.key !== "Enter" && shown[to] !== undefined) openAsset(shown[to]);
+  if (!opens && shown[to] !== undefined) openAsset(shown[to]);
 }
 
 function NoMatch() {

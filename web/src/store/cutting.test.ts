@@ -6,7 +6,7 @@ const positions = new Float32Array([0, 0, 0, 4, 0, 0, 0, 2, 0, 0, 0, 1, 4, 2, 1]
 const hull = { name: "top", made: false, shape: { positions, index: new Uint32Array() } } as unknown as SceneHull;
 // turns the file's Y up to Z
 const standing = [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1];
-const scene = (upright: number[] | null) => ({ view: { upright }, hulls: [hull, { ...hull, name: "box", made: true }] }) as unknown as Scene; // prettier-ignore
+const scene = (upright: number[] | null) => ({ view: { upright }, hulls: [hull, { ...hull, name: "box", made: true }] }) as unknown as Scene;
 
 test("a plane in the middle goes through the middle of the hull", () => {
   expect(planeOf(scene(null), hull, startOfCutting)).toEqual({ hull: "top", at: [2, 1, 0.5], across: [1, 0, 0], span: 4 });

@@ -7,18 +7,21 @@ let queue: Promise<unknown> = Promise.resolve();
 
 /** Makes an edit; tells what was done, or what went wrong. */
 export function perform(edit: AnyEdit, options: { quiet?: boolean } = {}): Promise<boolean> {
-  return inTurn(() => api.edit(edit), options.quiet ? null : true);
+  return inTurn(() => api.edit(edit), options.quiet ? null : sentence);
 }
 
-export const undo = (): Promise<boolean> => inTurn(api.undo, false);
-export const redo = (): Promise<boolean> => inTurn(api.redo, false);
+export const undo = (): Promise<boolean> => inTurn(api.undo, (said) => `Undone: ${said}`);
+export const redo = (): Promise<boolean> => inTurn(api.redo, (said) => `Redone: ${said}`);
 
-/** Does one request after those before; offer: whether the toast offers undo, null for no toast. */
-function inTurn(request: () => Promise<Done>, offer: boolean | null): Promise<boolean> {
+/** What was done as a sentence: its first word, unless that is a name, with a capital letter. */
+export const sentence = (said: string): string => said.replace(/^[a-z](?=[a-z]*[ :])/, (first) => first.toUpperCase());
+
+/** Does one request after those before; tell: what the toast says of what was done, null for no toast. */
+function inTurn(request: () => Promise<Done>, tell: ((said: string) => string) | null): Promise<boolean> {
   const mine = queue.then(async () => {
     try {
       const done = await request();
-      if (offer !== null && done.said) told(done.said, offer && !done.nothing);
+      if (tell && done.said) told(tell(done.said), tell === sentence && !done.nothing);
       return true;
     } catch (error) {
       complainedOf(error);

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { axesOf, between, cornersOf, distanceOf, dot, FIELD, fitted, from, orbited, panned, plus, type Pose, STANDARD, type Vec, zoomed } from "./pose"; // prettier-ignore
+import { axesOf, between, cornersOf, distanceOf, dot, FIELD, fitted, from, orbited, panned, plus, type Pose, STANDARD, type Vec, zoomed } from "./pose";
 
 const pose: Pose = { target: [1, 2, 3], azimuth: 0.4, elevation: 0.3, height: 2 };
 const near = (a: Vec, b: Vec) => a.forEach((value, k) => expect(value).toBeCloseTo(b[k] ?? NaN, 9));

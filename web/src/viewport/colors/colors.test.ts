@@ -33,7 +33,7 @@ test("what is made takes another colour where a neighbour has its parent's", () 
 });
 
 test("the scale of confidence ends in its ends", () => {
-  expect([confidenceColor(0), confidenceColor(1), confidenceColor(7)]).toEqual([CONFIDENCE[0], CONFIDENCE.at(-1), CONFIDENCE.at(-1)]); // prettier-ignore
+  expect([confidenceColor(0), confidenceColor(1), confidenceColor(7)]).toEqual([CONFIDENCE[0], CONFIDENCE.at(-1), CONFIDENCE.at(-1)]);
 });
 
 test("a hull without a label is not unsure, it has none", () => {

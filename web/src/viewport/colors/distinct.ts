@@ -5,7 +5,7 @@ import type { Scene } from "../../store/scenes";
 export const PALETTE: readonly string[] = [
   "#80abf3", "#e0995c", "#83bd76", "#db8dc2", "#bcac50", "#42bbdd", "#ea8c8d", "#42c2ad", "#b69ae9",
   "#a9823c", "#4a91bf", "#819249", "#a475af", "#bd735a", "#219ba1", "#7d82c5", "#4c9c74", "#ba6f87",
-]; // prettier-ignore
+];
 
 type Pairs = readonly (readonly [string, string])[];
 

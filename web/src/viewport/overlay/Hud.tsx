@@ -70,7 +70,7 @@ function Counts() {
   return (
     <div className={css.counts} data-testid="counts">
       <span>{parts.filter(Boolean).join(" · ")}</span>
-      {grid && <span className={css.faint}>grid {lengthText(stage.ground.step)}</span>}
+      {grid && <span className={css.faint}>grid {lengthText(stage.contents.ground.step)}</span>}
     </div>
   );
 }

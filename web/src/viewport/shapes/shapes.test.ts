@@ -8,8 +8,8 @@ import { roomFor, writeSilhouettes } from "./silhouette";
 
 /** A unit cube with shared corners, two triangles a side. */
 const cube: Shape = {
-  positions: new Float32Array([0,0,0, 1,0,0, 1,1,0, 0,1,0, 0,0,1, 1,0,1, 1,1,1, 0,1,1]), // prettier-ignore
-  index: new Uint32Array([0,2,1, 0,3,2, 4,5,6, 4,6,7, 0,1,5, 0,5,4, 2,3,7, 2,7,6, 1,2,6, 1,6,5, 0,4,7, 0,7,3]), // prettier-ignore
+  positions: new Float32Array([0,0,0, 1,0,0, 1,1,0, 0,1,0, 0,0,1, 1,0,1, 1,1,1, 0,1,1]),
+  index: new Uint32Array([0,2,1, 0,3,2, 4,5,6, 4,6,7, 0,1,5, 0,5,4, 2,3,7, 2,7,6, 1,2,6, 1,6,5, 0,4,7, 0,7,3]),
 };
 /** The same with corners of its own for every triangle. */
 const loose: Shape = {
@@ -39,7 +39,7 @@ test("each facet has a last corner of its own, with the normal of the facet", ()
   const lasts = new Set<number>();
   for (let k = 0; k < index.length; k += 3) {
     const [a, b, c] = [0, 1, 2].map((j) => (index[k + j] ?? 0) * 3) as [number, number, number];
-    const edge = (from: number, to: number) => [0, 1, 2].map((j) => (positions[to + j] ?? 0) - (positions[from + j] ?? 0)) as [number, number, number]; // prettier-ignore
+    const edge = (from: number, to: number) => [0, 1, 2].map((j) => (positions[to + j] ?? 0) - (positions[from + j] ?? 0)) as [number, number, number];
     const [u, v] = [edge(a, b), edge(a, c)];
     const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     expect([...normals.subarray(c, c + 3)].map((value) => value + 0)).toEqual(n.map((value) => value + 0));

@@ -1,5 +1,5 @@
 // What the stores say about the looks of both sides.
-import { useDesk } from "../../store/desk";
+import { type Tool, useDesk } from "../../store/desk";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import type { Scene } from "../../store/scenes";
@@ -14,12 +14,15 @@ export function appearances(scene: Scene, ink: Ink): { shown: Appearance; before
   const { view, selection, hover, hidden, tool } = useDesk.getState();
   const { region } = usePointing.getState();
   const names = scene.hulls.map((hull) => hull.name);
-  const going = goingOf(tool === "cut" ? null : usePreview.getState().preview, names);
+  const going = goingOf(showsPreview(tool) ? usePreview.getState().preview : null, names);
   const lit = new Set([...region, ...highlighted(scene)]);
   const tone = tones(scene, view.colorBy, useProject.getState().project.vocabulary);
   const shown = { tone, selection, hover, hidden, lit, going, ink, changed: compared(scene) };
   return { shown, before: { ...shown, going: new Set() } };
 }
+
+/** Previews stand back while hulls are picked for something else. */
+export const showsPreview = (tool: Tool): boolean => tool !== "cut" && tool !== "landmark";
 
 /** What was changed, where before and after are beside each other. */
 function compared({ edit }: Scene): ReadonlySet<string> | null {
@@ -28,8 +31,9 @@ function compared({ edit }: Scene): ReadonlySet<string> | null {
   return changed.size ? changed : null;
 }
 
-/** The hulls that a rule or an extractor points out on this asset. */
-function highlighted(scene: Scene): string[] {
-  const places = useDesk.getState().highlight?.assets[scene.asset] ?? [];
-  return places.flatMap((place) => scene.view.hulls[place]?.name ?? []);
+/** The hulls that a rule or an extractor points out on this asset, and what was made of them. */
+function highlighted({ asset, view, hulls }: Scene): string[] {
+  const places = useDesk.getState().highlight?.assets[asset] ?? [];
+  const names = new Set(places.map((place) => view.hulls[place]?.name));
+  return hulls.filter(({ name, parent }) => names.has(name) || names.has(parent ?? "")).map((hull) => hull.name);
 }

@@ -20,20 +20,20 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   gl.setViewport(pane.x, 0, pane.width, height);
   gl.setScissor(pane.clip[0], 0, pane.clip[1] - pane.clip[0], height);
   const frame = { width: pane.width, height, pixel, explode: settings.explode, eye: stage.eye(camera) };
-  if (settings.grid) gl.render(stage.ground.scene, camera);
+  if (settings.grid) gl.render(stage.contents.ground.scene, camera);
   if (!side) return;
   prepare(stage, side);
   side.measure(frame);
-  stage.graph.measure(frame);
-  stage.cut.measure(frame);
-  stage.made?.measure(frame);
+  stage.contents.graph.measure(frame);
+  stage.contents.cut.measure(frame);
+  stage.contents.made?.measure(frame);
   gl.render(side.root, camera);
 }
 
 /** Edges from which on a scene is too much for thin lines where drawing is slow. */
 export const MANY_LINES = 6000;
 
-function prepare({ settings, graph, ghost, coarse }: Stage, side: Side): void {
+function prepare({ settings, contents: { graph, ghost }, coarse }: Stage, side: Side): void {
   side.hulls.setWireframe(settings.wireframe, coarse && side.hulls.sharpEdges > MANY_LINES);
   side.opaque.object.visible = settings.opaque;
   graph.object.visible = settings.contacts;

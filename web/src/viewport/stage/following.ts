@@ -1,13 +1,15 @@
 // Keeps the stage in step with the stores and the theme.
 import { api } from "../../server/api";
-import { hullToCut, planeOf, useCutting } from "../../store/cutting";
+import { useCutting } from "../../store/cutting";
 import { type DeskState, useDesk } from "../../store/desk";
+import { forgetGone } from "../../store/hiding";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { sceneOf, type Scene, useScenes } from "../../store/scenes";
 import { complainedOf } from "../../store/toasts";
 import { appearances } from "./appearance";
 import { readInk, watchTheme } from "../drawing/ink";
+import { placeCut } from "./cut";
 import { graphOf } from "./graph";
 import { usePointing } from "./pointing";
 import { settingsOf } from "./settings";
@@ -18,7 +20,7 @@ export function follow(stage: Stage): () => void {
   const repaint = (): void => paint(stage);
   const shown = (scene: Scene | null): void => {
     stage.show(scene);
-    stage.preview(usePreview.getState().preview);
+    stage.change((contents) => contents.preview(usePreview.getState().preview));
     repaint();
     fetchBeside(stage, scene);
   };
@@ -37,7 +39,7 @@ export function follow(stage: Stage): () => void {
       if (LOOKS.some((key) => now[key] !== before[key])) repaint();
     }),
     usePreview.subscribe(({ preview }) => {
-      stage.preview(preview);
+      stage.change((contents) => contents.preview(preview));
       repaint();
     }),
     useProject.subscribe((now, before) => {
@@ -48,7 +50,7 @@ export function follow(stage: Stage): () => void {
     }),
     useCutting.subscribe(() => placeCut(stage)),
     watchTheme(() => {
-      stage.setInk(readInk());
+      stage.change((contents) => contents.setInk(readInk()));
       repaint();
     }),
   ];
@@ -61,34 +63,13 @@ const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool"] as c
 function paint(stage: Stage): void {
   const { shown } = stage;
   if (!shown) return;
-  const looks = appearances(shown.scene, stage.ink);
-  stage.paint(looks.shown, looks.before);
+  const looks = appearances(shown.scene, stage.contents.ink);
+  stage.change((contents) => contents.paint(looks.shown, looks.before));
   placeCut(stage);
   if (!stage.settings.contacts) return;
-  const { nodes, lines } = graphOf(shown, stage.settings.explode);
-  stage.setGraph(nodes, lines);
-}
-
-/** Hulls that are no more are neither selected nor hidden. */
-function forgetGone({ asset, hulls }: Scene): void {
-  const desk = useDesk.getState();
-  if (desk.asset !== asset) return;
-  const there = new Set(hulls.map((hull) => hull.name));
-  const left = (names: ReadonlySet<string>) => new Set([...names].filter((name) => there.has(name)));
-  const [selection, hidden] = [left(desk.selection), left(desk.hidden)];
-  if (selection.size < desk.selection.size || hidden.size < desk.hidden.size) useDesk.setState({ selection, hidden });
-}
-
-/** Shows the cutting plane where the tool is in hand and a hull is chosen; previews stand back then. */
-function placeCut(stage: Stage): void {
-  const scene = stage.shown?.scene;
-  const { tool, selection } = useDesk.getState();
-  const hull = tool === "cut" ? hullToCut(scene ?? null, selection) : null;
-  const plane = scene && hull ? planeOf(scene, hull, useCutting.getState()) : null;
-  const away = stage.shown?.hulls.aways[stage.shown.hulls.places.get(hull?.name ?? "") ?? -1] ?? [0, 0, 0];
-  stage.showMade(tool !== "cut");
-  stage.cut.set(plane, hull?.shape ?? null, away.map((value) => value * stage.settings.explode));
-  stage.invalidate();
+  const { nodes, lines, gaps } = graphOf(shown, stage.settings.explode);
+  stage.gaps = gaps;
+  stage.change(({ graph }) => graph.set(nodes, lines));
 }
 
 function obey(stage: Stage, { cameraOrder, selection }: DeskState): void {
@@ -106,12 +87,12 @@ function fetchBeside(stage: Stage, scene: Scene | null): void {
   if (scene?.edit && compare !== "off") {
     const arrived = (before: Scene): void => {
       if (!isStill()) return;
-      stage.compareWith(before);
+      stage.change((contents) => contents.compareWith(before));
       paint(stage);
     };
     sceneOf(scene.asset, { kind: "source" }).then(arrived).catch(complainedOf);
-  } else stage.compareWith(null);
-  if (scene?.view.has_visual && ghost && !stage.ghost) {
-    api.visual(scene.asset).then((packet) => isStill() && stage.setGhost(packet)).catch(complainedOf);
+  } else stage.change((contents) => contents.compareWith(null));
+  if (scene?.view.has_visual && ghost && !stage.contents.ghost) {
+    api.visual(scene.asset).then((packet) => isStill() && stage.change((contents) => contents.setGhost(packet))).catch(complainedOf);
   }
 }

@@ -1,20 +1,13 @@
 // The one mutable place where the picture lives; React and the stores tell it what changed, it draws.
 import { type Camera, Matrix4, OrthographicCamera, Vector3, type WebGLRenderer } from "three";
-import type { EditedPacket, ShapesPacket } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
 import { View } from "../camera/view";
-import { ContactGraph, type GraphLine, type GraphNode } from "../drawing/contacts";
-import { CutPlane } from "../drawing/cutPlane";
-import { Ground } from "../drawing/ground";
-import { type Ink, readInk } from "../drawing/ink";
-import type { Appearance } from "../drawing/looks";
-import { Made } from "../drawing/made";
-import { extentOf, pointsOf, Side } from "../drawing/side";
-import { Surfaces } from "../drawing/surface";
+import { pointsOf, type Side } from "../drawing/side";
 import type { Point } from "../shapes/merged";
 import type { Eye } from "../shapes/silhouette";
-import { turnedBox } from "../shapes/turned";
+import { Contents } from "./contents";
 import { drawPanes, MANY_LINES } from "./draw";
+import type { Gap } from "./graph";
 import { Pace } from "./pace";
 import { type Pane, paneAt, panesOf } from "./panes";
 import type { Settings } from "./settings";
@@ -23,26 +16,20 @@ const MANY_PIXELS = 1.2e6;
 
 export class Stage {
   readonly view = new View();
-  readonly ground = new Ground();
-  readonly graph: ContactGraph;
-  readonly cut: CutPlane;
-  ink: Ink = readInk();
-  shown: Side | null = null;
-  before: Side | null = null;
-  made: Made | null = null;
-  ghost: Surfaces | null = null;
+  readonly contents = new Contents();
   width = 0;
   height = 0;
   /** Pixels of the drawing for one of the page. */
   pixel = 1;
   coarse = false;
   frames = 0;
+  /** Of near misses that are pointed at. */
+  gaps: readonly Gap[] = [];
   gl: WebGLRenderer | null = null;
   /** Asks for a frame. */
   invalidate: () => void = () => undefined;
   private screenPixel = 1;
   private readonly pace = new Pace(() => this.invalidate());
-  private centre: Point = [0, 0, 0];
   private wantsFit = false;
   private compiled = false;
   private readonly drawn = new Set<() => void>();
@@ -51,80 +38,32 @@ export class Stage {
   constructor(
     public settings: Settings,
     private readonly smooth: boolean,
-  ) {
-    this.graph = new ContactGraph(this.ink);
-    this.cut = new CutPlane(this.ink);
+  ) {}
+
+  get shown(): Side | null {
+    return this.contents.shown;
+  }
+
+  /** Changes what is in the picture. */
+  change(change: (contents: Contents) => void): void {
+    change(this.contents);
+    this.invalidate();
   }
 
   /** Shows a scene; another asset is framed, from the side that one looked from. */
   show(scene: Scene | null): void {
-    const isOther = scene?.asset !== this.shown?.scene.asset;
-    if (scene && !isOther && this.shown?.adopt(scene)) return this.invalidate();
-    this.shown?.dispose();
-    if (isOther) this.setGhost(null);
-    if (isOther && scene) this.arrive(scene);
-    this.shown = scene ? new Side(scene, this.centre, this.ink) : null;
-    this.shown?.turned.add(this.graph.object, this.cut.object);
-    if (this.ghost) this.shown?.turned.add(this.ghost.object);
+    const isOther = this.contents.show(scene);
+    this.view.bounds = this.contents.bounds;
     this.invalidate();
-  }
-
-  compareWith(scene: Scene | null): void {
-    this.before?.dispose();
-    this.before = scene ? new Side(scene, this.centre, this.ink) : null;
-    this.invalidate();
-  }
-
-  preview(packet: EditedPacket | null): void {
-    this.made?.object.removeFromParent();
-    this.made?.dispose();
-    this.made = packet && this.shown ? new Made(packet, this.centre, this.ink) : null;
-    if (this.made) this.shown?.turned.add(this.made.object);
-    this.invalidate();
-  }
-
-  showMade(on: boolean): void {
-    if (this.made) this.made.object.visible = on;
-  }
-
-  setGhost(packet: ShapesPacket | null): void {
-    this.ghost?.object.removeFromParent();
-    this.ghost?.dispose();
-    const rows = packet?.rows.flatMap((row, k) => {
-      const shape = packet.shapes[k];
-      return shape ? [{ name: row.name, shape }] : [];
-    });
-    this.ghost = rows ? new Surfaces(rows, this.ink.text, 0.16) : null;
-    if (this.ghost) this.shown?.turned.add(this.ghost.object);
-    this.invalidate();
-  }
-
-  setGraph(nodes: readonly GraphNode[], lines: readonly GraphLine[]): void {
-    this.graph.set(nodes, lines);
-    this.invalidate();
-  }
-
-  paint(shown: Appearance, before: Appearance): void {
-    this.shown?.paint(shown);
-    this.before?.paint(before);
-    this.invalidate();
+    if (!isOther || !scene) return;
+    this.pace.restart();
+    this.wantsFit = true;
   }
 
   set(settings: Settings): void {
     this.settings = settings;
     this.view.explode = settings.explode;
     this.view.projection = settings.projection;
-    this.invalidate();
-  }
-
-  setInk(ink: Ink): void {
-    this.ink = ink;
-    this.shown?.setInk(ink);
-    this.before?.setInk(ink);
-    this.graph.setInk(ink);
-    this.cut.setInk(ink);
-    this.ghost?.recolor(ink.text);
-    this.ground.fit(this.view.bounds, ink);
     this.invalidate();
   }
 
@@ -142,7 +81,7 @@ export class Stage {
 
   panes(): Pane[] {
     const { compare, divider } = this.settings;
-    return panesOf(compare, this.before !== null, divider, this.width);
+    return panesOf(compare, this.contents.before !== null, divider, this.width);
   }
 
   paneAt(x: number): Pane {
@@ -150,7 +89,7 @@ export class Stage {
   }
 
   sideOf(pane: Pane): Side | null {
-    return pane.which === "before" ? this.before : this.shown;
+    return pane.which === "before" ? this.contents.before : this.shown;
   }
 
   /** Where a point of the file's frame is seen in a pane, in pixels of the viewport. */
@@ -203,12 +142,7 @@ export class Stage {
 
   dispose(): void {
     this.pace.stop();
-    this.show(null);
-    this.compareWith(null);
-    this.preview(null);
-    this.graph.dispose();
-    this.cut.dispose();
-    this.ground.dispose();
+    this.contents.dispose();
   }
 
   /** Draws with a share of the pixels, and without thin lines where that is below 1. */
@@ -220,15 +154,5 @@ export class Stage {
     const pixel = share * finest;
     if (pixel !== gl.getPixelRatio()) gl.setPixelRatio(pixel);
     this.pixel = pixel;
-  }
-
-  private arrive(scene: Scene): void {
-    this.pace.restart();
-    const box = extentOf(scene) ?? [-0.5, -0.5, 0, 0.5, 0.5, 1];
-    const mid = (axis: number) => ((box[axis] ?? 0) + (box[axis + 3] ?? 0)) / 2;
-    this.centre = [mid(0), mid(1), mid(2)];
-    this.view.bounds = turnedBox(box, scene.view.upright);
-    this.ground.fit(this.view.bounds, this.ink);
-    this.wantsFit = true;
   }
 }

@@ -1,0 +1,177 @@
+"""The paper's running example in the browser: from files to exported assets, with accidents on the way."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import signal
+from pathlib import Path
+
+from meshforge.formats import load
+from meshforge.project import Project
+from meshforge.samples import TABLES
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import PATIENCE, Studio, opened, start
+from tests.e2e.walk import (
+    FIRST,
+    PAGE,
+    SECOND,
+    address,
+    click_row,
+    drawers,
+    go_to,
+    guessed,
+    handles,
+    legs,
+    orient_by_clicking,
+    splinters,
+    stepped,
+    top,
+)
+
+ADDED = "added/table_11.obj"
+MISLABELLED = "convex_60"
+
+
+def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path) -> None:
+    project = _tables(tmp_path)
+    with chromium() as browser:
+        person = hand(browser)
+        with opened(tmp_path, project, "--page", str(PAGE)) as studio:
+            person.open(address(studio))
+            _import_one(person, tmp_path)
+            _label(person)
+            person.press("Alt+2")
+            go_to(person, FIRST)
+            orient_by_clicking(person)
+            splinters(person)
+            top(person)
+            person.page.reload()
+            person.drawn(FIRST)
+            person.press("Alt+2")
+            stepped(person, 2)
+            legs(person)
+            port = studio.base.rpartition(":")[2]
+            studio.process.send_signal(signal.SIGKILL)
+            studio.process.wait(PATIENCE)
+            person.sees("Connection lost")
+        with opened(tmp_path, project, "--page", str(PAGE), "--port", port) as studio:
+            person.open(address(studio))
+            other = hand(browser)
+            other.open(address(studio))
+            person.press("Alt+2")
+            go_to(person, FIRST)
+            stepped(person, 3)
+            _refused_template(person, tmp_path)
+            drawers(person, TABLES / "templates" / "tray.obj")
+            handles(person)
+            _answer(person, studio)
+            _second_table(person)
+            _repair(person, studio)
+            _review(person, other, studio)
+            assert _rules(studio) == TABLES.joinpath("tables.mf").read_text(encoding="utf-8").split("\n\n")[-1].strip()
+        assert not person.complaints
+        assert not other.complaints
+    exported = sorted(path.name for path in (project / "export").rglob("*.obj"))
+    assert exported == ["table_01.obj"]
+    assert len(load(project / "export" / "table_01.obj").hulls) < len(load(TABLES / "table_01.obj").hulls)
+
+
+def _tables(folder: Path) -> Path:
+    """A project of ten tables that have labels files, and nothing else."""
+    (folder / "assets").mkdir()
+    (folder / "more").mkdir()
+    for number in range(1, 12):
+        for source in TABLES.glob(f"table_{number:02}.*"):
+            shutil.copyfile(source, folder / ("assets" if number < 11 else "more") / source.name)
+    return Project.create(folder / "project", [folder / "assets" / "*.obj"], name="tables").folder
+
+
+def _import_one(person: Hand, folder: Path) -> None:
+    """Files that are no assets are refused in words; a table comes in with its labels."""
+    picker = person.page.get_by_label("Files to add")
+    (folder / "more" / "notes.obj").write_text("nothing of a mesh", encoding="utf-8")
+    picker.set_input_files(folder / "more" / "notes.obj")
+    person.sees("this is no OBJ file")
+    picker.set_input_files([folder / "more" / "table_11.obj", folder / "more" / "table_11.labels.json"])
+    person.page.get_by_role("option", name=ADDED).first.wait_for()
+
+
+def _label(person: Hand) -> None:
+    """Labels come from the files; one of them is wrong."""
+    person.press("Alt+1")
+    person.click(person.page.get_by_label("New labels, separated by commas"))
+    person.page.keyboard.type("panel, leg, handle, drawer, misc")
+    person.press("Enter")
+    person.click(person.page.get_by_role("button", name=re.compile("^From files")))
+    go_to(person, SECOND)
+    click_row(person, MISLABELLED)
+    person.press("2")
+    person.sees(f"1 hull of {SECOND} labelled leg")
+
+
+def _refused_template(person: Hand, folder: Path) -> None:
+    """A file that is no template is refused in words."""
+    (folder / "hollow.obj").write_text("v 0 0 0\n", encoding="utf-8")
+    person.hull("convex_22")
+    person.press("r")
+    person.page.get_by_label("Template files").set_input_files(folder / "hollow.obj")
+    person.page.get_by_role("alert").filter(has_text="hollow.obj").first.wait_for()
+    person.press("Escape")
+
+
+def _answer(person: Hand, studio: Studio) -> None:
+    """Take the choice that is meant, of what is asked first."""
+    question = studio.until(lambda hello: bool(hello["lesson"] and hello["lesson"]["question"]))["lesson"]["question"]
+    meant = {2: "Geo(Is(panel), +Z)", 5: "Attach(Is(handle), Is(drawer))"}[question["rule"]]
+    place = [choice["extractor"] for choice in question["choices"]].index(meant)
+    person.press("Alt+3")
+    card = person.page.get_by_role("region", name=re.compile("which hulls should rule"))
+    person.click(card.get_by_role("button").nth(place))
+    studio.until(lambda hello: any(said["kind"] == "answer" for said in hello["project"]["said"]))
+
+
+def _second_table(person: Hand) -> None:
+    """Take what is guessed, but for the hull that has a wrong label."""
+    person.press("Alt+2")
+    go_to(person, SECOND)
+    guessed(person, 1)
+    click_row(person, MISLABELLED, modifiers=["ControlOrMeta"])
+    person.press("Enter")
+    stepped(person, 1)
+    for step in range(2, 6):
+        guessed(person, step)
+        person.press("Enter")
+        stepped(person, step)
+
+
+def _repair(person: Hand, studio: Studio) -> None:
+    """Accept that the label is wrong."""
+    studio.until(lambda hello: bool(hello["lesson"] and hello["lesson"]["repairs"]))
+    person.press("Alt+3")
+    card = person.page.get_by_role("article", name=f"{MISLABELLED} of {SECOND}")
+    person.click(card.get_by_role("button", name="Accept"))
+    person.sees(f"{MISLABELLED} of {SECOND} is now labelled misc")
+    studio.until(lambda hello: not hello["learning"] and hello["lesson"]["status"] in ("found", "ambiguous"))
+
+
+def _review(person: Hand, other: Hand, studio: Studio) -> None:
+    """Apply to all, accept one, flag one, which the other page shows; export what is accepted."""
+    person.press("Alt+4")
+    person.click("Apply to all")
+    studio.cards(lambda cards: all(card["output"] in ("edited", "unchanged", "failed") for card in cards.values()))
+    go_to(person, "table_01.obj")
+    person.press("y")
+    studio.cards(lambda cards: cards["table_01.obj"]["review"] == "accepted")
+    go_to(person, "table_02.obj")
+    person.press("f")
+    studio.cards(lambda cards: cards["table_02.obj"]["review"] == "flagged")
+    other.page.get_by_role("option", name=re.compile("table_02.obj.*flagged")).wait_for()
+    person.click(person.page.get_by_role("tab", name=re.compile("^Export")))
+    person.click(person.page.get_by_role("button", name=re.compile("^Export 1 asset")))
+    person.sees("The last export")
+
+
+def _rules(studio: Studio) -> str:
+    program: str = studio.settled()["program"]["text"]
+    return program.split("\n\n")[-1].strip()

@@ -1,0 +1,59 @@
+// Edits, one after the other, and what is said of them.
+import { beforeEach, expect, test, vi } from "vitest";
+import { api } from "../server/api";
+import { ServerProblem } from "../server/http";
+import { perform, sentence, undo } from "./edits";
+import { useToasts } from "./toasts";
+
+vi.mock("../server/api", () => ({ api: { edit: vi.fn(), undo: vi.fn(), redo: vi.fn() } }));
+
+const edit = vi.mocked(api.edit);
+const toasts = () => useToasts.getState().toasts;
+const labels = { kind: "vocabulary" as const, labels: [] };
+
+beforeEach(() => {
+  vi.clearAllMocks();
+  useToasts.setState({ toasts: [] });
+});
+
+test("what was done is told, and can be undone", async () => {
+  edit.mockResolvedValue({ said: "labelled 3 hulls" });
+  expect(await perform(labels)).toBe(true);
+  expect(toasts()[0]).toMatchObject({ text: "Labelled 3 hulls", undo: true });
+});
+
+test("what changed nothing offers no undo; what is quiet is not told", async () => {
+  edit.mockResolvedValue({ said: "nothing to label", nothing: true });
+  await perform(labels);
+  expect(toasts()[0]?.undo).toBe(false);
+  await perform(labels, { quiet: true });
+  expect(toasts()).toHaveLength(1);
+});
+
+test("undoing says that it was undone, and offers no undo of that", async () => {
+  vi.mocked(api.undo).mockResolvedValue({ said: "step 1 of a: Delete" });
+  await undo();
+  expect(toasts()[0]).toMatchObject({ text: "Undone: step 1 of a: Delete", undo: false });
+});
+
+test("an edit waits for those before it, also where one is refused", async () => {
+  const order: string[] = [];
+  edit.mockImplementationOnce(async () => {
+    await new Promise((soon) => setTimeout(soon, 5));
+    order.push("first");
+    throw new ServerProblem({ message: "changed since", where: null, remedy: null, conflict: true }, 409);
+  });
+  edit.mockImplementationOnce(() => Promise.resolve({ said: (order.push("second"), "done") }));
+  expect(await Promise.all([perform(labels), perform(labels)])).toEqual([false, true]);
+  expect(order).toEqual(["first", "second"]);
+  expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
+});
+
+test("names of files keep their first letter", () => {
+  expect(["table_1.obj: fine", "vocabulary: a, b", "step 1", "a/b: fine"].map(sentence)).toEqual([
+    "table_1.obj: fine",
+    "Vocabulary: a, b",
+    "Step 1",
+    "a/b: fine",
+  ]);
+});
