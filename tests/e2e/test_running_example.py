@@ -166,8 +166,8 @@ def _review(person: Hand, other: Hand, studio: Studio) -> None:
     go_to(person, "table_02.obj")
     person.press("f")
     studio.cards(lambda cards: cards["table_02.obj"]["review"] == "flagged")
-    other.page.get_by_role("option", name=re.compile("table_02.obj.*flagged")).wait_for()
-    person.click(person.page.get_by_role("tab", name=re.compile("^Export")))
+    other.page.get_by_role("option", name=re.compile("table_02.obj.*flagged", re.IGNORECASE)).wait_for()
+    person.click(person.page.get_by_role("radio", name="Export"))
     person.click(person.page.get_by_role("button", name=re.compile("^Export 1 asset")))
     person.sees("The last export")
 

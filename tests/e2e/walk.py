@@ -93,10 +93,8 @@ def handles(person: Hand) -> None:
 
 def click_row(person: Hand, hull: str, **how: Any) -> None:
     """Find a hull in the list by its name, and click on it there."""
-    search = person.page.get_by_placeholder(re.compile("^Search [0-9]+ hulls"))
-    search.fill(hull)
-    person.click(person.page.get_by_role("row", name=re.compile(f"^{hull} ")), **how)
-    search.fill("")
+    person.page.get_by_placeholder(re.compile("^Search [0-9]+ hulls")).fill(hull)
+    person.click(person.page.locator(f'[role=row][data-name="{hull}"]'), **how)
 
 
 def guessed(person: Hand, step: int) -> None:

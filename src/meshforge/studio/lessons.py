@@ -108,7 +108,10 @@ class Lessons:
         with self._lock:
             if number != self._number:
                 return
-            self._running = self._learner.learn(number, False)
+            try:
+                self._running = self._learner.learn(number, False)
+            except MeshForgeError:  # the studio is being closed
+                return
         self._running.add_done_callback(partial(self._over, number))
 
     def _over(self, number: int, future: Future[LessonView]) -> None:

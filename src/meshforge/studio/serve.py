@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import multiprocessing
 import signal
 import socket
 import webbrowser
@@ -23,6 +24,8 @@ from meshforge.studio.desk import Desk, Opening
 from meshforge.studio.routes.page import BUILT, page_in
 
 ADDRESS = "127.0.0.1"
+LAST_MOMENT = 3.0
+"""Seconds that a worker process is waited for."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -39,6 +42,7 @@ def serve(
         _be_alone(stack, project)
         listening = stack.enter_context(closing(_listening(port)))
         desk = Desk(opening)
+        stack.callback(_await_processes)
         stack.callback(desk.close)
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
 
@@ -75,6 +79,12 @@ def _config(desk: Desk, token: str, page: Path) -> uvicorn.Config:
         timeout_graceful_shutdown=2,
         server_header=False,
     )
+
+
+def _await_processes() -> None:
+    """A worker process that is just starting would complain if its locks went with this process."""
+    for process in multiprocessing.active_children():
+        process.join(LAST_MOMENT)
 
 
 def _be_alone(stack: ExitStack, project: Project) -> None:
