@@ -43,7 +43,11 @@ class Hand:
 
     def _heard(self, message: ConsoleMessage) -> None:
         # the browser itself complains of every refused request, which the page then tells in words
-        if message.type == "error" and "Failed to load resource" not in message.text and "WebSocket" not in message.text:
+        if (
+            message.type == "error"
+            and "Failed to load resource" not in message.text
+            and "WebSocket" not in message.text
+        ):
             self.complaints.append(message.text)
 
     # Acting

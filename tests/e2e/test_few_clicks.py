@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.e2e.hand import Hand, chromium, hand
-from tests.e2e.studio import Studio, opened
+from tests.e2e.hand import chromium, hand
+from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address, demonstrate_tables, learned
 from tests.studio_project import demo_project
 
