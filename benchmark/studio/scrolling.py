@@ -12,7 +12,7 @@ from benchmark.studio.families import project_of
 
 _SCROLL = """
 async (milliseconds) => {
-  const gallery = document.querySelector('[data-testid=gallery]');
+  const gallery = document.querySelector('[data-testid=family]');
   const gaps = [];
   const began = performance.now();
   let last = began;
@@ -44,7 +44,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             rows = []
             for turn in ("thumbnails not drawn yet", "thumbnails drawn before"):
                 tell(f"scrolling: {turn}")
-                page.evaluate("document.querySelector('[data-testid=gallery]').scrollTop = 0")
+                page.evaluate("document.querySelector('[data-testid=family]').scrollTop = 0")
                 gaps = page.evaluate(_SCROLL, 2000 if quick else 8000)
                 slow = sum(gap > 50 for gap in gaps) / len(gaps)
                 rows.append((turn, 1000 / statistics.mean(gaps), statistics.median(gaps), max(gaps), 100 * slow))

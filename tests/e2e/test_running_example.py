@@ -138,7 +138,7 @@ def _answer(person: Hand, studio: Studio) -> int:
 
 
 def _has_said(answers: int, hello: dict[str, Any]) -> bool:
-    return sum(said["kind"] == "answer" for said in hello["project"]["said"]) == answers
+    return len([said for said in hello["project"]["said"] if said["kind"] == "answer"]) == answers
 
 
 def _second_table(person: Hand) -> None:
