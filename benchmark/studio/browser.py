@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 FLAGS = (
     "--no-sandbox",
@@ -58,3 +58,27 @@ def chromium() -> Iterator[Browser]:
         )
         yield browser
         browser.close()
+
+
+def seen(browser: Browser, address: str, asset: str) -> Page:
+    """A page of a browser that knows nothing of the studio yet, once it shows an asset."""
+    page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
+    page.add_init_script(WATCH)
+    page.goto(address)
+    page.wait_for_function("id => id in window.watched.ready", arg=asset)
+    return page
+
+
+def warm(browser: Browser, address: str, asset: str) -> None:
+    """Opens the studio once, until the pictures of the family are drawn: server and browser keep much from then on."""
+    page = seen(browser, address, asset)
+    page.wait_for_function(_DRAWN)
+    page.context.close()
+
+
+_DRAWN = """
+() => {
+  const pictures = [...document.querySelectorAll('[data-testid=family] [data-state]:has(> canvas)')];
+  return pictures.length > 0 && pictures.every((picture) => picture.dataset.state === 'there');
+}
+"""

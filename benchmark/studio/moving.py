@@ -9,7 +9,7 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import WATCH, chromium, studio
+from benchmark.studio.browser import chromium, seen, studio
 from benchmark.studio.families import project_of
 
 _ANSWER = """
@@ -59,10 +59,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         with tempfile.TemporaryDirectory() as folder:
             project = project_of(Path(folder), 1, hulls)
             with studio(project.folder) as address, chromium() as browser:
-                page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
-                page.add_init_script(WATCH)
-                page.goto(address)
-                page.wait_for_function("id => id in window.watched.ready", arg=project.assets()[0])
+                page = seen(browser, address, project.assets()[0])
                 page.wait_for_timeout(1500)
                 frames, milliseconds = _hovered(page, hulls, 10 if quick else 60)
                 rows.append((f"{hulls} hulls", frames, milliseconds, page.evaluate(_TURN, 1000 if quick else 4000)))

@@ -32,8 +32,17 @@ class MeshForgeError(Exception):
     @property
     def message(self) -> str:
         """The full text: `where: problem. remedy`."""
-        head = f"{self.where}: {self.problem}" if self.where else self.problem
-        return f"{head}\n  {self.remedy}" if self.remedy else head
+        return f"{self._head}\n  {self.remedy}" if self.remedy else self._head
+
+    @property
+    def sentence(self) -> str:
+        """The same in running text: `where: problem. remedy` in one line."""
+        head = " ".join(self._head.split())
+        return f"{head.rstrip('.')}. {self.remedy}" if self.remedy else head
+
+    @property
+    def _head(self) -> str:
+        return f"{self.where}: {self.problem}" if self.where else self.problem
 
     def at(self, where: str) -> MeshForgeError:
         """The same error, about `where`, when it did not say yet what it is about."""

@@ -130,10 +130,13 @@ def start(folder: Path, project: Path, *words: str) -> Studio:
     page = folder / "page"
     page.mkdir(exist_ok=True)
     (page / "index.html").write_text("<!doctype html><title>MeshForge</title>")
-    command = ["studio", str(project), "--no-browser", "--page", str(page), *words]
-    process = subprocess.Popen(
-        [sys.executable, "-c", _RUN, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+    return started("studio", str(project), "--page", str(page), *words)
+
+
+def started(*words: str) -> Studio:
+    """Run `meshforge WORDS`, which starts a studio."""
+    command = [sys.executable, "-c", _RUN, *words, "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout and process.stderr
     line = process.stdout.readline()
     assert line.startswith("Studio: http://127.0.0.1:"), line + process.stderr.read()
@@ -144,8 +147,14 @@ def start(folder: Path, project: Path, *words: str) -> Studio:
 
 @contextmanager
 def opened(folder: Path, project: Path, *words: str) -> Iterator[Studio]:
+    """A studio on a project for a block."""
+    with ending(start(folder, project, *words)) as studio:
+        yield studio
+
+
+@contextmanager
+def ending(studio: Studio) -> Iterator[Studio]:
     """A studio for a block; it comes to its end when it is asked to, and leaves no message behind."""
-    studio = start(folder, project, *words)
     complaints: list[str] = []
     assert studio.process.stderr
     listener = Thread(target=lambda: complaints.extend(studio.process.stderr or ()))

@@ -205,6 +205,17 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
     assert studio.settled()["program"]["text"] == learned
 
 
+def test_labels_files_are_offered_while_they_say_something_new(studio: Studio) -> None:
+    studio.settled()
+    assert ok(studio.get("/api/labels/sources"))["files"] == 0
+    studio.edit("label", asset=FIRST, hulls=["convex_00"], label=None)
+    assert ok(studio.get("/api/labels/sources"))["files"] == 1
+    studio.edit("label-files")
+    assert ok(studio.get("/api/labels/sources"))["files"] == 0
+    for _ in range(2):
+        ok(studio.post("/api/undo"))
+
+
 def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path: Path) -> None:
     folder = Path(studio.settled()["project"]["folder"])
     with studio.page() as page:

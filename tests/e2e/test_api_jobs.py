@@ -57,6 +57,10 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     assert {line["status"] for line in job["lines"]} == {"edited"}
     cards = studio.cards(lambda cards: cards[FIRST]["output"] == cards[THIRD]["output"] == "edited")
     assert cards["table_02.obj"]["output"] == "none"
+    written = load(home(studio) / "edited" / FIRST)
+    words = [word["name"] for word in studio.settled()["project"]["vocabulary"]]
+    assert [words[k] for k in cards[FIRST]["after_labels"]] == [hull.label for hull in written.hulls]
+    assert cards["table_02.obj"]["after_labels"] == []
     picture = studio.get("/api/thumbnail", asset=FIRST, of="output", v=cards[FIRST]["edited_picture"])
     assert picture.content.startswith(b"\x89PNG")
     assert studio.get("/api/result", asset=FIRST, of="output").status_code == 200

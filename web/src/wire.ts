@@ -400,7 +400,8 @@ export interface AssetsChanged {
  *
  * hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
  * the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure.
- * after: hulls of the output; stale: what changed since the output was made; corrections: edits by hand, a number.
+ * after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
+ * changed since the output was made; corrections: edits by hand, a number.
  * sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  */
@@ -412,6 +413,7 @@ export interface Card {
   demonstrated: boolean;
   output: "none" | "edited" | "unchanged" | "failed";
   after: number | null;
+  after_labels: number[];
   stale: string[];
   error: string | null;
   flags: string[];
@@ -820,8 +822,8 @@ export interface JobCancel {
   id: string;
 }
 /**
- * Where labels could come from. files: assets with a labels file beside them; names: hulls without a label whose
- * names say one.
+ * Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
+ * without a label whose names say one.
  */
 export interface LabelSources {
   files: number;

@@ -20,13 +20,14 @@ class Draft:
     """An output that lies aside.
 
     files: the digest of each file by its path in `folder`; main: the path of the main one; notes: what the format
-    could not hold, or holds in another form.
+    could not hold, or holds in another form; labels: of its hulls, in the order that the main file reads back in.
     """
 
     folder: Path
     main: str
     files: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    labels: tuple[str | None, ...] = ()
 
 
 def drafts(out: Path) -> Path:
@@ -50,21 +51,23 @@ def written(
     main = plan.folder / plan.main
     saved = save(mesh, main, mass=mass, link=link)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
-    _check_back(main, written)
+    order = _read_back(main, written)
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
-    return Draft(plan.folder, plan.main, digests, saved.notes)
+    labels = tuple(written.named(name).label for name in order)
+    return Draft(plan.folder, plan.main, digests, saved.notes, labels)
 
 
-def _check_back(main: Path, mesh: SymbolicMesh) -> None:
-    """Labels are keyed by the names that the file reads back as, so these must be those of the mesh."""
-    back = sorted(geom.name for geom in read(main).geoms)
-    wanted = sorted(hull.name for hull in mesh.hulls)
-    if back != wanted:
+def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:
+    """The names that the file reads back as; labels are keyed by them, so these must be those of the mesh."""
+    back = [geom.name for geom in read(main).geoms]
+    wanted = [hull.name for hull in mesh.hulls]
+    if sorted(back) != sorted(wanted):
         odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
         raise AssetError(
             f"the edited file reads back with other hulls than it should have: {odd}",
             remedy="This is a fault of MeshForge; nothing was written. Please report the asset.",
         )
+    return back

@@ -89,7 +89,7 @@ class Ledger:
             (self._out / name).parent.mkdir(parents=True, exist_ok=True)
             (draft.folder / name).replace(self._out / name)
         self._forget(outcome.asset, [name for name in announced if name not in draft.files])
-        Stamp.of(outcome, inputs, dict(draft.files), draft.main).write(self._out)
+        Stamp.of(outcome, inputs, draft).write(self._out)
 
     def _withdraw(self, asset: str) -> None:
         self._forget(asset, list(self._files.get(asset, {})))

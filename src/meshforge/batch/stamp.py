@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -12,6 +12,9 @@ from meshforge.batch.digests import file_digest
 from meshforge.batch.folder import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleLine, Skipped, Unchanged
 from meshforge.files import write_atomically
+
+if TYPE_CHECKING:
+    from meshforge.batch.draft import Draft
 
 
 class Inputs(BaseModel):
@@ -37,6 +40,7 @@ class Stamp(BaseModel):
     """One output. status `writing`: files are being put in place; whoever finds it has found a killed run.
 
     outputs: the digest of every file, by its path in the output folder; out: the main one of them.
+    labels: of its hulls, in the order that the main file has them; empty where they are not known.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -46,6 +50,7 @@ class Stamp(BaseModel):
     inputs: Inputs | None = None
     outputs: dict[str, str] = {}
     out: str = ""
+    labels: tuple[str | None, ...] = ()
     rules: tuple[RuleLine, ...] = ()
     before: int = 0
     after: int = 0
@@ -54,14 +59,15 @@ class Stamp(BaseModel):
     error: str | None = None
 
     @staticmethod
-    def of(outcome: Edited | Unchanged, inputs: Inputs, outputs: dict[str, str], out: str) -> Stamp:
+    def of(outcome: Edited | Unchanged, inputs: Inputs, draft: Draft) -> Stamp:
         """The stamp of a run that came to its end."""
         return Stamp(
             asset=outcome.asset,
             status="edited" if isinstance(outcome, Edited) else "unchanged",
             inputs=inputs,
-            outputs=outputs,
-            out=out,
+            outputs=dict(draft.files),
+            out=draft.main,
+            labels=draft.labels,
             rules=outcome.rules,
             before=outcome.before,
             after=outcome.after,

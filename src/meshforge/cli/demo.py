@@ -82,7 +82,7 @@ def _in_browser(out: Path, port: int, browser: bool) -> None:
     """The tables in the studio; those of an earlier time with all that was done there."""
     from meshforge.cli.studio import opened
     from meshforge.cli.tables import kept_tables
-    from meshforge.studio.desk import Opening
+    from meshforge.studio.serving import Opening
 
     opened(Opening(kept_tables(out).folder, tour=True), port=port, browser=browser)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from meshforge.studio.desk import Opening
+    from meshforge.studio.serving import Opening
 
 Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
 Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
@@ -28,15 +28,14 @@ def studio(
 
     The studio answers on this machine only, to the address with its token that is printed.
     """
-    from meshforge.studio.desk import Opening
+    from meshforge.studio.serving import Opening
 
     opened(Opening(project, export), port=port, browser=browser, page=page)
 
 
 def opened(opening: Opening, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    from meshforge.studio.routes.page import BUILT
-    from meshforge.studio.serve import serve
+    from meshforge.studio.serving import BUILT, serve
 
     serve(opening, _say, port=port, browser=browser, page=page or BUILT)
 

@@ -6,6 +6,7 @@ from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLin
 from meshforge.project.family import Family, looked_at
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
+from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
 from meshforge.project.project import Project
 from meshforge.project.reviewing import Review, Verdict
@@ -23,6 +24,8 @@ __all__ = [
     "Family",
     "Labelled",
     "Layout",
+    "Offered",
+    "Offers",
     "Prepared",
     "Project",
     "RepairLine",

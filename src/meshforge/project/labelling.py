@@ -128,13 +128,18 @@ def merged(
             problems.append(problem)
         elif current == label:
             same += 1
-        elif current and current.source in HUMAN_SOURCES and label.source not in HUMAN_SOURCES:
+        elif is_kept(current, label):
             kept += 1
         else:
             taken[name] = label
     labelled = mesh.labelled(taken)
     bare = sum(hull.label is None for hull in labelled.hulls)
     return labelled, Labelled(asset, len(taken), same, kept, bare, tuple(problems))
+
+
+def is_kept(current: Label | None, given: Label) -> bool:
+    """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
+    return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
 
 
 def _problem(name: str, label: Label, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str | None:

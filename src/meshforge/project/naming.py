@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError
 from meshforge.project.labelling import Labelled, merged, write_merged
-from meshforge.symbolic import Hull, Label, SymbolicMesh
+from meshforge.symbolic import Label
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -17,13 +17,6 @@ CONFIDENCE = 0.7
 _NAMELESS = "body"  # what formats without bodies call the only one
 
 Words = tuple[str, ...]
-
-
-def labels_in_names(project: Project) -> dict[str, dict[str, str]]:
-    """The labels that names give to hulls without one, by asset and hull; assets that cannot be read are left out."""
-    vocabulary = project.vocabulary
-    found = ((asset, _labels(mesh, vocabulary)) for asset, mesh in project.named_meshes())
-    return {asset: labels for asset, labels in found if labels}
 
 
 def label_from_names(project: Project) -> tuple[Labelled, ...]:
@@ -41,29 +34,32 @@ def _labelled(project: Project, asset: str) -> Labelled:
         except MeshForgeError as error:
             return Labelled(asset, problems=(error.message,))
         vocabulary = project.vocabulary
-        given = {name: Label(label, CONFIDENCE, "name") for name, label in _labels(mesh, vocabulary).items()}
+        bare = {hull.name: hull.body for hull in mesh.hulls if hull.label is None}
+        given = {name: Label(label, CONFIDENCE, "name") for name, label in named_labels(bare, vocabulary).items()}
         labelled, report = merged(asset, mesh, given, vocabulary)
         if report.taken:
             write_merged(project, asset, labelled)
         return report
 
 
-def _labels(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> dict[str, str]:
-    bare = ((hull.name, _of_hull(hull, vocabulary)) for hull in mesh.hulls if hull.label is None)
-    return {name: label for name, label in bare if label}
+def named_labels(hulls: Mapping[str, str], vocabulary: Sequence[str]) -> dict[str, str]:
+    """The labels that names say, by hull; hulls: the name of the body of each by its own name."""
+    known = {label: words_of(label) for label in vocabulary}
+    found = ((name, _of_hull(name, body, known)) for name, body in hulls.items())
+    return {name: label for name, label in found if label}
 
 
-def _of_hull(hull: Hull, vocabulary: Sequence[str]) -> str | None:
+def _of_hull(name: str, body: str, known: Mapping[str, Words]) -> str | None:
     """The label in the hull's own name, or where that has none, in the name of its body."""
-    own = _mentioned(hull.name.removeprefix(f"{hull.body}/"), vocabulary)
-    of_body = [] if own or hull.body == _NAMELESS else _mentioned(hull.body, vocabulary)
+    own = _mentioned(name.removeprefix(f"{body}/"), known)
+    of_body = [] if own or body == _NAMELESS else _mentioned(body, known)
     return _longest(own or of_body)
 
 
-def _mentioned(name: str, vocabulary: Sequence[str]) -> list[str]:
+def _mentioned(name: str, known: Mapping[str, Words]) -> list[str]:
     """The labels whose words, one or several in a row, are in a name."""
     words = words_of(name)
-    return [label for label in vocabulary if _holds(words, words_of(label))]
+    return [label for label, wanted in known.items() if _holds(words, wanted)]
 
 
 def _holds(words: Words, wanted: Words) -> bool:

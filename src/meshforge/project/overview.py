@@ -90,6 +90,7 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
         labels=tuple(map(homes.labels.get, facts.hulls)),
         geometry="" if facts.error else geometry_digest(facts.hulls),
         after=stamp.after if stamp and output_digest(stamp) else None,
+        after_labels=stamp.labels if stamp and output_digest(stamp) else (),
         output_digest=output_digest(stamp),
         corrections=len(job.corrections),
         review_note=said.note if said else None,

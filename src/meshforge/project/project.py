@@ -37,6 +37,7 @@ from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
+from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
@@ -232,9 +233,9 @@ class Project:
         """Take over labels files: a file for a single asset, a folder that mirrors the assets, or those beside them."""
         return labelling.take_over(self, source)
 
-    def labels_in_names(self) -> dict[str, dict[str, str]]:
-        """The labels that `label_from_names` would give, by asset and hull."""
-        return naming.labels_in_names(self)
+    def offered_labels(self) -> Offered:
+        """What `label_from_files` and `label_from_names` would give; see `Offers` for asking often."""
+        return Offers().of(self)
 
     def label_from_names(self) -> tuple[Labelled, ...]:
         """Label hulls without a label by the words of the vocabulary in their own names, else in those of their bodies.

@@ -23,7 +23,8 @@ class AssetStatus:
     flags: edits by hand that were left out, demonstrated hulls that are no more; review, review_note: what a person
     said about the output as it is.
     names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
-    where it cannot be read. after, output_digest: hulls and files of the output; corrections: edits by hand, a number.
+    where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
+    known, and its files; corrections: edits by hand, a number.
     """
 
     id: str
@@ -42,6 +43,7 @@ class AssetStatus:
     labels: tuple[Label | None, ...] = ()
     geometry: str = ""
     after: int | None = None
+    after_labels: tuple[str | None, ...] = ()
     output_digest: str | None = None
     corrections: int = 0
     review_note: str | None = None

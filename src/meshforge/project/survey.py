@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -23,8 +24,9 @@ TIMEOUT = 600.0
 class Facts(BaseModel):
     """What one asset holds. hulls: the digest of each by its name; files: the digest of each by its path from the base.
 
-    sources: how many pieces and bodies have no hulls but could be decomposed; preparation: the digest of what was done
-    to the asset before; prepared: that in words; replaced: what each hull that was split has become.
+    bodies: the name of the body of each hull, in order; sources: how many pieces and bodies have no hulls but could
+    be decomposed; preparation: the digest of what was done to the asset before; prepared: that in words; replaced: what
+    each hull that was split has become.
     times: modification time [ns] and size of each file, by which a change is guessed without reading it; only the
     digests decide what is stale. error: why the asset cannot be read.
     """
@@ -32,6 +34,7 @@ class Facts(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     hulls: dict[str, str] = {}
+    bodies: tuple[str, ...] = ()
     sources: int = 0
     preparation: str | None = None
     prepared: tuple[str, ...] = ()
@@ -42,6 +45,9 @@ class Facts(BaseModel):
 
 
 class _SurveyFile(BaseModel):
+    """form: counts the forms that this file had, as facts were added."""
+
+    form: Literal[2]
     software: str
     assets: dict[str, Facts]
 
@@ -71,7 +77,7 @@ def survey(
     every = known | fresh
     kept = {key: every[key] for key in ids if key in every and not every[key].error}
     if todo or kept.keys() != known.keys():
-        write_atomically(memory, _SurveyFile(software=software(), assets=kept).model_dump_json())
+        write_atomically(memory, _SurveyFile(form=2, software=software(), assets=kept).model_dump_json())
     return {key: fresh[key] for key in wanted}
 
 
@@ -119,6 +125,7 @@ def _facts(work: _Work) -> Facts:
         entries = [entry for step in preparation.steps for entry in step.replaced]
         return Facts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
+            bodies=tuple(geom.body for geom in asset.geoms),
             sources=sum(not source.is_hopeless for source in sources(asset)),
             preparation=record_digest(work.preparation),
             prepared=tuple(map(str, preparation.steps)),

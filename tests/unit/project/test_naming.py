@@ -32,7 +32,7 @@ def named(folder: Path, *vocabulary: str, **bodies: tuple[str, ...]) -> Project:
 
 
 def found(project: Project) -> dict[str, str]:
-    return project.labels_in_names().get("robot.urdf", {})
+    return dict(project.offered_labels().names.get("robot.urdf", {}))
 
 
 @pytest.mark.parametrize(
@@ -81,15 +81,15 @@ def test_the_body_of_a_format_without_bodies_says_nothing(tmp_path: Path) -> Non
     (tmp_path / "assets").mkdir()
     (tmp_path / "assets/cup.obj").write_text(obj({"wall": BOX, "other": BOX}))
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["body", "wall"])
-    assert project.labels_in_names() == {"cup.obj": {"wall": "wall"}}
+    assert project.offered_labels().names == {"cup.obj": {"wall": "wall"}}
 
 
 def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
     project = named(tmp_path, "door", "leg", base=("door1", "door2", "thing"))
     project.set_labels("robot.urdf", {"base/door1": "leg"})
-    before = tree(project.folder)
+    before = tree(project.folder / "labels")
     assert found(project) == {"base/door2": "door"}
-    assert tree(project.folder) == before
+    assert tree(project.folder / "labels") == before
     assert project.label_from_names() == (Labelled("robot.urdf", taken=1, unlabelled=1),)
     labels = project.labels("robot.urdf").labels
     assert labels == {"base/door1": Label("leg"), "base/door2": Label("door", 0.7, "name")}
@@ -101,7 +101,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
         write_table(tmp_path / f"assets/{name}.obj", labels=False)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["crumb"])
     (tmp_path / "assets/a.obj").write_text("nothing of use")
-    assert project.labels_in_names() == {"b.obj": {"crumb": "crumb"}}
+    assert project.offered_labels().names == {"b.obj": {"crumb": "crumb"}}
     bad, good = project.label_from_names()
     assert bad.asset == "a.obj" and "a.obj" in bad.problems[0]
     assert good.taken == 1
@@ -109,6 +109,6 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
 
 def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
     project = named(tmp_path, base=("door",))
-    assert project.labels_in_names() == {}
+    assert project.offered_labels().names == {}
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
         project.label_from_names()

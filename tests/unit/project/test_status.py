@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.errors import ProjectError
+from meshforge.formats import load
 from meshforge.language import Delete, Program
 from meshforge.project import AssetStatus, Project, Standing, Status
 from meshforge.synthesis import Step
@@ -48,6 +49,13 @@ def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypa
     assert of(project).next.command == "meshforge synthesize tables"
 
 
+def test_the_labels_of_an_output_are_in_the_order_of_its_file(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    for name in (FIRST, THIRD):
+        written = load(project.layout.edited / name)
+        assert asset(project, name).after_labels == tuple(hull.label for hull in written.hulls)
+
+
 def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
     hulls = project.mesh(FIRST).hulls
@@ -56,7 +64,9 @@ def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
     assert third == AssetStatus(THIRD, 6, 6, names=names, labels=labels, geometry=third.geometry)
     assert first == replace(third, id=FIRST, demonstrated=True, geometry=first.geometry)
     done = asset(applied(tmp_path / "more"), THIRD)
-    assert done == replace(third, output="edited", after=3, output_digest=done.output_digest)
+    assert done == replace(
+        third, output="edited", after=3, after_labels=("top", "leg", "leg"), output_digest=done.output_digest
+    )
     assert done.is_done and done.output_digest
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from meshforge.language import ACTIONS, OPERATORS, parse_action, parse_extractor
-from meshforge.studio.language_view import language_view
+from meshforge.studio.showing.language import language_view
 from meshforge.studio.wire.language import ActionForm
 
 VIEW = language_view()

@@ -11,8 +11,8 @@ import pytest
 from PIL import Image
 
 from meshforge.project import Project
-from meshforge.studio import pictures
-from meshforge.studio.shapes import upright
+from meshforge.studio.showing import pictures
+from meshforge.studio.showing.shapes import upright
 from meshforge.views import thumbnail
 from tests.studio_project import demo_project
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
-from meshforge.studio import programs
+from meshforge.studio.showing import programs
 from tests.studio_project import demo_project
 
 

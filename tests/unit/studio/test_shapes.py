@@ -12,7 +12,7 @@ from meshforge.asset import Asset, Body, Document, Geom, Opaque, Surface
 from meshforge.geometry import Cylinder, Pose, Shape, Sphere, convex_hull
 from meshforge.language import parse_action, stage
 from meshforge.project import Project
-from meshforge.studio.shapes import asset_packet, asset_view, hull_view, upright, visual_packet
+from meshforge.studio.showing.shapes import asset_packet, asset_view, hull_view, upright, visual_packet
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
 from tests.studio_project import demo_project

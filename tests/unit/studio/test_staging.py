@@ -11,7 +11,7 @@ import pytest
 from meshforge.errors import DemonstrationError, MeshForgeError, ProjectError
 from meshforge.language import Program, parse_action
 from meshforge.project import Project
-from meshforge.studio import staging
+from meshforge.studio.showing import staging
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step

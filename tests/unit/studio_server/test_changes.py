@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.studio.changes import Changes, changes_of
+from meshforge.studio.state.changes import Changes, changes_of
 from tests.unit.project.tables import FIRST, SECOND, fresh
 
 ONE = frozenset({FIRST})

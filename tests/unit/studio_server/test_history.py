@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.errors import ProjectError
-from meshforge.studio.edits import ConflictError
+from meshforge.studio.errors import ConflictError
 from meshforge.studio.history import History
 from tests.unit.studio_server.writing import Write, bare, data
 

@@ -3,8 +3,8 @@ from __future__ import annotations
 import asyncio
 import json
 
-from meshforge.studio.hub import Hub, Page
-from meshforge.studio.shown import Shown
+from meshforge.studio.state.hub import Hub, Page
+from meshforge.studio.state.shown import Shown
 from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView
 
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=Next(stage="label", say="Label."))

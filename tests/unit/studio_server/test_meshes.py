@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.errors import AssetError, ProjectError
-from meshforge.studio.cards import card
-from meshforge.studio.meshes import KeptProject, Meshes
-from meshforge.studio.thumbnails import Thumbnails
+from meshforge.studio.assets import KeptProject, Meshes, Thumbnails
+from meshforge.studio.showing.cards import card
 from meshforge.studio.workers import Workers
 from tests.unit.project.tables import FIRST, SECOND, labelled
 

@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from meshforge.studio.next_step import next_step
+from meshforge.studio.showing.next_step import next_step
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.lesson import LessonView, QuestionView, RepairView
+from meshforge.studio.wire.lesson import LessonView, NearestView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
 LABELLED = Card(asset="a", hulls=2, labels=(0, -1))
@@ -46,6 +46,12 @@ def test_at_the_end_there_is_only_the_export() -> None:
     assert "export" in next_step([accepted], ("leg",), True, FOUND, None).say
 
 
-def test_a_lesson_without_a_program_says_why() -> None:
-    failed = LessonView(number=1, status="none", why="rule 2 has no extractor")
-    assert next_step([SHOWN], ("leg",), False, failed, None).say == "rule 2 has no extractor"
+def test_a_lesson_without_a_program_leads_to_what_came_nearest_and_does_not_repeat_its_reasons() -> None:
+    near = NearestView(rule=2, extractor="Is(leg)", asset="b", extra=(), missing=("h",))
+    failed = LessonView(number=1, status="none", why="no extractor of up to 9 symbols", nearest=near)
+    step = next_step([SHOWN], ("leg",), False, failed, None)
+    assert (step.stage, step.asset) == ("learn", "b")
+    assert step.say == "No selection fits rule 2 yet: see what comes nearest."
+    for status in ("none", "timeout", "error"):
+        over = LessonView(number=1, status=status, why="a long reason", error="a long\n  message")
+        assert "long" not in next_step([SHOWN], ("leg",), False, over, None).say

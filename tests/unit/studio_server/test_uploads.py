@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.errors import UsageError
-from meshforge.studio.problems import TooLargeError
-from meshforge.studio.uploads import Uploads, confined, save
+from meshforge.studio.assets.uploads import Uploads, confined, save
+from meshforge.studio.errors import TooLargeError
 
 
 async def chunks(*parts: bytes) -> AsyncIterator[bytes]:

@@ -28,7 +28,7 @@ export function canDraft(): boolean {
 
 const actions: readonly Command[] = Object.entries(ACTION_KEYS).map(([action, key]) => ({
   id: `draft-${action.toLowerCase()}`,
-  title: `${action} the selection`,
+  title: action === "Add" ? "Add a template beside the selection" : `${action} the selection`,
   group: "Demonstrate",
   keys: [key],
   enabled: canDraft,

@@ -17,6 +17,7 @@ const plain: Card = {
   demonstrated: false,
   output: "none",
   after: null,
+  after_labels: [],
   stale: [],
   error: null,
   flags: [],

@@ -11,6 +11,7 @@ const card: Card = {
   demonstrated: true,
   output: "edited",
   after: 2,
+  after_labels: [],
   stale: ["program"],
   error: null,
   flags: [],

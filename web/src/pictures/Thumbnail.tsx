@@ -19,7 +19,7 @@ export interface ThumbnailProps {
 
 export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
-  const labels = useProject(({ cards }) => cards[asset]?.labels);
+  const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
   const unsure = useProject(({ cards }) => cards[asset]?.unsure);
   const palette = useProject(({ project }) => project.vocabulary.map((entry) => entry.color).join(" "));
   const marked = useMemo(() => (highlight ? new Set(highlight) : null), [highlight]);
@@ -28,7 +28,7 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, l
     (k: number) => {
       if (k < 0) return "var(--hull-opaque)";
       if (marked) return marked.has(k) ? "var(--highlight)" : "var(--hull-pale)";
-      if (of === "output") return hueOf(k);
+      if (of === "output" && !labels?.length) return hueOf(k);
       return palette.split(" ")[labels?.[k] ?? -1] || "var(--hull-unlabelled)";
     },
     [marked, of, labels, palette],

@@ -1,7 +1,8 @@
 // Pictures that were fetched, decoded; the latest few hundred are kept.
-import { idMap, type IdMap } from "./idmap";
+import { firstPicture } from "../viewport/firstPicture";
+import { decoded } from "./decoding";
+import type { IdMap } from "./idmap";
 import { Line } from "./line";
-import { readPng } from "./png";
 
 const MOST = 400;
 // a browser has six connections to a server: edits must not wait until pictures are drawn
@@ -24,6 +25,7 @@ export function wanted(url: string): { picture: Promise<IdMap>; drop: () => void
 }
 
 async function fetchOne(url: string): Promise<IdMap> {
+  await firstPicture();
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`no picture: ${answer.status}`);
   const map = await decoded(await answer.blob());
@@ -32,6 +34,4 @@ async function fetchOne(url: string): Promise<IdMap> {
   return map;
 }
 
-export async function decoded(png: Blob): Promise<IdMap> {
-  return idMap(await readPng(new Uint8Array(await png.arrayBuffer())));
-}
+export { decoded };

@@ -12,6 +12,7 @@ const plain: Card = {
   demonstrated: false,
   output: "none",
   after: null,
+  after_labels: [],
   stale: [],
   error: null,
   flags: [],

@@ -78,8 +78,8 @@ async function asked(): Promise<Partial<GuessesState>> {
 
 /** Puts the guess for the first open rule into the hand, unless that is full or put it down before. */
 async function offer(): Promise<void> {
-  const { asset } = useGuesses.getState();
-  if (asset === null) return;
+  const { asset, error } = useGuesses.getState();
+  if (asset === null || error !== null) return;
   const { view } = await details(asset);
   const place = openRules(view).find((k) => !isDeclined(asset, k));
   if (place === undefined) return;

@@ -10,6 +10,7 @@ const card = (asset: string, more: Partial<Card> = {}): Card => ({
   demonstrated: false,
   output: "edited",
   after: 2,
+  after_labels: [],
   stale: [],
   error: null,
   flags: [],

@@ -44,6 +44,8 @@ export const useScenes = create<ScenesState>()(() => ({ scene: null, loading: fa
 
 const MOST = 60;
 const kept = new Map<string, Kept>();
+/** What is on its way, or could not be had. */
+const asked = new Map<string, { revision: number; shapeRevision: number; result: Promise<Kept> }>();
 const edited = new Map<string, EditedPacket>();
 let wanted = 0;
 
@@ -96,13 +98,27 @@ export function prefetch(asset: string): void {
   void details(asset).catch(() => undefined);
 }
 
-/** The asset's own details and shapes, as they are now. */
+/** The asset's own details and shapes, as they are now: fetched once for all who ask, also where it cannot be read. */
 export async function details(asset: string): Promise<Kept> {
   const { revisions, shapeRevisions } = useProject.getState();
   const revision = revisions[asset] ?? 0;
   const shapeRevision = shapeRevisions[asset] ?? 0;
+  const isOf = (one?: { revision: number; shapeRevision: number }) =>
+    one?.revision === revision && one.shapeRevision === shapeRevision;
   const known = kept.get(asset);
-  if (known?.revision === revision && known.shapeRevision === shapeRevision) return known;
+  if (known && isOf(known)) return known;
+  const before = asked.get(asset);
+  if (before && isOf(before)) return before.result;
+  const mine = { revision, shapeRevision, result: fetched(asset, revision, shapeRevision) };
+  asked.set(asset, mine);
+  const forget = () => asked.get(asset) === mine && asked.delete(asset);
+  // what the server has answered stays so until the asset changes; one that does not answer is asked again
+  mine.result.then(forget, (error) => error instanceof ServerProblem && error.status !== 0 || forget());
+  return mine.result;
+}
+
+async function fetched(asset: string, revision: number, shapeRevision: number): Promise<Kept> {
+  const known = kept.get(asset);
   const same = known?.shapeRevision === shapeRevision;
   const [view, packet] = await Promise.all([api.asset(asset), same ? known.packet : api.shapes(asset)]);
   const fresh = { view, packet, revision, shapeRevision };

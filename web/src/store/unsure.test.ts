@@ -10,6 +10,7 @@ const card = (asset: string, labels: number[], unsure: number[]): Card => ({
   demonstrated: false,
   output: "none",
   after: null,
+  after_labels: [],
   stale: [],
   error: null,
   flags: [],

@@ -11,18 +11,18 @@ import { Landmarks } from "./overlay/Landmarks";
 import { Legend } from "./overlay/Legend";
 import { NoWebGl, State } from "./overlay/State";
 import { ViewCube } from "./overlay/ViewCube";
+import { type Paper, paper } from "./paper";
 import { Picture } from "./Picture";
 import { StageContext } from "./stage/context";
 import { expose } from "./stage/exposed";
 import { settingsOf } from "./stage/settings";
 import { Stage } from "./stage/stage";
 import { Toolbar } from "./toolbar/Toolbar";
-import { tryDrawing } from "./webgl";
 import css from "./viewport.module.css";
 
 export function Viewport() {
-  const [{ works, inSoftware }] = useState(tryDrawing);
-  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view), !inSoftware));
+  const [sheet] = useState(paper);
+  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view), sheet?.smooth ?? true));
   const root = useRef<HTMLElement>(null);
   const asset = useScenes(({ scene }) => scene?.asset ?? "");
   useEffect(() => (root.current ? expose(stage, root.current) : undefined), [stage]);
@@ -31,7 +31,7 @@ export function Viewport() {
       <section ref={root} className={css.viewport} data-testid="viewport" data-asset={asset} aria-label="View">
         <Toolbar />
         <div className={css.stage}>
-          {works ? <Shown smooth={!inSoftware} /> : <NoWebGl />}
+          {sheet ? <Shown sheet={sheet} /> : <NoWebGl />}
           <State />
         </div>
       </section>
@@ -39,10 +39,10 @@ export function Viewport() {
   );
 }
 
-function Shown({ smooth }: { smooth: boolean }) {
+function Shown({ sheet }: { sheet: Paper }) {
   return (
     <>
-      <Picture smooth={smooth} />
+      <Picture gl={sheet.gl} />
       <Drawn />
       <Divider />
       <Gaps />

@@ -7,7 +7,6 @@ from typing import Annotated
 from pydantic import Field
 
 from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.conflict import ConflictError
 from meshforge.studio.edits.demonstrating import DeleteRule, MoveRule, SetOrientation, SetSteps, StepText
 from meshforge.studio.edits.labels import LabelFromFiles, LabelFromNames, LabelHulls, RenameLabel, SetVocabulary
 from meshforge.studio.edits.learning import AnswerQuestion, SettleRepair, TakeBack, WriteProgram
@@ -36,4 +35,4 @@ AnyEdit = Annotated[
     Field(discriminator="kind"),
 ]
 
-__all__ = ["AnyEdit", "ConflictError", "Edit", "StepText"]
+__all__ = ["AnyEdit", "Edit", "StepText"]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from meshforge.errors import MeshForgeError
 from meshforge.project import action_text, parse_action_text
 from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.conflict import ConflictError
+from meshforge.studio.errors import ConflictError
 from meshforge.studio.versions import steps_version
 from meshforge.studio.wire.base import Wire
 from meshforge.synthesis import Step

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from meshforge.language import Program
 from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.conflict import ConflictError
+from meshforge.studio.errors import ConflictError
 from meshforge.studio.versions import program_version
 from meshforge.synthesis import Answer, Correction
 

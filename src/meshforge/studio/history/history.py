@@ -16,7 +16,8 @@ from meshforge.batch import STATE
 from meshforge.errors import MeshForgeError
 from meshforge.files import relative_name
 from meshforge.project import Project
-from meshforge.studio.edits import ConflictError, Edit
+from meshforge.studio.edits import Edit
+from meshforge.studio.errors import ConflictError
 from meshforge.studio.history.blobs import Blobs
 from meshforge.studio.history.entry import Entry, EntryFiles, Pending, State, together
 from meshforge.studio.history.snapshot import Snapshots, changes

@@ -1,6 +1,5 @@
-"""Long work: begun by a page, seen by all, and stopped by any."""
+"""Long work at the desk that a page asks for: applying the program, decomposing, exporting; its door: `begin`."""
 
-from meshforge.studio.jobs.board import Jobs
-from meshforge.studio.jobs.running import Running
+from meshforge.studio.jobs.begin import begin
 
-__all__ = ["Jobs", "Running"]
+__all__ = ["begin"]

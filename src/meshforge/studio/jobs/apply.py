@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from meshforge.batch import Failed, Outcome, status
 from meshforge.errors import ProjectError
-from meshforge.studio.jobs.running import Running
+from meshforge.studio.state.running import Running
 from meshforge.studio.wire.jobs import ApplyJob, Job, JobLine
 from meshforge.words import counted
 
 if TYPE_CHECKING:
-    from meshforge.studio.desk import Desk
+    from meshforge.studio.state import Desk
 
 
 def apply_job(desk: Desk, request: ApplyJob) -> Job:

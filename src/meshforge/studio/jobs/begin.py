@@ -10,7 +10,7 @@ from meshforge.studio.jobs.export import export_job
 from meshforge.studio.wire.jobs import ApplyJob, DecomposeJob, ExportJob, Job, JobRequest
 
 if TYPE_CHECKING:
-    from meshforge.studio.desk import Desk
+    from meshforge.studio.state import Desk
 
 
 def begin(desk: Desk, request: JobRequest) -> Job:

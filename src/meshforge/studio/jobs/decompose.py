@@ -10,12 +10,12 @@ from uuid import uuid4
 from meshforge.geometry.decompose import CoacdSettings, VhacdSettings
 from meshforge.project import Prepared
 from meshforge.studio.edits.own import Decompose
-from meshforge.studio.jobs.running import Running
+from meshforge.studio.state.running import Running
 from meshforge.studio.wire.jobs import DecomposeJob, Job, JobLine
 from meshforge.words import counted
 
 if TYPE_CHECKING:
-    from meshforge.studio.desk import Desk
+    from meshforge.studio.state import Desk
 
 
 def decompose_job(desk: Desk, request: DecomposeJob) -> Job:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from meshforge.batch import OWN_FOLDERS, STATE, file_digest, read_stamp
 from meshforge.errors import UsageError
 from meshforge.files import plain_path, replacing, write_atomically
-from meshforge.studio.jobs.running import Running
+from meshforge.studio.state.running import Running
 from meshforge.studio.wire.jobs import ExportJob, Job, JobLine
 from meshforge.words import counted
 
 if TYPE_CHECKING:
-    from meshforge.studio.desk import Desk
+    from meshforge.studio.state import Desk
 
 MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""

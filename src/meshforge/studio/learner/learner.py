@@ -35,7 +35,7 @@ class Learner:
         return self._line.put("lesson", work.learn, self._folder, self._bell.ticket("lesson"), number, take)
 
     def reach(self, number: int, program: str) -> Future[tuple[Reach, ...]]:
-        """What a program does on every asset that can be read; number: of the lesson that it comes from.
+        """What a program does on every asset that `work.reach` looks at; number: of the lesson that it comes from.
 
         Raises ProgramError for a text that is no program, or a template that is not there.
         """
@@ -43,7 +43,7 @@ class Learner:
         return self._line.put("reach", work.reach, self._folder, self._bell.ticket("reach"), program)
 
     def generalise(self, extractor: str, rule: int, program: str | None) -> Future[Generalised]:
-        """What an extractor selects on every asset as a rule of that number meets it, after those of a program.
+        """What an extractor selects on the same assets as a rule of that number meets them, after those of a program.
 
         Raises ProgramError for a text that is no extractor.
         """

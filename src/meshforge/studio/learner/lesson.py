@@ -6,7 +6,7 @@ from collections import Counter
 
 from meshforge.language import Program, explain, show
 from meshforge.project.answers_file import repair_id
-from meshforge.studio.programs import rule_views
+from meshforge.studio.showing.programs import rule_views
 from meshforge.studio.wire.lesson import (
     ChoiceView,
     HintView,

@@ -45,25 +45,29 @@ def learn(folder: Path, ticket: Ticket, number: int, take: bool) -> LessonView:
 
 
 def reach(folder: Path, ticket: Ticket, program: str) -> tuple[Reach, ...] | None:
-    """What a program does on every asset that can be read, None where it was interrupted."""
+    """What a program does on every asset that can be read, None where it was interrupted.
+
+    Of a family of more than 400 only on those that are looked at while learning (`looked_at`): all assets of a family
+    without bounds do not go into memory, and reading them anew after each change would take minutes.
+    """
     project = Project.open(folder)
     plan = _plan(project, Program.parse(program))
     try:
-        rows = _shelf(folder).meshes(project, project.assets(), ticket.stop)
+        rows = _shelf(folder).meshes(project, looked_at(project), ticket.stop)
         return tuple(reached(plan, asset, mesh) for asset, mesh in rows)
     except Stopped:
         return None
 
 
 def generalise(folder: Path, ticket: Ticket, extractor: str, rule: int, program: str | None) -> Generalised | None:
-    """What an extractor selects on every asset that can be read, None where it was interrupted."""
+    """What an extractor selects on the assets that `reach` looks at, None where it was interrupted."""
     project, wanted = Project.open(folder), parse_extractor(extractor)
     thresholds = project.settings.thresholds
     bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
     plan = _plan(project, (Program.parse(program) if program else bare), rule)
     meetings = _meetings(folder)
     try:
-        rows = _shelf(folder).meshes(project, project.assets(), ticket.stop)
+        rows = _shelf(folder).meshes(project, looked_at(project), ticket.stop)
         return Generalised(assets={asset: meetings.selected(plan, mesh, wanted) for asset, mesh in rows})
     except Stopped:
         return None

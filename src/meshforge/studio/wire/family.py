@@ -16,7 +16,8 @@ class Card(Wire):
 
     hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
     the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure.
-    after: hulls of the output; stale: what changed since the output was made; corrections: edits by hand, a number.
+    after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
+    changed since the output was made; corrections: edits by hand, a number.
     sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
     """
@@ -28,6 +29,7 @@ class Card(Wire):
     demonstrated: bool = False
     output: Output = "none"
     after: int | None = None
+    after_labels: tuple[int, ...] = ()
     stale: tuple[str, ...] = ()
     error: str | None = None
     flags: tuple[str, ...] = ()

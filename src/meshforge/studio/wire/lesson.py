@@ -158,7 +158,8 @@ class Selected(Wire):
 
 
 class Generalised(Wire):
-    """What an extractor selects on every asset: positions of the asset's own hulls."""
+    """What an extractor selects on every asset, of very large families on those that are looked at while learning:
+    positions of the asset's own hulls."""
 
     assets: dict[str, tuple[int, ...]]
 

@@ -58,8 +58,8 @@ class Done(Wire):
 
 
 class LabelSources(Wire):
-    """Where labels could come from. files: assets with a labels file beside them; names: hulls without a label whose
-    names say one."""
+    """Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
+    without a label whose names say one."""
 
     files: int
     names: int

@@ -70,7 +70,8 @@ const VERTEX = /* glsl */ `
     vec3 glow = mix(vec3(1.0), tint, state.g);
     float share = max(0.26 * state.g, 0.16 * state.a);
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
-    stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
+    stripe = color.rgb;
+    if (base.a < 0.5) stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
     vec4 at = placed(state);
     gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
   }

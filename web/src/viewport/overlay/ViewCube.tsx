@@ -1,4 +1,5 @@
-// A small cube that turns with the view; its faces are buttons that look from that side.
+// A small cube that turns with the view; its faces look from that side. It is for the pointer: keys and screen readers
+// have the same in the menu of standard views and on the number keys.
 import { useRef } from "react";
 import { lookFrom, type StandardView } from "../../store/desk";
 import { axesOf } from "../camera/pose";
@@ -22,7 +23,7 @@ export function ViewCube() {
     if (cube.current) cube.current.style.transform = transformOf(stage.view.pose);
   });
   return (
-    <div className={css.holder} role="group" aria-label="Standard views">
+    <div className={css.holder} aria-hidden onMouseDown={(event) => event.preventDefault()}>
       <div ref={cube} className={css.cube}>
         {FACES.map(({ side, name, turn }) => (
           <button
@@ -32,7 +33,6 @@ export function ViewCube() {
             className={css.face}
             style={{ transform: `${turn} translateZ(${HALF}px)` }}
             onClick={() => lookFrom(side)}
-            aria-label={`Look from the ${side}`}
           >
             {name}
           </button>

@@ -1,5 +1,5 @@
 // The one mutable place where the picture lives; React and the stores tell it what changed, it draws.
-import { type Camera, Matrix4, OrthographicCamera, Vector3, type WebGLRenderer } from "three";
+import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLRenderer } from "three";
 import type { Scene } from "../../store/scenes";
 import { View } from "../camera/view";
 import { pointsOf, type Side } from "../drawing/side";
@@ -31,7 +31,7 @@ export class Stage {
   private screenPixel = 1;
   private readonly pace = new Pace(() => this.invalidate());
   private wantsFit = false;
-  private compiled = false;
+  private readonly drawnSize = new Vector2();
   private readonly drawn = new Set<() => void>();
 
   /** smooth: whether the canvas itself smooths edges. */
@@ -125,9 +125,6 @@ export class Stage {
     }
     const moves = this.view.advance(now);
     drawPanes(gl, this, panes);
-    // so that the first selection does not wait for shaders
-    if (!this.compiled && this.shown) gl.compile(this.shown.root, this.view.camera());
-    this.compiled ||= this.shown !== null;
     this.frames++;
     for (const listener of this.drawn) listener();
     if (moves) this.moveCamera(() => undefined);
@@ -152,7 +149,9 @@ export class Stage {
     // where the canvas does not smooth edges, light scenes are drawn larger and shrunk
     const finest = !this.smooth && isLight ? Math.max(2, this.screenPixel) : this.screenPixel;
     const pixel = share * finest;
-    if (pixel !== gl.getPixelRatio()) gl.setPixelRatio(pixel);
+    const size = gl.getSize(this.drawnSize);
+    const same = size.x === this.width && size.y === this.height && gl.getPixelRatio() === pixel;
+    if (!same) gl.setDrawingBufferSize(this.width, this.height, pixel);
     this.pixel = pixel;
   }
 }

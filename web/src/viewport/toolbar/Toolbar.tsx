@@ -1,6 +1,7 @@
 // The bar over the picture: tools and selecting on the first line, looking on the second.
+import { lazy, Suspense } from "react";
 import { useScenes } from "../../store/scenes";
-import { ExtractorField } from "../../text/ExtractorField";
+import { firstPicture } from "../firstPicture";
 import { ColorChoice } from "./ColorChoice";
 import { CompareChoice } from "./CompareChoice";
 import { ExplodeSlide } from "./ExplodeSlide";
@@ -11,6 +12,12 @@ import css from "./toolbar.module.css";
 import { Tools } from "./Tools";
 import { ViewMenu } from "./ViewMenu";
 
+/** Its editor takes longer to begin than the picture, so it comes after it. */
+const ExtractorField = lazy(async () => {
+  await firstPicture();
+  return { default: (await import("../../text/ExtractorField")).ExtractorField };
+});
+
 export function Toolbar() {
   const there = useScenes(({ scene }) => scene !== null);
   return (
@@ -18,7 +25,9 @@ export function Toolbar() {
       <div className={css.line}>
         <Tools />
         <SelectionMenu />
-        <ExtractorField />
+        <Suspense fallback={<div className={css.field} />}>
+          <ExtractorField />
+        </Suspense>
       </div>
       <div className={css.line}>
         <ShowingMenu />

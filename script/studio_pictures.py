@@ -1,0 +1,74 @@
+"""Pictures of the studio for the documentation: its page in a real Chromium, on the bundled tables."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from playwright.sync_api import Browser, Page
+
+from benchmark.studio.browser import chromium, studio
+from meshforge.cli.tables import demonstrated_tables, kept_tables
+from meshforge.samples import TABLES
+
+SIZE = (1440, 900)
+GUESSED = "Keep as step 2"
+
+
+def main(folder: Path) -> None:
+    """Write the pictures into a folder."""
+    with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
+        project = kept_tables(Path(scratch) / "one")
+        shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
+        (project.folder / "demonstrations" / "table_08.obj.json").unlink()
+        with studio(project.folder) as address:
+            _demonstrating(_page(browser, address, "light"), folder / "studio.png")
+            _asked(_page(browser, address, "light"), folder / "studio-learn.png")
+        project = demonstrated_tables(Path(scratch) / "two")
+        project.synthesize()
+        list(project.apply())
+        with studio(project.folder) as address:
+            _reviewing(_page(browser, address, "dark"), folder / "studio-review.png")
+
+
+def _page(browser: Browser, address: str, theme: str) -> Page:
+    """An open page, when all thumbnails are drawn and the lesson is over."""
+    width, height = SIZE
+    context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=theme)  # type: ignore[arg-type]  # a word of two
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_function("() => document.querySelector('[data-testid=viewport]')?.dataset.ready")
+    page.wait_for_timeout(9000)
+    return page
+
+
+def _demonstrating(page: Page, path: Path) -> None:
+    """The second table, with what is guessed of the second step in hand."""
+    page.keyboard.press("Alt+2")
+    page.get_by_role("option", name="table_08.obj").first.click()
+    page.get_by_role("button", name="Keep as step 1").wait_for()
+    page.wait_for_timeout(3000)
+    page.screenshot(path=path)
+
+
+def _asked(page: Page, path: Path) -> None:
+    """A question, as pictures, beside the program."""
+    page.keyboard.press("Alt+3")
+    page.get_by_role("heading", name="which hulls should rule").wait_for()
+    page.wait_for_timeout(4000)
+    page.screenshot(path=path)
+
+
+def _reviewing(page: Page, path: Path) -> None:
+    """Before and after, divided by the slider."""
+    page.keyboard.press("Alt+4")
+    page.get_by_role("option", name="table_11.obj").first.click()
+    page.get_by_role("radio", name="Slider").last.click()
+    page.wait_for_timeout(4000)
+    page.screenshot(path=path)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

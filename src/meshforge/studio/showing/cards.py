@@ -1,0 +1,46 @@
+"""Cards of the gallery, from how far each asset is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from meshforge.project import AssetStatus
+from meshforge.studio.showing.pictures import edited_digest, picture_digest
+from meshforge.studio.wire.family import Card
+
+UNSURE = 0.5
+"""A label that is believed less than this is shown as unsure."""
+
+
+def card(status: AssetStatus, vocabulary: Sequence[str], orient: str) -> Card:
+    """The card of an asset; orient: the orientation's text, in whose frame it is drawn."""
+    places = {label: k for k, label in enumerate(vocabulary)}
+    labels = tuple(places.get(label.name, -1) if label else -1 for label in status.labels)
+    picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
+    return Card(
+        asset=status.id,
+        hulls=status.hulls,
+        labels=labels,
+        unsure=_unsure(status),
+        demonstrated=status.demonstrated,
+        output=status.output,
+        after=status.after,
+        after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
+        stale=status.stale,
+        error=status.error,
+        flags=status.flags,
+        review=status.review,
+        note=status.review_note,
+        corrections=status.corrections,
+        sources=status.sources,
+        prepared=status.prepared,
+        picture=picture,
+        edited_picture=edited_digest(picture, status.output_digest) if status.output_digest and picture else None,
+    )
+
+
+def _unsure(status: AssetStatus) -> tuple[int, ...]:
+    """Positions of hulls with a label that is not sure, or that was given to another geometry."""
+    doubtful = set(status.doubtful)
+    rows = enumerate(zip(status.names, status.labels, strict=True))
+    return tuple(k for k, (name, label) in rows if label and (label.confidence < UNSURE or name in doubtful))

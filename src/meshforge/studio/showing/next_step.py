@@ -1,0 +1,96 @@
+"""The next sensible step, from how far everything is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from meshforge.studio.wire.family import Card, Next
+from meshforge.studio.wire.lesson import LessonView
+from meshforge.words import counted
+
+
+def next_step(
+    cards: Sequence[Card], vocabulary: Sequence[str], has_program: bool, lesson: LessonView | None, problem: str | None
+) -> Next:
+    """The first thing that is missing on the way from assets to exported outputs."""
+    return (
+        _hulls(cards)
+        or _labels(cards, vocabulary, has_program)
+        or _demonstrations(cards, has_program)
+        or _lesson(lesson, has_program)
+        or (Next(stage="learn", say=f"The program cannot be applied: {problem}") if problem else None)
+        or _outputs(cards)
+        or _reviews(cards)
+    )
+
+
+def _hulls(cards: Sequence[Card]) -> Next | None:
+    bare = [card for card in cards if card.hulls == 0 and card.sources]
+    if not bare:
+        return None
+    who = f"{bare[0].asset} has" if len(bare) == 1 else f"{counted(len(bare), 'asset')} have"
+    return Next(stage="label", say=f"{who} no hulls: decompose what is shown there.", asset=bare[0].asset)
+
+
+def _labels(cards: Sequence[Card], vocabulary: Sequence[str], has_program: bool) -> Next | None:
+    if not vocabulary:
+        return Next(stage="label", say="Name what hulls can be: the labels of this family.")
+    if has_program or any(card.demonstrated or any(place >= 0 for place in card.labels) for card in cards):
+        return None
+    first = next((card.asset for card in cards if card.hulls), None)
+    return Next(stage="label", say="No hull has a label yet: label those of one asset.", asset=first)
+
+
+def _demonstrations(cards: Sequence[Card], has_program: bool) -> Next | None:
+    if has_program or any(card.demonstrated for card in cards):
+        return None
+    labelled = (card.asset for card in cards if any(place >= 0 for place in card.labels))
+    return Next(stage="demonstrate", say="Show the first step of the edit on one asset.", asset=next(labelled, None))
+
+
+def _lesson(lesson: LessonView | None, has_program: bool) -> Next | None:
+    if lesson is None:
+        return None
+    if lesson.repairs:
+        first = lesson.repairs[0]
+        return Next(stage="learn", say=f"Is {first.hull} of {first.asset} labelled wrongly?", asset=first.asset)
+    if lesson.question:
+        say = f"Which hulls does rule {lesson.question.rule} select on {lesson.question.asset}?"
+        return Next(stage="learn", say=say, asset=lesson.question.asset)
+    if lesson.status in ("none", "timeout", "error"):
+        return Next(stage="learn", say=_failed(lesson), asset=lesson.nearest.asset if lesson.nearest else None)
+    return None if has_program else Next(stage="learn", say="Learn the program from what is demonstrated.")
+
+
+def _failed(lesson: LessonView) -> str:
+    """What to do where there is no program; the lesson itself says why."""
+    if lesson.status == "error":
+        return "The lesson came to no end: see what stands in its way."
+    if lesson.status == "timeout":
+        return "The lesson was stopped: learn again, or show the steps on another asset."
+    if lesson.nearest:
+        return f"No selection fits rule {lesson.nearest.rule} yet: see what comes nearest."
+    return "No program does all that is demonstrated: see why, and what may help."
+
+
+def _outputs(cards: Sequence[Card]) -> Next | None:
+    behind = [c for c in cards if c.output == "none" or c.stale]
+    if behind:
+        who = f"{behind[0].asset} is" if len(behind) == 1 else f"{counted(len(behind), 'asset')} are"
+        return Next(stage="review", say=f"Apply the program: {who} not up to date.")
+    failed = [c for c in cards if c.output == "failed"]
+    if failed:
+        say = f"The program fails on {counted(len(failed), 'asset')}: mend what is named, then apply it again."
+        return Next(stage="review", say=say, asset=failed[0].asset)
+    return None
+
+
+def _reviews(cards: Sequence[Card]) -> Next:
+    flagged = [c for c in cards if c.review == "flagged"]
+    if flagged:
+        return Next(stage="review", say=f"{counted(len(flagged), 'asset')} flagged: mend it.", asset=flagged[0].asset)
+    open_ = [c for c in cards if c.review is None]
+    if open_:
+        say = f"Look through the results: {counted(len(open_), 'asset')} to accept or flag."
+        return Next(stage="review", say=say, asset=open_[0].asset)
+    return Next(stage="review", say="All results are accepted: export them.")

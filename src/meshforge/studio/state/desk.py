@@ -1,0 +1,212 @@
+"""The desk: the one place in which a project is changed and looked at while the studio is open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from threading import RLock
+from typing import Literal
+
+from meshforge.batch import STATE
+from meshforge.batch.stamp import stamp_path
+from meshforge.errors import UsageError
+from meshforge.files import relative_name
+from meshforge.project import Offers, Project
+from meshforge.studio.assets import KeptProject, Meshes, Thumbnails, Uploads
+from meshforge.studio.edits import Edit
+from meshforge.studio.edits.own import TakeLearned
+from meshforge.studio.errors import NotHereError
+from meshforge.studio.history import Entry, History
+from meshforge.studio.learner import Learner
+from meshforge.studio.showing.programs import program_view
+from meshforge.studio.state.board import Jobs
+from meshforge.studio.state.changes import LEARNED, PREVIOUS, PROGRAM
+from meshforge.studio.state.chores import Chores
+from meshforge.studio.state.following import Following
+from meshforge.studio.state.hub import Hub
+from meshforge.studio.state.lessons import Lessons
+from meshforge.studio.state.refreshing import Refreshing, first_view
+from meshforge.studio.state.shown import Shown
+from meshforge.studio.state.watch import Watch
+from meshforge.studio.wire.events import HistoryChanged
+from meshforge.studio.wire.lesson import LessonView
+from meshforge.studio.wire.requests import Done
+from meshforge.studio.workers import Workers
+from meshforge.symbolic import SymbolicMesh
+
+Did = Literal["edit", "undo", "redo"]
+READERS = 2
+"""Processes that read assets which a page waits for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """How a studio is opened. export: a folder that outputs may be exported to besides those in the project; tour:
+    whether pages show the guided tour."""
+
+    folder: Path
+    export: Path | None = None
+    tour: bool = False
+
+
+class Desk:
+    """Opens a project, changes it, and keeps all pages in step with it."""
+
+    def __init__(self, opening: Opening) -> None:
+        self.opening = opening
+        self._mutex = RLock()
+        self.readers, self._drawers = Workers(READERS), Workers()
+        self.project = KeptProject.of(Project.open(opening.folder), Meshes(self.readers))
+        self.history = History(self.project, _derived)
+        self.hub = Hub()
+        view = first_view(self.project)
+        self.shown = Shown(self.hub, view, self.history.view, version("meshforge"), opening.tour)
+        self.offers = Offers()
+        self.jobs = Jobs(self.shown.set_job)
+        self.thumbnails = Thumbnails(self.state / "thumbnails", self._drawers)
+        self.uploads = Uploads(self.state / "uploads")
+        self.lessons = Lessons(Learner(self.project.folder), self.shown, self._is_taught, self._learned)
+        refreshing = Refreshing(self)
+        self.chores = Chores(refreshing.refresh, refreshing.portion)
+        self._watch = Watch(self._look_again)
+        self._following = Following(self)
+        self._taking = False
+
+    @property
+    def state(self) -> Path:
+        """The folder of what the studio keeps."""
+        return self.project.folder / STATE / "studio"
+
+    def start(self) -> None:
+        """Begin to read, to learn and to watch."""
+        self.shown.set_assets(self.project.assets())
+        self.shown.set_program(program_view(self.project))
+        self.chores.add(self.project.assets(), later=True)
+        self.chores.start()
+        self._watch.start()
+        self.lessons.restart()
+
+    def close(self) -> None:
+        """Stop everything, worker processes too."""
+        self._watch.close()
+        self.chores.close()
+        self.jobs.close()
+        self.lessons.close()
+        self.readers.close()
+        self._drawers.close()
+        self.hub.close()
+
+    # Looking
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
+        self.check(asset)
+        return self.project.mesh(asset)
+
+    def check(self, *assets: str) -> None:
+        """Raises NotHereError for an id that no asset has."""
+        for asset in assets:
+            if asset not in self.project.found.ids:
+                raise NotHereError(f"there is no asset {asset!r}", where=self.project.name)
+
+    # Changing
+
+    def edit(self, edit: Edit, by: str | None = None) -> Done:
+        """Make an edit; it is on disk when this returns."""
+        with self._mutex:
+            said = edit.said(self.project)
+            if self.project.layout.program in edit.touches(self.project):
+                self.lessons.pause()
+            try:
+                entry = self.history.do(self.project, edit, by)
+            finally:
+                self.lessons.resume()
+            if entry is None:
+                return Done(said=said, nothing=True)
+            self.noted((entry,), "edit", by)
+        return Done(said=entry.title)
+
+    def undo(self, by: str | None = None) -> Done:
+        """Take back what was done last."""
+        return self._moved("undo", by)
+
+    def redo(self, by: str | None = None) -> Done:
+        """Do again what was taken back last."""
+        return self._moved("redo", by)
+
+    def _moved(self, way: Literal["undo", "redo"], by: str | None) -> Done:
+        with self._mutex:
+            self.lessons.pause()
+            try:
+                move = self.history.undo if way == "undo" else self.history.redo
+                entries = move(self.project)
+            finally:
+                self.lessons.resume()
+            if not entries:
+                return Done(said=f"there is nothing to {way}", nothing=True)
+            self.noted(entries, way, by)
+        return Done(said=entries[0].title)
+
+    def noted(self, entries: Iterable[Entry], did: Did, by: str | None = None) -> None:
+        """Tell all pages of entries that were made, undone or redone."""
+        with self._mutex:
+            entries = tuple(entries)
+            said = entries[0].title
+            self.shown.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
+            self.changed({name for entry in entries for name in entry.names})
+
+    @contextmanager
+    def making(self, edit: Edit, group: str) -> Iterator[None]:
+        """An edit of a job, whose change is made within the block."""
+        with self._mutex:
+            with self.history.recorded(self.project, edit, group=group) as before:
+                yield
+            if self.history.view.undoable > before:
+                self.noted((self.history.last,), "edit")
+
+    def written(self, asset: str) -> None:
+        """The output of an asset was written anew."""
+        self.changed([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
+
+    def changed(self, names: Iterable[str]) -> None:
+        """Look anew at what depends on these files; names: paths from the project's folder."""
+        with self._mutex:
+            self._following.changed(names)
+
+    def _look_again(self) -> None:
+        with self._mutex:
+            self._following.look_again()
+
+    # Learning
+
+    def learn(self) -> Done:
+        """Learn now, and take the learned program even if the present one was written by hand."""
+        if not self._is_taught():
+            raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
+        with self._mutex:
+            self._taking = self.shown.program.by_hand
+            self.lessons.restart()
+        return Done(said="learning")
+
+    def _is_taught(self) -> bool:
+        shown = set(self.project.layout.kept_for("demonstrations"))
+        return any(asset in shown for asset in self.project.assets())
+
+    def _learned(self, lesson: LessonView) -> None:
+        """A lesson is over: it has left its program, unless a person's stands there."""
+        with self._mutex:
+            taking, self._taking = self._taking, False
+            if taking and lesson.program and self.lessons.is_present(lesson.number):
+                self.edit(TakeLearned())
+                return
+            self._following.show_program()
+            self.chores.add()
+
+
+def _derived(project: Project) -> frozenset[str]:
+    """What learning writes by itself: undoing puts it back whatever it is by then, but no program by hand goes."""
+    always = {LEARNED, PREVIOUS}
+    return frozenset(always if project.standing().by_hand else {*always, PROGRAM})

@@ -1,0 +1,142 @@
+"""Lessons: after every change one is begun in the place of the one before, and what comes of it is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from functools import partial
+from threading import RLock, Timer
+from typing import TypeVar
+
+from meshforge.errors import MeshForgeError, told
+from meshforge.studio.learner import Learner
+from meshforge.studio.state.shown import Shown
+from meshforge.studio.wire.lesson import Generalised, LessonView, Reach
+
+PAUSE = 0.05
+"""Seconds that a change waits for the next one before a lesson begins."""
+PATIENCE = 30.0
+"""Seconds to wait for a lesson that was told to stop."""
+
+Result = TypeVar("Result")
+
+
+class Lessons:
+    """Begins lessons and takes their outcomes; of several begun, only the last one counts.
+
+    taught: whether anything is demonstrated; learned: called when a lesson is over, before its reach is measured.
+    """
+
+    def __init__(
+        self, learner: Learner, shown: Shown, taught: Callable[[], bool], learned: Callable[[LessonView], None]
+    ) -> None:
+        self._learner, self._shown = learner, shown
+        self._taught, self._learned = taught, learned
+        self._lock = RLock()
+        self._number, self._paused = 0, False
+        self._timer: Timer | None = None
+        self._running: Future[LessonView] | None = None
+
+    def restart(self) -> None:
+        """Begin a lesson, in the place of one that is under way."""
+        number = self._stop()
+        if not self._taught():
+            self._shown.set_lesson(None, learning=False)
+            self.measure()
+            return
+        self._shown.set_lesson(self._shown.lesson, learning=True)
+        with self._lock:
+            if number == self._number:
+                self._timer = Timer(PAUSE, self._begin, [number])
+                self._timer.daemon = True
+                self._timer.start()
+
+    def stop(self) -> None:
+        """Stop the lesson that is under way; the one before stays shown."""
+        self._stop()
+        self._shown.set_lesson(self._shown.lesson, learning=False)
+
+    def pause(self) -> None:
+        """Stop the lesson that is under way, and wait until it no longer writes anything."""
+        self._stop()
+        self._paused = True
+        running = self._running
+        if running:
+            try:
+                running.result(PATIENCE)
+            except (Exception, CancelledError):  # it is over, which is all that matters here
+                return
+
+    def resume(self) -> None:
+        """Begin the lesson anew that a pause has stopped."""
+        if self._paused:
+            self._paused = False
+            self.restart()
+
+    def is_present(self, number: int) -> bool:
+        """Whether a lesson is the last one that was begun."""
+        return number == self._number
+
+    def measure(self) -> None:
+        """Measure what the accepted program does on all assets."""
+        text = self._shown.program.text
+        if not text or self._shown.program.error:
+            self._shown.set_reach(self._number, ())
+            return
+        number = self._number
+        self._after(self._learner.reach(number, text), lambda reach: self._measured(number, reach))
+
+    def generalised(self, extractor: str, rule: int) -> Future[Generalised]:
+        """What an extractor selects on all assets."""
+        return self._learner.generalise(extractor, rule, self._shown.program.text or None)
+
+    def close(self) -> None:
+        """Stop for good."""
+        self._stop()
+        self._learner.close()
+
+    def _stop(self) -> int:
+        with self._lock:
+            self._number += 1
+            if self._timer:
+                self._timer.cancel()
+            number = self._number
+        self._learner.interrupt()
+        return number
+
+    def _begin(self, number: int) -> None:
+        with self._lock:
+            if number != self._number:
+                return
+            try:
+                self._running = self._learner.learn(number, False)
+            except MeshForgeError:  # the studio is being closed
+                return
+        self._running.add_done_callback(partial(self._over, number))
+
+    def _over(self, number: int, future: Future[LessonView]) -> None:
+        try:
+            lesson = future.result()
+        except CancelledError:
+            return
+        except Exception as error:
+            lesson = LessonView(number=number, status="error", error=told(error))
+        if number != self._number:
+            return
+        self._shown.set_lesson(lesson, learning=False)
+        self._learned(lesson)
+        self.measure()
+
+    def _measured(self, number: int, reach: tuple[Reach, ...]) -> None:
+        if number == self._number:
+            self._shown.set_reach(number, reach)
+
+    def _after(self, future: Future[Result], then: Callable[[Result], None]) -> None:
+        def arrived(done: Future[Result]) -> None:
+            try:
+                result = done.result()
+            except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured anew
+                return
+            then(result)
+
+        future.add_done_callback(arrived)

@@ -1,0 +1,84 @@
+"""Cards and the project, looked at anew in the background."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+from meshforge.errors import MeshForgeError, StoppedError, told
+from meshforge.project import Project, Status
+from meshforge.studio.showing.cards import card
+from meshforge.studio.showing.next_step import next_step
+from meshforge.studio.showing.project import project_view
+from meshforge.studio.wire.family import Next, ProjectView
+from meshforge.studio.wire.jobs import Job
+
+if TYPE_CHECKING:
+    from meshforge.studio.state.desk import Desk
+
+_LOG = logging.getLogger(__name__)
+_FEWEST, _PORTIONS = 8, 20
+
+
+def first_view(project: Project) -> ProjectView:
+    """The project before its assets are looked at. Raises ProjectError for a file of it that cannot be read."""
+    return project_view(project, (), Next(stage="label", say="The assets are being read."), None, ())
+
+
+class Refreshing:
+    """Makes cards and the view of the project, and tells how far the first reading is."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk = desk
+        self._read = 0
+        self._job: Job | None = None
+
+    def portion(self) -> int:
+        """How many assets are looked at together: few, so that their cards come soon."""
+        return max(_FEWEST, len(self._desk.project.assets()) // _PORTIONS)
+
+    def refresh(self, assets: tuple[str, ...]) -> None:
+        """Look at some assets, and at the project when none are left. Never raises."""
+        try:
+            self._refresh(tuple(asset for asset in assets if asset in self._desk.project.found.ids))
+        except StoppedError:  # the studio is being closed
+            return
+        except MeshForgeError as error:
+            self._desk.shown.set_problem(error.message)
+        except Exception as error:
+            _LOG.debug("a chore failed", exc_info=True)
+            self._desk.shown.set_problem(told(error))
+
+    def _refresh(self, assets: tuple[str, ...]) -> None:
+        desk, project = self._desk, self._desk.project
+        status = project.status(assets, progress=self._count, stop=desk.chores.is_closed)
+        settings = project.settings
+        desk.shown.set_cards([card(row, settings.vocabulary, settings.orient) for row in status.assets])
+        self._tell()
+        if desk.chores.left == 0 or len(assets) < self.portion():
+            desk.shown.set_project(self._view(status))
+
+    def _view(self, status: Status) -> ProjectView:
+        desk, cards = self._desk, self._desk.shown.cards
+        program = desk.shown.program
+        has_program = bool(program.text) and not program.error
+        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem)
+        return project_view(desk.project, cards, following, status.problem, status.lost)
+
+    def _count(self) -> None:
+        """One asset had to be read; called from another thread."""
+        self._read += 1
+        self._tell()
+
+    def _tell(self) -> None:
+        """Show how far the reading is, where there is any that takes time."""
+        cards = self._desk.shown.cards
+        left = self._desk.chores.left
+        if self._job is None and self._read and left:
+            self._job = Job(id="read", kind="read", title="Reading assets", total=len(cards))
+        if self._job:
+            update = {"done": len(cards) - left, "state": "running" if left else "done"}
+            self._job = self._job.model_copy(update=update)
+            self._desk.shown.set_job(self._job)
+        if not left:
+            self._job, self._read = None, 0

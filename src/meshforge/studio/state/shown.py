@@ -1,0 +1,140 @@
+"""What all pages are shown: kept here, and told to them as soon as it is another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from threading import RLock
+
+from meshforge.studio.state.hub import Hub, Page
+from meshforge.studio.wire import events
+from meshforge.studio.wire.family import Card, HistoryView, ProjectView
+from meshforge.studio.wire.jobs import Job
+from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
+
+FINISHED = 20
+"""Jobs that are over and still shown to pages that connect."""
+
+
+class Shown:
+    """The present state; every change and what pages are told of it are one, so that each page sees all in order."""
+
+    def __init__(self, hub: Hub, project: ProjectView, history: HistoryView, version: str, tour: bool) -> None:
+        self._lock, self._hub = RLock(), hub
+        self._version, self._tour = version, tour
+        self._project, self._history = project, history
+        self._cards: dict[str, Card] = {}
+        self._program = ProgramView()
+        self._lesson: LessonView | None = None
+        self._learning = False
+        self._reach: tuple[Reach, ...] = ()
+        self._jobs: dict[str, Job] = {}
+
+    @property
+    def cards(self) -> tuple[Card, ...]:
+        with self._lock:
+            return tuple(self._cards.values())
+
+    @property
+    def project(self) -> ProjectView:
+        with self._lock:
+            return self._project
+
+    @property
+    def lesson(self) -> LessonView | None:
+        with self._lock:
+            return self._lesson
+
+    @property
+    def program(self) -> ProgramView:
+        with self._lock:
+            return self._program
+
+    def join(self, page: Page) -> None:
+        """Show everything to a page, and from now on what changes."""
+        with self._lock:
+            hello = events.Hello(
+                version=self._version,
+                project=self._project,
+                cards=self.cards,
+                history=self._history,
+                program=self._program,
+                lesson=self._lesson,
+                learning=self._learning,
+                reach=self._reach,
+                jobs=tuple(self._jobs.values()),
+                tour=self._tour,
+            )
+            self._hub.join(page, hello)
+
+    def set_cards(self, cards: Iterable[Card]) -> None:
+        """Show some cards anew."""
+        with self._lock:
+            other = tuple(card for card in cards if self._cards.get(card.asset) != card)
+            self._cards |= {card.asset: card for card in other}
+            if other:
+                self._hub.tell(events.CardsChanged(cards=other))
+
+    def set_assets(self, assets: Sequence[str]) -> tuple[str, ...]:
+        """Show cards of these assets, in this order, and no others; gives those that are new."""
+        with self._lock:
+            new = tuple(asset for asset in assets if asset not in self._cards)
+            gone = tuple(asset for asset in self._cards if asset not in set(assets))
+            fresh = {asset: Card(asset=asset) for asset in new}
+            self._cards = {asset: fresh.get(asset) or self._cards[asset] for asset in assets}
+            if new or gone:
+                self._hub.tell(events.CardsChanged(cards=tuple(fresh.values()), gone=gone))
+        return new
+
+    def set_project(self, project: ProjectView) -> None:
+        """Show the project anew."""
+        with self._lock:
+            if project != self._project:
+                self._project = project
+                self._hub.tell(events.ProjectChanged(project=project))
+
+    def set_problem(self, problem: str) -> None:
+        """Show what is wrong with the project."""
+        with self._lock:
+            self.set_project(self._project.model_copy(update={"problem": problem}))
+
+    def set_history(self, event: events.HistoryChanged) -> None:
+        """Show what was done, and what can be undone now."""
+        with self._lock:
+            self._history = event.history
+            self._hub.tell(event)
+
+    def set_lesson(self, lesson: LessonView | None, learning: bool) -> None:
+        """Show a lesson, or that one has begun."""
+        with self._lock:
+            if (lesson, learning) != (self._lesson, self._learning):
+                self._lesson, self._learning = lesson, learning
+                self._hub.tell(events.LessonChanged(lesson=lesson, learning=learning))
+
+    def set_program(self, program: ProgramView) -> bool:
+        """Show the accepted program; whether its text is another than before."""
+        with self._lock:
+            before, self._program = self._program, program
+            if program != before:
+                self._hub.tell(events.ProgramChanged(program=program))
+            return program.text != before.text
+
+    def set_reach(self, lesson: int, reach: tuple[Reach, ...]) -> None:
+        """Show what the program does on all assets."""
+        with self._lock:
+            if reach != self._reach:
+                self._reach = reach
+                self._hub.tell(events.ReachChanged(lesson=lesson, reach=reach))
+
+    def set_job(self, job: Job) -> None:
+        """Show a job as it stands."""
+        with self._lock:
+            self._jobs[job.id] = job
+            over = [key for key, one in self._jobs.items() if one.state != "running"]
+            for key in over[:-FINISHED]:
+                del self._jobs[key]
+            self._hub.tell(events.JobChanged(job=job))
+
+    def tell_assets(self, assets: Sequence[str], shapes: bool) -> None:
+        """Tell that something of these assets changed."""
+        if assets:
+            self._hub.tell(events.AssetsChanged(assets=tuple(assets), shapes=shapes))
