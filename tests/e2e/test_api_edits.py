@@ -207,9 +207,9 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
 
 def test_labels_files_are_offered_while_they_say_something_new(studio: Studio) -> None:
     studio.settled()
-    assert ok(studio.get("/api/labels/sources"))["files"] == 0
+    assert ok(studio.get("/api/labels/sources"))["files"] == 1  # that of the hull without a label
     studio.edit("label", asset=FIRST, hulls=["convex_00"], label=None)
-    assert ok(studio.get("/api/labels/sources"))["files"] == 1
+    assert ok(studio.get("/api/labels/sources"))["files"] == 2
     studio.edit("label-files")
     assert ok(studio.get("/api/labels/sources"))["files"] == 0
     for _ in range(2):

@@ -791,7 +791,8 @@ export interface GeneraliseRequest {
   rule?: number;
 }
 /**
- * What an extractor selects on every asset: positions of the asset's own hulls.
+ * What an extractor selects on every asset, of very large families on those that are looked at while learning:
+ * positions of the asset's own hulls.
  */
 export interface Generalised {
   assets: {

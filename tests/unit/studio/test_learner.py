@@ -11,9 +11,9 @@ import pytest
 
 from meshforge.errors import MeshForgeError, ProgramError
 from meshforge.language import Program, parse_action, parse_extractor, select
-from meshforge.project import Project
+from meshforge.project import Project, looked_at
 from meshforge.samples import TABLES
-from meshforge.studio.learner import Learner, Superseded
+from meshforge.studio.learner import Learner, Superseded, work
 from meshforge.studio.learner.bell import Bell
 from meshforge.studio.learner.line import Line
 from meshforge.studio.learner.reach import Origins
@@ -121,6 +121,19 @@ def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(proj
     found = learner.generalise("Is(leg)", 1, None).result().assets
     for asset, own in found.items():
         assert own == tuple(k for k, hull in enumerate(project.mesh(asset).hulls) if hull.label == "leg")
+
+
+def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("meshforge.project.family.MOST", 4)
+    bell = Bell()
+    rows = work.reach(project.folder, bell.ticket("reach"), BUNDLED)
+    found = work.generalise(project.folder, bell.ticket("generalise"), "Is(leg)", 1, None)
+    bell.close()
+    assert rows and found
+    assert len(project.assets()) > len(rows) >= 4
+    assert [row.asset for row in rows] == list(found.assets) == list(looked_at(project))
 
 
 def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:

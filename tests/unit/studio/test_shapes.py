@@ -109,7 +109,8 @@ def test_an_asset_that_the_orientation_cannot_turn_says_so_at_every_step(project
     bare = mesh.labelled(dict.fromkeys(mesh.index))
     view = asset_view(project, TABLE, bare)
     assert view.unturned is not None
-    assert "the landmark Is(leg) selects nothing" in view.unturned
+    assert "the landmark Is(leg) selects nothing. Label the hulls that it should select" in view.unturned
+    assert "\n" not in view.unturned
     assert view.upright is None
     assert {step.error for step in view.steps} == {view.unturned}
     assert [hull.name for hull in bare.hulls] == [hull.name for hull in view.hulls]

@@ -28,6 +28,14 @@ def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
     assert [card["asset"] for card in assets["cards"]] == ["c"] and assets["gone"] == ["a"]
 
 
+def test_a_card_of_an_asset_that_went_meanwhile_does_not_bring_it_back() -> None:
+    shown = Shown(Hub(), PROJECT, HistoryView(), "1", tour=False)
+    shown.set_assets(["a", "b"])
+    shown.set_assets(["a"])
+    shown.set_cards([Card(asset="a", hulls=1), Card(asset="b", error="it is gone")])
+    assert shown.cards == (Card(asset="a", hulls=1),)
+
+
 def test_a_page_that_left_is_told_nothing() -> None:
     async def told() -> int:
         hub = Hub()

@@ -51,7 +51,8 @@ function draw(canvas: HTMLCanvasElement, image: ImageData): void {
   const scale = wide > 0 && image.width > 2 * wide ? wide / image.width : 1;
   canvas.width = Math.round(image.width * scale);
   canvas.height = Math.round(image.height * scale);
-  const context = canvas.getContext("2d");
+  // kept by the processor, so that it is painted into the page and not a layer of its own that each frame puts together
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   if (!context || scale === 1) return context?.putImageData(image, 0, 0);
   const whole = new OffscreenCanvas(image.width, image.height);
   whole.getContext("2d")?.putImageData(image, 0, 0);

@@ -111,9 +111,12 @@ export async function details(asset: string): Promise<Kept> {
   if (before && isOf(before)) return before.result;
   const mine = { revision, shapeRevision, result: fetched(asset, revision, shapeRevision) };
   asked.set(asset, mine);
-  const forget = () => asked.get(asset) === mine && asked.delete(asset);
+  const forget = () => {
+    if (asked.get(asset) === mine) asked.delete(asset);
+  };
   // what the server has answered stays so until the asset changes; one that does not answer is asked again
-  mine.result.then(forget, (error) => error instanceof ServerProblem && error.status !== 0 || forget());
+  const refused = (error: unknown) => error instanceof ServerProblem && error.status !== 0;
+  mine.result.then(forget, (error) => (refused(error) ? undefined : forget()));
   return mine.result;
 }
 

@@ -18,7 +18,7 @@ def next_step(
         or _labels(cards, vocabulary, has_program)
         or _demonstrations(cards, has_program)
         or _lesson(lesson, has_program)
-        or (Next(stage="learn", say=f"The program cannot be applied: {problem}") if problem else None)
+        or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
         or _outputs(cards)
         or _reviews(cards)
     )

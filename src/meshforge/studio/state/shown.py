@@ -67,9 +67,9 @@ class Shown:
             self._hub.join(page, hello)
 
     def set_cards(self, cards: Iterable[Card]) -> None:
-        """Show some cards anew."""
+        """Show some cards anew; those of assets that went while they were looked at are left out."""
         with self._lock:
-            other = tuple(card for card in cards if self._cards.get(card.asset) != card)
+            other = tuple(card for card in cards if self._cards.get(card.asset, card) != card)
             self._cards |= {card.asset: card for card in other}
             if other:
                 self._hub.tell(events.CardsChanged(cards=other))
