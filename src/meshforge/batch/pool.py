@@ -123,10 +123,26 @@ def workers_context() -> Any:
     Forking this process itself would copy locks that its other threads hold.
     """
     if sys.platform != "linux":
-        return get_context("spawn")
+        return _with_locks(get_context("spawn"))
     context = get_context("forkserver")
     context.set_forkserver_preload(["meshforge.batch.edit"])
-    return context
+    return _with_locks(context)
+
+
+def _with_locks(context: Any) -> Any:
+    """The same for one pool, whose locks stay as long as the pool.
+
+    Pebble lets go of them before it stops its workers; one that was just starting would complain that they are gone.
+    """
+    own: Any = type(context)()
+    locks: list[Any] = []
+
+    def kept_lock() -> Any:
+        locks.append(context.RLock())
+        return locks[-1]
+
+    own.RLock = kept_lock
+    return own
 
 
 def _outcome(future: Future[Result], timeout: float | None) -> Result | Lost:

@@ -1,12 +1,15 @@
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
 import time
+import weakref
 from pathlib import Path
 
 from meshforge.batch import Lost, isolated
+from meshforge.batch.pool import workers_context
 
 
 def square(number: int) -> int:
@@ -68,3 +71,13 @@ def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> Non
     script.write_text("from meshforge.batch import isolated\nprint(list(isolated(abs, [1, -2], workers=1)))\n")
     done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
+
+
+def test_the_locks_of_a_pool_stay_for_workers_that_are_just_starting_until_the_pool_goes() -> None:
+    context = workers_context()
+    lock = weakref.ref(context.RLock())
+    gc.collect()
+    assert lock() is not None
+    del context
+    gc.collect()
+    assert lock() is None
