@@ -3,32 +3,13 @@ import { beforeEach, expect, test, vi } from "vitest";
 import { initialDesk, useDesk } from "../store/desk";
 import { initialLayout, useLayout } from "../store/layout";
 import { emptyProject, useProject } from "../store/project";
-import type { Card } from "../wire";
 import { commandFor } from "./all";
 import { going } from "./going";
+import { sampleCard } from "../store/sample.test-help";
 
 vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn() }));
 
-const plain: Card = {
-  asset: "a",
-  hulls: 1,
-  labels: [0],
-  unsure: [],
-  demonstrated: false,
-  output: "none",
-  after: null,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: null,
-  edited_picture: null,
-};
+const plain = sampleCard({ hulls: 1, labels: [0] });
 const run = (key: string) => commandFor(key, going)?.run();
 const asset = () => useDesk.getState().asset;
 

@@ -6,28 +6,10 @@ import { emptyProject, useProject } from "../store/project";
 import { useToasts } from "../store/toasts";
 import type { AnyEdit, Card, EditedHeader } from "../wire";
 import { accept, acceptLegal, nextToReview, reviewing } from "./reviewing";
+import { sampleCard } from "../store/sample.test-help";
 
-const card = (asset: string, more: Partial<Card> = {}): Card => ({
-  asset,
-  hulls: 4,
-  labels: [],
-  unsure: [],
-  demonstrated: false,
-  output: "edited",
-  after: 2,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: null,
-  edited_picture: asset,
-  ...more,
-});
+const card = (asset: string, more: Partial<Card> = {}) =>
+  sampleCard({ asset, output: "edited", after: 2, edited_picture: asset, ...more });
 
 let edits: AnyEdit[] = [];
 beforeEach(() => {

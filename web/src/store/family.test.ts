@@ -3,27 +3,9 @@ import { expect, test } from "vitest";
 import type { Card } from "../wire";
 import type { Filters } from "./desk";
 import { counted, filtered, has, neighbour } from "./family";
+import { sampleCard } from "./sample.test-help";
 
-const plain: Card = {
-  asset: "a",
-  hulls: 2,
-  labels: [0, 1],
-  unsure: [],
-  demonstrated: false,
-  output: "none",
-  after: null,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: null,
-  edited_picture: null,
-};
+const plain = sampleCard({ hulls: 2, labels: [0, 1] });
 const card = (change: Partial<Card>): Card => ({ ...plain, ...change });
 const family = (...cards: Card[]) => Object.fromEntries(cards.map((one) => [one.asset, one]));
 const all: Filters = { search: "", only: [], sort: "name" };

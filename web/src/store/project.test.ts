@@ -1,28 +1,9 @@
 import { describe, expect, it } from "vitest";
 import type { Card, Hello } from "../wire";
 import { emptyProject, received } from "./project";
+import { sampleCard } from "./sample.test-help";
 
-const card = (asset: string, more: Partial<Card> = {}): Card => ({
-  asset,
-  hulls: 4,
-  labels: [],
-  unsure: [],
-  demonstrated: false,
-  output: "none",
-  after: null,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: "p",
-  edited_picture: null,
-  ...more,
-});
+const card = (asset: string, more: Partial<Card> = {}) => sampleCard({ asset, picture: "p", ...more });
 
 const hello: Hello = {
   kind: "hello",

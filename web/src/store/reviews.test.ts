@@ -1,28 +1,10 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditedHeader, HullView } from "../wire";
 import { acceptable, after, behind, exportable, grouped, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { sampleCard } from "./sample.test-help";
 
-const card = (asset: string, more: Partial<Card> = {}): Card => ({
-  asset,
-  hulls: 4,
-  labels: [],
-  unsure: [],
-  demonstrated: false,
-  output: "edited",
-  after: 2,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: null,
-  edited_picture: null,
-  ...more,
-});
+const card = (asset: string, more: Partial<Card> = {}) =>
+  sampleCard({ asset, output: "edited", after: 2, ...more });
 const edited = (more: Partial<EditedHeader> = {}): EditedHeader => ({
   rows: [],
   hulls: [],

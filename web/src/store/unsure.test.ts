@@ -1,27 +1,9 @@
 import { describe, expect, it } from "vitest";
-import type { Card } from "../wire";
 import { labelProgress, nextUnsure } from "./unsure";
+import { sampleCard } from "./sample.test-help";
 
-const card = (asset: string, labels: number[], unsure: number[]): Card => ({
-  asset,
-  hulls: labels.length,
-  labels,
-  unsure,
-  demonstrated: false,
-  output: "none",
-  after: null,
-  after_labels: [],
-  stale: [],
-  error: null,
-  flags: [],
-  review: null,
-  note: null,
-  corrections: 0,
-  sources: 0,
-  prepared: [],
-  picture: null,
-  edited_picture: null,
-});
+const card = (asset: string, labels: number[], unsure: number[]) =>
+  sampleCard({ asset, hulls: labels.length, labels, unsure });
 const cards = { a: card("a", [0, -1], []), b: card("b", [0, 1, 1], [2, 0]), c: card("c", [1], [0]) };
 const order = ["a", "b", "c"];
 

@@ -95,5 +95,5 @@ def _outcome(done: Future[Any]) -> Any:
     """What a worker gave, or the error."""
     try:
         return arrived(done)
-    except Exception as error:
+    except Exception as error:  # whoever waits for the answer gets it, whatever it is
         return error

@@ -57,7 +57,7 @@ class Jobs:
             message = work(running)
         except StoppedError:
             running.end("cancelled", "Cancelled: what was done by then stays.", out)
-        except Exception as error:
+        except Exception as error:  # what a job does wrong is told as its outcome
             running.end("failed", told(error))
         else:
             running.end("done", message, out)

@@ -73,7 +73,7 @@ class Following:
                 self.changed(other)
         except MeshForgeError as error:
             desk.shown.set_problem(error.message)
-        except Exception:
+        except Exception:  # the next look may succeed; the watch itself must go on
             _LOG.debug("looking at what others changed failed", exc_info=True)
 
     def _see(self, names: Iterable[str]) -> None:
