@@ -6,6 +6,7 @@ import shutil
 import sys
 import tempfile
 from pathlib import Path
+from typing import Literal
 
 from playwright.sync_api import Browser, Page
 
@@ -33,10 +34,10 @@ def main(folder: Path) -> None:
             _reviewing(_page(browser, address, "dark"), folder / "studio-review.png")
 
 
-def _page(browser: Browser, address: str, theme: str) -> Page:
+def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Page:
     """An open page, when all thumbnails are drawn and the lesson is over."""
     width, height = SIZE
-    context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=theme)  # type: ignore[arg-type]  # a word of two
+    context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=theme)
     page = context.new_page()
     page.goto(address)
     page.wait_for_function("() => document.querySelector('[data-testid=viewport]')?.dataset.ready")
