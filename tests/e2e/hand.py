@@ -73,8 +73,12 @@ class Hand:
         self.actions += 1
 
     def hull(self, name: str, *held: Any) -> None:
-        """Click on a hull in the viewport, while keys are held."""
-        self.page.wait_for_function("name => window.meshforgeViewport?.project(name)", arg=name)
+        """Click on a hull in the viewport, while keys are held, once the picture is that of the present state."""
+        self.page.wait_for_function(
+            "name => document.querySelector('[data-testid=viewport]')?.ariaBusy === 'false'"
+            " && window.meshforgeViewport?.project(name)",
+            arg=name,
+        )
         place = self.page.evaluate("name => window.meshforgeViewport.project(name)", name)
         for key in held:
             self.page.keyboard.down(key)
@@ -137,6 +141,10 @@ def _photograph(browser: Browser) -> None:
         page.screenshot(path=f"{folder}/{number}.png")
 
 
-def hand(browser: Browser, width: int = 1440, height: int = 900) -> Hand:
-    """A person at a fresh window."""
-    return Hand(browser.new_context(viewport={"width": width, "height": height}).new_page())
+def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0) -> Hand:
+    """A person at a fresh window. latency: of the connection [ms]."""
+    page = browser.new_context(viewport={"width": width, "height": height}).new_page()
+    if latency:
+        speed = {"offline": False, "latency": latency, "downloadThroughput": -1, "uploadThroughput": -1}
+        page.context.new_cdp_session(page).send("Network.emulateNetworkConditions", speed)
+    return Hand(page)

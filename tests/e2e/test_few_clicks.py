@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.e2e.hand import chromium, hand
 from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address, demonstrate_tables, learned
@@ -13,11 +15,12 @@ MOST = 60
 """Clicks and keys for five rules, shown on two assets."""
 
 
-def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, capsys: object) -> None:
+@pytest.mark.parametrize("latency", [0, 400], ids=["quick", "typed-ahead"])
+def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, latency: int) -> None:
     project = demo_project(tmp_path, demonstrated=False, orient="")
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
-        person = hand(browser)
+        person = hand(browser, latency=latency)
         person.open(address(studio))
         demonstrate_tables(person)
         program = learned(studio)

@@ -8,7 +8,8 @@ export interface Command {
   readonly keys: readonly string[];
   /** Whether it makes sense now; always where it is left out. */
   readonly enabled?: () => boolean;
-  readonly run: () => void;
+  /** Does it; where it takes a while, keys that are typed ahead wait for the promise. */
+  readonly run: () => unknown;
 }
 
 /** The name of a pressed key combination, as commands list it. */

@@ -32,7 +32,7 @@ const actions: readonly Command[] = Object.entries(ACTION_KEYS).map(([action, ke
   group: "Demonstrate",
   keys: [key],
   enabled: canDraft,
-  run: () => void startDraft(action),
+  run: () => startDraft(action),
 }));
 
 /** The rule (from 1) whose guess Enter takes: the first that the asset says nothing about. */
@@ -43,10 +43,10 @@ export function offeredRule(): number | null {
   return place !== undefined && guessFor(place + 1) ? place + 1 : null;
 }
 
-function accept(): void {
+async function accept(): Promise<void> {
   const rule = offeredRule();
-  if (useDesk.getState().draft) void acceptDraft();
-  else if (rule !== null) acceptGuess(rule).catch(complainedOf);
+  if (useDesk.getState().draft) await acceptDraft();
+  else if (rule !== null) await acceptGuess(rule).catch(complainedOf);
 }
 
 /** The place (from 0) of the step that is shown last. */
@@ -57,10 +57,10 @@ export function shownStep(): number | null {
   return showing.steps - 1;
 }
 
-function takeStepAway(): void {
+async function takeStepAway(): Promise<void> {
   const { asset } = useDesk.getState();
   const place = shownStep();
-  if (asset !== null && place !== null) dropStep(asset, place).catch(complainedOf);
+  if (asset !== null && place !== null) await dropStep(asset, place).catch(complainedOf);
 }
 
 export const demonstrating: readonly Command[] = [
@@ -87,7 +87,7 @@ export const demonstrating: readonly Command[] = [
     group: "Demonstrate",
     keys: ["Escape"],
     enabled: () => useDesk.getState().draft !== null,
-    run: () => void dropDraft().catch(complainedOf),
+    run: () => dropDraft().catch(complainedOf),
   },
   {
     id: "step-delete",

@@ -70,7 +70,7 @@ export const going: readonly Command[] = [
     group: "Edit",
     keys: ["Ctrl+Z"],
     enabled: () => useProject.getState().history.undo !== null,
-    run: () => void undo(),
+    run: undo,
   },
   {
     id: "redo",
@@ -78,7 +78,7 @@ export const going: readonly Command[] = [
     group: "Edit",
     keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
     enabled: () => useProject.getState().history.redo !== null,
-    run: () => void redo(),
+    run: redo,
   },
   {
     id: "gallery",

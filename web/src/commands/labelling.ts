@@ -45,7 +45,7 @@ export const labelling: readonly Command[] = [
     group: "Label",
     keys: ["Enter"],
     enabled: () => isLabelling() && isDoubtful(),
-    run: () => void confirmLabels(),
+    run: confirmLabels,
   },
   {
     id: "label-next-unsure",
@@ -53,7 +53,7 @@ export const labelling: readonly Command[] = [
     group: "Label",
     keys: ["N"],
     enabled: () => isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0),
-    run: () => void goToUnsure(),
+    run: () => goToUnsure(),
   },
   {
     id: "label-brush-down",

@@ -9,6 +9,7 @@ import { complainedOf, told } from "../store/toasts";
 import { verdict } from "../store/verdicts";
 import type { Card } from "../wire";
 import type { Command } from "./command";
+import { inTurn } from "./turns";
 
 /** All cards in the family's order. */
 export function cardsInOrder(): Card[] {
@@ -63,7 +64,7 @@ export function showPresent(asset: string): void {
 /** Takes an action into the hand to mend the result of an asset. */
 export function beginCorrection(asset: string): void {
   showPresent(asset);
-  void startDraft("Delete");
+  inTurn(() => startDraft("Delete"));
 }
 
 export const correct = (asset: string, select: readonly string[], action: string): Promise<boolean> =>
@@ -100,7 +101,7 @@ export const reviewing: readonly Command[] = [
     enabled: () => reviewable()?.stale.length === 0,
     run: () => {
       const card = reviewable();
-      if (card) void accept(card.asset);
+      if (card) return accept(card.asset);
     },
   },
   {
@@ -111,7 +112,7 @@ export const reviewing: readonly Command[] = [
     enabled: () => reviewable() !== null,
     run: () => {
       const card = reviewable();
-      if (card) void (card.review === "flagged" ? takeBackReview(card.asset) : flag(card.asset, card.note));
+      if (card) return (card.review === "flagged" ? takeBackReview(card.asset) : flag(card.asset, card.note));
     },
   },
   {

@@ -1,6 +1,7 @@
 // Keys mean commands, unless a person types, or a control that was reached by key wants them itself.
-import { commandFor } from "../commands/all";
+import { all, commandFor } from "../commands/all";
 import { pressed } from "../commands/command";
+import { inTurn, isBusy } from "../commands/turns";
 import { useDesk } from "../store/desk";
 import { toNextPart } from "./parts";
 
@@ -24,23 +25,34 @@ export function bindKeys(): void {
   window.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.isComposing) return;
     const key = pressed(event);
-    const run = meaning(key, event.target, byKey && event.target !== document.body);
-    if (run ? key.endsWith("F6") : MOVES.test(key)) byKey = true;
-    if (!run) return;
+    const { target } = event;
+    const open = isOpen(key, target, byKey && target !== document.body);
+    const isOurs = open && (meaning(key) !== undefined || (isBusy() && isCommand(key)));
+    if (isOurs ? isToPart(key) : MOVES.test(key)) byKey = true;
+    if (!isOurs) return;
     event.preventDefault();
-    if (!event.repeat || MAY_REPEAT.test(key)) run();
+    if (!event.repeat || MAY_REPEAT.test(key)) inTurn(() => meaning(key)?.());
   });
 }
 
-/** What a key pressed on an element does, if it is not left to the element and the browser. */
-function meaning(key: string, target: EventTarget | null, byKey: boolean): (() => void) | undefined {
-  if (!(target instanceof Element)) return undefined;
+/** Whether a key pressed on an element is not left to the element and the browser. */
+function isOpen(key: string, target: EventTarget | null, byKey: boolean): boolean {
+  if (!(target instanceof Element)) return false;
   const { overlay } = useDesk.getState();
-  if (overlay === "help" || overlay === "palette") return undefined;
-  if (target.closest("[role=dialog]:not([data-modeless]), [role=menu]")) return undefined;
-  if (key === "F6" || key === "Shift+F6") return () => toNextPart(key === "F6" ? 1 : -1);
-  if (target.closest(FIELDS) && !IN_FIELDS.has(key)) return undefined;
-  if (/Tab$/.test(key) && byKey && !target.closest(ASSET_TABS)) return undefined;
-  if (OF_CONTROLS.has(key) && byKey && target.closest(CONTROLS)) return undefined;
-  return commandFor(key)?.run;
+  if (overlay === "help" || overlay === "palette") return false;
+  if (target.closest("[role=dialog]:not([data-modeless]), [role=menu]")) return false;
+  if (isToPart(key)) return true;
+  if (target.closest(FIELDS) && !IN_FIELDS.has(key)) return false;
+  if (/Tab$/.test(key) && byKey && !target.closest(ASSET_TABS)) return false;
+  return !(OF_CONTROLS.has(key) && byKey && target.closest(CONTROLS));
 }
+
+const isToPart = (key: string): boolean => key === "F6" || key === "Shift+F6";
+
+/** What a key does now. */
+function meaning(key: string): (() => unknown) | undefined {
+  return isToPart(key) ? () => toNextPart(key === "F6" ? 1 : -1) : commandFor(key)?.run;
+}
+
+/** Whether a key may mean something once the commands that are on their way are done. */
+const isCommand = (key: string): boolean => all.some((command) => command.keys.includes(key));

@@ -1,6 +1,7 @@
 // One step: its number, what it does to how many hulls, and the menu of what can be done with it.
 import { Ellipsis, TriangleAlert } from "lucide-react";
 import { type KeyboardEvent, useEffect } from "react";
+import { inTurn } from "../commands/turns";
 import { select, show, useDesk } from "../store/desk";
 import { draftStep } from "../store/beginning";
 import { light, unlight } from "../store/lighting";
@@ -80,7 +81,7 @@ function Made({ label }: { label: string }) {
 /** Shows the asset after a step, with what is left or made of its hulls selected; an open one is taken into the hand. */
 function open(view: AssetView, place: number): void {
   const step = view.steps[place];
-  if (step?.select == null || step.error) return void draftStep(place);
+  if (step?.select == null || step.error) return inTurn(() => draftStep(place));
   show({ kind: "steps", steps: place + 1 });
   select(after(step));
 }
@@ -98,7 +99,7 @@ function keyed(event: KeyboardEvent, view: AssetView, place: number, count: numb
 }
 
 function meant(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
-  if (event.key === "Enter") return () => void draftStep(place);
+  if (event.key === "Enter") return () => inTurn(() => draftStep(place));
   if (event.key === "Delete" || event.key === "Backspace") return () => takeAway(view.asset, place);
   if (event.altKey && event.key === "ArrowLeft" && place > 0) return () => moveRule(place, place - 1);
   if (event.altKey && event.key === "ArrowRight" && place < count - 1) return () => moveRule(place, place + 1);

@@ -1,4 +1,5 @@
 // What can be done with a step, as lines of a menu.
+import { inTurn } from "../commands/turns";
 import { draftStep } from "../store/beginning";
 import { dropDraft } from "../store/drafting";
 import { useDesk } from "../store/desk";
@@ -13,7 +14,7 @@ export function stepLines(view: AssetView, place: number, rules: number): (MenuL
   const { asset } = view;
   const select = view.steps[place]?.select;
   return [
-    { label: "Change it…", keys: "Enter", onSelect: () => void draftStep(place) },
+    { label: "Change it…", keys: "Enter", onSelect: () => inTurn(() => draftStep(place)) },
     { label: "Nothing here", disabled: select?.length === 0, onSelect: () => void say(asset, place, []) },
     { label: "Leave open", disabled: select == null, onSelect: () => void say(asset, place, null) },
     "line",

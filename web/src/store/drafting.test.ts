@@ -7,7 +7,7 @@ import { acceptDraft, changeDraft, dropDraft, useDrafting } from "./drafting";
 import { acceptGuess, followGuesses, useGuesses } from "./guesses";
 import { followPreview } from "./previewing";
 import { usePreview } from "./preview";
-import { emptyProject, useProject } from "./project";
+import { emptyProject, receive, useProject } from "./project";
 import { dropStep, initialSaying, useSaying } from "./saying";
 import { useScenes } from "./scenes";
 import { useToasts } from "./toasts";
@@ -77,7 +77,11 @@ beforeEach(() => {
   vi.spyOn(api, "language").mockResolvedValue({ actions, operators: [], directions: [] } satisfies LanguageView);
   vi.spyOn(api, "asset").mockImplementation(async () => view);
   vi.spyOn(api, "shapes").mockResolvedValue({ header: { rows: [] }, rows: [], shapes: [] });
-  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "" }));
+  vi.spyOn(api, "edit").mockImplementation(async (edit) => {
+    sent.push(edit);
+    receive({ kind: "assets", assets: ["a"], shapes: false });
+    return { said: "" };
+  });
   vi.spyOn(api, "preview").mockResolvedValue(packet);
 });
 afterEach(() => {
@@ -189,6 +193,16 @@ describe("the preview", () => {
     await vi.advanceTimersByTimeAsync(100);
     expect(usePreview.getState().preview).toBeNull();
     stop();
+  });
+
+  it("leaves what was begun and selected while it was sent", async () => {
+    given([], []);
+    useDesk.setState({ draft: { action: "Delete", arguments: {}, each: false, label: "", editing: null }, selection: new Set(["x"]) });
+    const accepted = acceptDraft();
+    select(["y"]);
+    expect(await accepted).toBe(true);
+    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"], action: "Delete" }] });
+    expect(useDesk.getState()).toMatchObject({ draft: null, selection: new Set(["y"]) });
   });
 });
 

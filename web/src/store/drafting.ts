@@ -2,8 +2,8 @@
 import { create } from "zustand";
 import type { Problem } from "../wire";
 import { showBefore } from "./beginning";
-import { type Draft, setDraft, useDesk } from "./desk";
-import { missingArgument, placeOf } from "./drafts";
+import { type Draft, select, setDraft, useDesk } from "./desk";
+import { missingArgument, placeOf, withArgument } from "./drafts";
 import { perform } from "./edits";
 import { formOf, language } from "./language";
 import { useProject } from "./project";
@@ -28,6 +28,12 @@ export function changeDraft(change: Partial<Draft>): void {
   if (draft) setDraft({ ...draft, ...change });
 }
 
+/** Changes an argument of the action in hand, if it still is that one. */
+export function changeArgument(action: string, name: string, value: string | number | boolean): void {
+  const { draft } = useDesk.getState();
+  if (draft?.action === action) setDraft({ ...draft, arguments: withArgument(draft.arguments, name, value) });
+}
+
 /** Puts the action down; the asset is shown with all its steps again. */
 export async function dropDraft(): Promise<void> {
   const { asset, draft, stage } = useDesk.getState();
@@ -41,7 +47,7 @@ export async function dropDraft(): Promise<void> {
 
 /** Makes the action in hand a step of the asset, or, while reviewing, an edit by hand of its output. */
 export async function acceptDraft(): Promise<boolean> {
-  const { asset, draft, stage } = useDesk.getState();
+  const { asset, draft, stage, selection } = useDesk.getState();
   const names = chosen();
   if (asset === null || draft === null || useDrafting.getState().sending) return false;
   const lacking = await whatIsLacking(draft, names.length);
@@ -58,7 +64,10 @@ export async function acceptDraft(): Promise<boolean> {
   if (done && useDesk.getState().asset === asset) {
     useDrafting.setState({ landing: useScenes.getState().scene });
     // a result that is corrected stays in view as the program and the edits by hand make it now
-    useDesk.setState({ draft: null, selection: new Set(), ...(stage === "review" ? {} : { asked: null }) });
+    if (stage !== "review") useDesk.setState({ asked: null });
+    // what was taken into the hand or selected meanwhile stays
+    if (useDesk.getState().draft === draft) setDraft(null);
+    if (useDesk.getState().selection === selection) select([]);
   }
   return done;
 }

@@ -8,10 +8,28 @@ import { useProject } from "./project";
 
 type Change = (steps: readonly StepText[]) => readonly StepText[];
 
-/** Changes the steps of an asset as they are on the server now. */
+/** How long to wait for the news of a change that was made [ms]. */
+const NEWS = 1000;
+
+/** Changes the steps of an asset as they are on the server now; done once the page knows of it, too. */
 export async function changeSteps(asset: string, change: Change): Promise<boolean> {
   const { view } = await details(asset);
-  return perform({ kind: "steps", asset, version: view.version, steps: [...change(texts(view.steps))] });
+  const news = changed(asset);
+  const done = await perform({ kind: "steps", asset, version: view.version, steps: [...change(texts(view.steps))] });
+  if (done) await Promise.race([news.arrived, new Promise((late) => setTimeout(late, NEWS))]);
+  news.stop();
+  return done;
+}
+
+/** The next time that the server says that an asset changed. */
+function changed(asset: string): { arrived: Promise<void>; stop: () => void } {
+  let stop = (): void => undefined;
+  const arrived = new Promise<void>((arrive) => {
+    stop = useProject.subscribe((now, before) => {
+      if (now.revisions[asset] !== before.revisions[asset]) arrive();
+    });
+  });
+  return { arrived, stop };
 }
 
 export const texts = (steps: readonly StepView[]): StepText[] =>

@@ -25,10 +25,18 @@ export function Viewport() {
   const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view), sheet?.smooth ?? true));
   const root = useRef<HTMLElement>(null);
   const asset = useScenes(({ scene }) => scene?.asset ?? "");
+  const loading = useScenes((state) => state.loading);
   useEffect(() => (root.current ? expose(stage, root.current) : undefined), [stage]);
   return (
     <StageContext.Provider value={stage}>
-      <section ref={root} className={css.viewport} data-testid="viewport" data-asset={asset} aria-label="View">
+      <section
+        ref={root}
+        className={css.viewport}
+        data-testid="viewport"
+        data-asset={asset}
+        aria-label="View"
+        aria-busy={loading}
+      >
         <Toolbar />
         <div className={css.stage}>
           {sheet ? <Shown sheet={sheet} /> : <NoWebGl />}

@@ -1,5 +1,6 @@
 // The actions of the language, each with its key.
 import { ACTION_KEYS } from "../../commands/demonstrating";
+import { inTurn } from "../../commands/turns";
 import { startDraft } from "../../store/beginning";
 import { actionIcon } from "../../steps/actionLooks";
 import type { ActionForm } from "../../wire";
@@ -17,7 +18,7 @@ export function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; 
               type="button"
               className={css.action}
               aria-pressed={action === name}
-              onClick={() => void startDraft(name)}
+              onClick={() => inTurn(() => startDraft(name))}
             >
               <Icon size={17} aria-hidden />
               {name}

@@ -1,6 +1,5 @@
 // The stage in which a person shows what to do: the action in hand, the family's rules, orientation, preparation.
 import { useEffect } from "react";
-import { acceptDraft } from "../../store/drafting";
 import { followGuesses } from "../../store/guesses";
 import { askLanguage } from "../../store/language";
 import { followPreview } from "../../store/previewing";
@@ -18,7 +17,7 @@ export function DemonstratePanel() {
   return (
     <div className={css.panel} data-tour="demonstrate">
       <Section title="What to do with the selected hulls">
-        <DraftForm onAccept={() => void acceptDraft()} />
+        <DraftForm />
       </Section>
       <Rules />
       <Orientation />

@@ -1,9 +1,10 @@
 // The action in hand as a form: which action, its arguments, what it would do, and the button that keeps it.
 import { Check } from "lucide-react";
 import type { KeyboardEvent } from "react";
+import { inTurn } from "../../commands/turns";
 import { type Draft, useDesk } from "../../store/desk";
-import { changeDraft, dropDraft, useDrafting } from "../../store/drafting";
-import { missingArgument, withArgument } from "../../store/drafts";
+import { acceptDraft, changeArgument, changeDraft, dropDraft, useDrafting } from "../../store/drafting";
+import { missingArgument } from "../../store/drafts";
 import { formOf, useLanguage } from "../../store/language";
 import { complainedOf } from "../../store/toasts";
 import type { ActionForm } from "../../wire";
@@ -17,7 +18,7 @@ import { PreviewNote } from "./PreviewNote";
 import { RulePlace } from "./RulePlace";
 import css from "./demonstrate.module.css";
 
-export function DraftForm({ onAccept }: { onAccept: () => void }) {
+export function DraftForm() {
   const draft = useDesk((desk) => desk.draft);
   const forms = useLanguage((state) => state.language?.actions);
   if (!forms) return null;
@@ -25,15 +26,17 @@ export function DraftForm({ onAccept }: { onAccept: () => void }) {
   const onKeyDown = (event: KeyboardEvent) => {
     if (!draft || !isAccepting(event)) return;
     event.preventDefault();
-    onAccept();
+    accept();
   };
   return (
     <div className={css.draft} onKeyDown={onKeyDown}>
       <ActionChoice forms={forms} action={draft?.action ?? null} />
-      {draft && form ? <Form draft={draft} form={form} onAccept={onAccept} /> : <Hint />}
+      {draft && form ? <Form draft={draft} form={form} /> : <Hint />}
     </div>
   );
 }
+
+const accept = (): void => inTurn(acceptDraft);
 
 /** Enter accepts, also on a switch that a click left the focus on; Space switches. */
 function isAccepting({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
@@ -48,20 +51,18 @@ function Hint() {
   );
 }
 
-function Form({ draft, form, onAccept }: { draft: Draft; form: ActionForm; onAccept: () => void }) {
+function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
   const selected = useDesk((desk) => desk.selection.size);
   const sending = useDrafting((state) => state.sending);
   const isReview = useDesk((desk) => desk.stage === "review");
   const lacking = missingArgument(draft, form);
-  const set = (name: string, value: string | number | boolean) =>
-    changeDraft({ arguments: withArgument(draft.arguments, name, value) });
   return (
     <form
       className={css.form}
       aria-label={`${draft.action}: how`}
       onSubmit={(event) => {
         event.preventDefault();
-        onAccept();
+        accept();
       }}
     >
       {form.arguments.map((argument) => (
@@ -70,7 +71,7 @@ function Form({ draft, form, onAccept }: { draft: Draft; form: ActionForm; onAcc
           argument={argument}
           value={draft.arguments[argument.name]}
           given={draft.arguments}
-          onChange={(value) => set(argument.name, value)}
+          onChange={(value) => changeArgument(form.name, argument.name, value)}
         />
       ))}
       <CheckBox checked={draft.each} keys="E" onChange={(each) => changeDraft({ each })}>

@@ -1,4 +1,5 @@
 // What the program would select for an open rule: to be accepted, corrected, or answered with nothing.
+import { inTurn } from "../../commands/turns";
 import { draftStep } from "../../store/beginning";
 import { acceptGuess } from "../../store/guesses";
 import { complainedOf } from "../../store/toasts";
@@ -28,18 +29,18 @@ export function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
             look={isNext ? "primary" : "plain"}
             keys={isNext ? "Enter" : undefined}
             tip="Take the guess as the step"
-            onClick={() => acceptGuess(place + 1).catch(complainedOf)}
+            onClick={() => inTurn(() => acceptGuess(place + 1).catch(complainedOf))}
           >
             Accept
           </Button>
         )}
-        <Button onClick={() => void draftStep(place, sound?.select)} tip="Select the hulls yourself">
+        <Button onClick={() => inTurn(() => draftStep(place, sound?.select))} tip="Select the hulls yourself">
           {count ? "Correct…" : "Show it…"}
         </Button>
         {isNext && (count > 0 || !sound) && (
           <Button
             look="quiet"
-            onClick={() => void say(view.asset, place, [])}
+            onClick={() => inTurn(() => say(view.asset, place, []))}
             tip="The rule selects nothing on this asset"
           >
             Nothing here

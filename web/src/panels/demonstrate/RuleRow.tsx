@@ -1,6 +1,7 @@
 // One rule on the asset in hand: shown, nothing here, or open, then with a guess to accept or to correct.
 import { Check, Circle, CircleDashed, CircleOff, Ellipsis } from "lucide-react";
 import { useEffect } from "react";
+import { inTurn } from "../../commands/turns";
 import { useDesk } from "../../store/desk";
 import { draftStep } from "../../store/beginning";
 import { useGuesses } from "../../store/guesses";
@@ -45,7 +46,7 @@ export function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
         type="button"
         className={css.ruleText}
         title={isOpen ? "Show it here" : "Change what is shown here"}
-        onClick={() => void draftStep(place, isOpen ? guess?.select : undefined)}
+        onClick={() => inTurn(() => draftStep(place, isOpen ? guess?.select : undefined))}
         onFocus={() => light(view, names, place)}
         onBlur={unlight}
       >

@@ -1,6 +1,7 @@
 // The project's templates, one of which is taken; more are uploaded by choosing or dropping files.
 import { FileBox, Upload } from "lucide-react";
 import { type DragEvent, useRef, useState } from "react";
+import { inTurn } from "../../commands/turns";
 import { api } from "../../server/api";
 import { useProject } from "../../store/project";
 import { complainedOf } from "../../store/toasts";
@@ -13,11 +14,16 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
   const [over, setOver] = useState(false);
   const [sending, setSending] = useState(false);
   const all = value && !templates.includes(value) ? [...templates, value] : templates;
-  const take = async (files: FileList) => {
+  const take = async (files: readonly File[]) => {
     setSending(true);
-    const name = await uploaded([...files]);
+    const name = await uploaded(files);
     setSending(false);
     if (name !== null) onChange(name);
+  };
+  // the list is emptied while its files are on their way
+  const receive = (list: FileList) => {
+    const files = [...list];
+    inTurn(() => take(files));
   };
   const drag = (is: boolean) => (event: DragEvent) => {
     event.preventDefault();
@@ -34,7 +40,7 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
       onDragLeave={drag(false)}
       onDrop={(event) => {
         drag(false)(event);
-        void take(event.dataTransfer.files);
+        receive(event.dataTransfer.files);
       }}
     >
       {all.map((name) => (
@@ -66,7 +72,7 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
         hidden
         aria-label="Template files"
         onChange={(event) => {
-          if (event.target.files) void take(event.target.files);
+          if (event.target.files) receive(event.target.files);
           event.target.value = "";
         }}
       />

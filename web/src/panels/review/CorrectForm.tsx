@@ -1,7 +1,6 @@
 // The action in hand, done to the result: a preview, and Enter keeps it as an edit by hand.
 import { useEffect } from "react";
 import { showPresent } from "../../commands/reviewing";
-import { acceptDraft } from "../../store/drafting";
 import { useDesk } from "../../store/desk";
 import { followPreview } from "../../store/previewing";
 import { DraftForm } from "../demonstrate/DraftForm";
@@ -17,7 +16,7 @@ export function CorrectForm({ asset }: { asset: string }) {
   return (
     <div className={css.correcting} ref={toView}>
       <p className={css.dim}>Select hulls of the result; the edit is kept for this asset alone, and done again after the program.</p>
-      <DraftForm onAccept={() => void acceptDraft()} />
+      <DraftForm />
     </div>
   );
 }

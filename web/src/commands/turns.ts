@@ -1,0 +1,18 @@
+// Commands in turn: while one is still on its way, keys that are typed ahead wait for it.
+let last: Promise<unknown> | null = null;
+
+/** Whether a command is on its way. */
+export const isBusy = (): boolean => last !== null;
+
+/** Runs something once all before it is done; where it returns a promise, what comes after waits for it. */
+export function inTurn(run: () => unknown): void {
+  follow(last === null ? run() : last.then(run));
+}
+
+function follow(result: unknown): void {
+  if (!(result instanceof Promise)) return;
+  const mine = result.finally(() => {
+    if (last === mine) last = null;
+  });
+  last = mine;
+}
