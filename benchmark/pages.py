@@ -45,7 +45,7 @@ PAGES = (
     Page(
         "studio",
         "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
-        ("opening", "moving", "scrolling"),
+        ("opening", "moving", "relearning", "scrolling"),
         ("fastapi", "uvicorn", "playwright"),
     ),
 )

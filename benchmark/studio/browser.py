@@ -17,6 +17,7 @@ FLAGS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
+    "--disable-gpu-compositing",  # as where there is no graphics card: only the view is drawn by way of OpenGL
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-quic",
@@ -60,10 +61,10 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
-def seen(browser: Browser, address: str, asset: str) -> Page:
-    """A page of a browser that knows nothing of the studio yet, once it shows an asset."""
+def seen(browser: Browser, address: str, asset: str, watch: str = "") -> Page:
+    """A page of a browser that knows nothing of the studio yet, once it shows an asset; watch: a script more."""
     page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
-    page.add_init_script(WATCH)
+    page.add_init_script(WATCH + watch)
     page.goto(address)
     page.wait_for_function("id => id in window.watched.ready", arg=asset)
     return page

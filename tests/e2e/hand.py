@@ -18,6 +18,7 @@ FLAGS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
+    "--disable-gpu-compositing",  # as where there is no graphics card: only the view is drawn by way of OpenGL
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-quic",

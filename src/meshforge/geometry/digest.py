@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import hashlib
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from meshforge.geometry.shapes import Polytope, Shape
 
+_known: WeakKeyDictionary[Polytope, str] = WeakKeyDictionary()
+"""Polytopes never change, and labels are looked up by their digests again and again."""
+
 
 def digest(shape: Shape) -> str:
     """Sixteen hexadecimal digits of the shape's kind and its vertices in single precision, in sorted order."""
-    vertices = shape.vertices if isinstance(shape, Polytope) else shape.tessellated().vertices
-    rounded = np.unique(vertices.astype(np.float32) + np.float32(0), axis=0)
+    if not isinstance(shape, Polytope):
+        return _made(shape)
+    known = _known.get(shape)
+    if known is None:
+        known = _known[shape] = _made(shape)
+    return known
+
+
+def _made(shape: Shape) -> str:
+    rounded = np.unique(shape.vertices.astype(np.float32) + np.float32(0), axis=0)
     return hashlib.blake2b(shape.kind.encode() + rounded.tobytes(), digest_size=8).hexdigest()
 
 

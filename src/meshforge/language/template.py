@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from meshforge.errors import ProgramError
 from meshforge.geometry import Aabb, Shape
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Template:
     """The convex shapes of one template file, in the file's own frame; name: the path as programs write it."""
 
@@ -19,6 +21,15 @@ class Template:
     def __post_init__(self) -> None:
         if not self.shapes:
             raise ProgramError("a template needs at least one convex hull, it has none", where=self.name)
+
+    @cached_property
+    def digest(self) -> str:
+        """Thirty-two hexadecimal digits of its shapes, to the last bit: what is made of it follows from them."""
+        data = hashlib.blake2b(digest_size=16)
+        for shape in self.shapes:
+            for part in (shape.kind.encode(), shape.vertices.tobytes(), shape.faces.tobytes()):
+                data.update(len(part).to_bytes(8, "little") + part)
+        return data.hexdigest()
 
     @property
     def aabb(self) -> Aabb:

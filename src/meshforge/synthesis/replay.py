@@ -78,9 +78,11 @@ def _applied(replay: Replay, mask: int, rule: Rule, templates: Mapping[str, Temp
     def applied() -> Applied:
         return apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
 
-    if not mask or rule.action.templates:  # nothing to do, or files that may change
+    wanted = rule.action.templates
+    if not mask or any(name not in templates for name in wanted):  # nothing to do, or it fails
         return applied()
-    return remembered(replay.mesh, (mask, rule.action, rule.label, replay.used), Applied, applied)
+    made_of = tuple(templates[name].digest for name in wanted)
+    return remembered(replay.mesh, (mask, rule.action, rule.label, replay.used, made_of), Applied, applied)
 
 
 def _shown(replay: Replay, number: int) -> int:

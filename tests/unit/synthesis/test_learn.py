@@ -6,7 +6,7 @@ from itertools import count
 
 import pytest
 
-from meshforge.errors import ProgramError
+from meshforge.errors import DemonstrationError, ProgramError
 from meshforge.language import (
     All,
     Attach,
@@ -19,11 +19,13 @@ from meshforge.language import (
     Orient,
     Replace,
     Rule,
+    Template,
 )
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, NoProgram, Options, Step, TimedOut, synthesize
 from meshforge.synthesis.watch import Clock
 from tests.synthesis_boxes import boxes
+from tests.unit.language.scenes import box
 
 CUPBOARD = boxes(
     ("case", "body", (0, 0, 0), (4, 4, 4)),
@@ -180,3 +182,14 @@ def test_no_time_at_all_gives_no_rule() -> None:
     outcome = synthesize([demo], options=Options(budget=0), clock=ticking())
     assert isinstance(outcome, TimedOut)
     assert outcome.rules == ()
+
+
+def test_a_template_that_changed_is_another_one_though_its_name_is_the_same() -> None:
+    part, other = box([0, 0, 0], [1, 1, 1]), box([2, 0, 0], [3, 1, 1])
+    shown = Demonstration(CUPBOARD, [Step(1, {"drawer"}, Replace("tray.obj")), Step(2, {"drawer~2"}, Delete())])
+    both = synthesize([shown], templates={"tray.obj": Template((part, other), "tray.obj")})
+    assert isinstance(both, Found | Ambiguous)
+    with pytest.raises(DemonstrationError, match="drawer~2"):
+        synthesize([shown], templates={"tray.obj": Template((part,), "tray.obj")})
+    assert Template((part,), "a").digest == Template((box([0, 0, 0], [1, 1, 1]),), "b").digest
+    assert len({Template(shapes, "a").digest for shapes in ((part,), (other,), (part, other), (other, part))}) == 4

@@ -34,14 +34,14 @@ class Following:
         changes = changes_of(desk.project, names)
         if changes.settings:
             self.reopen()
+        if changes.lesson:  # first of all, as it takes longest
+            desk.lessons.restart()
         other = self.show_program() if changes.settings or changes.program else False
         desk.shown.tell_assets(sorted(changes.assets), bool(changes.shapes))
         desk.chores.add(changes.assets, later=changes.settings)
         if changes.reviews:
             desk.chores.add(self._reviewed())
-        if changes.lesson:
-            desk.lessons.restart()
-        elif other:
+        if other and not changes.lesson:
             desk.lessons.measure()
 
     def show_program(self) -> bool:

@@ -13,7 +13,7 @@ from meshforge.studio.learner import Learner
 from meshforge.studio.state.shown import Shown
 from meshforge.studio.wire.lesson import Generalised, LessonView, Reach
 
-PAUSE = 0.05
+PAUSE = 0.03
 """Seconds that a change waits for the next one before a lesson begins."""
 PATIENCE = 30.0
 """Seconds to wait for a lesson that was told to stop."""

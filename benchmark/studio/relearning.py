@@ -1,0 +1,134 @@
+"""How long it takes until what is learned follows a change that a person makes."""
+
+from __future__ import annotations
+
+import json
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+from playwright.sync_api import Page
+from websockets.sync.client import connect
+
+from benchmark.report import Goal, Result, Table, Tell
+from benchmark.studio.browser import chromium, seen, studio
+from meshforge.cli.tables import demonstrated_tables
+
+OPEN, SHOWN = "table_05.obj", "table_08.obj"
+"""A table of which nothing is shown, and one that demonstrates."""
+LESSONS = """
+window.lessons = [];
+const Before = window.WebSocket;
+window.WebSocket = class extends Before {
+  constructor(...given) {
+    super(...given);
+    this.addEventListener('message', ({ data }) => {
+      const event = JSON.parse(data);
+      if (event.kind === 'lesson' && !event.learning) requestAnimationFrame(() => lessons.push(performance.now()));
+    });
+  }
+};
+"""
+"""Notes when what was learned is on the page [ms since the page was asked for]."""
+
+Change = Callable[[], None]
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """On the bundled tables, of which two show five rules: change a label, or a step, and wait for the lesson."""
+    turns = 2 if quick else 10
+    with tempfile.TemporaryDirectory() as folder:
+        project = demonstrated_tables(Path(folder) / "tables")
+        with studio(project.folder) as address:
+            with chromium() as browser:
+                page = seen(browser, address, project.assets()[0], LESSONS)
+                page.wait_for_timeout(4000)  # the first lesson is longer than those that are measured
+                rows = []
+                for what, changes in (
+                    ("a label on a table of which nothing is shown", _labels(page, OPEN)),
+                    ("a label on a table that demonstrates", _labels(page, SHOWN)),
+                    ("a step taken away, and put back", _steps(page, SHOWN)),
+                ):
+                    tell(f"relearning: {what}")
+                    rows.append(_row(what, [_learned(page, next(changes)) for _ in range(2 * turns)]))
+            tell("relearning: without a browser")
+            bare = _row("a label, told to a client that draws nothing", _told(address, 2 * turns))
+    return Result(
+        "relearning",
+        "Learning anew while a person works",
+        (Table("From the key to the program on the page, ms", ("", "median", "slowest"), (*rows, bare)),),
+        (Goal("ms from a changed label to what is learned from it, nothing drawn beside", "at most", 200, bare[1]),),
+        (
+            "Fourteen tables, two demonstrations of five rules; every other change takes back the one before. "
+            "In the browser the picture is drawn anew at the same time, by the same two cores that learn; "
+            "the last row is what is left where a graphics card draws.",
+        ),
+    )
+
+
+def _row(what: str, times: list[float]) -> tuple[str, float, float]:
+    return what, statistics.median(times), max(times)
+
+
+def _told(address: str, turns: int) -> list[float]:
+    """From the request to the lesson, at a client without a picture [ms]."""
+    base, _, token = address.partition("/?token=")
+    headers, times = {"Authorization": f"Bearer {token}"}, []
+    with (
+        connect(f"{base.replace('http', 'ws')}/ws?token={token}", max_size=None) as socket,
+        httpx.Client(base_url=base, headers=headers, timeout=60) as client,
+    ):
+        for turn in range(turns):
+            time.sleep(0.5)
+            began = time.perf_counter()
+            label = ("misc", "panel")[turn % 2]
+            edit = {"kind": "label", "asset": OPEN, "hulls": ["convex_02"], "label": label}
+            client.post("/api/edit", json=edit).raise_for_status()
+            while not _is_lesson(json.loads(socket.recv())):
+                pass
+            times.append(1000 * (time.perf_counter() - began))
+    return times
+
+
+def _is_lesson(event: dict[str, Any]) -> bool:
+    return event["kind"] == "lesson" and not event["learning"]
+
+
+def _labels(page: Page, asset: str) -> Iterator[Change]:
+    """A hull gets another label, and its own again."""
+    page.keyboard.press("Alt+1")
+    _open(page, asset)
+    row = page.locator('[role=row][data-name="convex_02"]')
+    row.scroll_into_view_if_needed()
+    while True:
+        row.click()
+        yield lambda: page.keyboard.press("5")
+        yield lambda: page.keyboard.press("Control+z")
+
+
+def _steps(page: Page, asset: str) -> Iterator[Change]:
+    """The last step is taken away and comes back."""
+    page.keyboard.press("Alt+2")
+    _open(page, asset)
+    while True:
+        yield lambda: page.keyboard.press("Backspace")
+        yield lambda: page.keyboard.press("Control+z")
+
+
+def _open(page: Page, asset: str) -> None:
+    page.get_by_role("option", name=asset).first.click()
+    page.wait_for_function("id => id in window.watched.ready", arg=asset)
+
+
+def _learned(page: Page, change: Change) -> float:
+    """The time from the key of a change to the lesson [ms]."""
+    page.wait_for_timeout(500)  # a person looks
+    before = page.evaluate("() => window.lessons.length")
+    change()
+    page.wait_for_function("count => window.lessons.length > count", arg=before)
+    milliseconds: float = page.evaluate("() => window.lessons.at(-1) - window.watched.keys.at(-1)")
+    return milliseconds
