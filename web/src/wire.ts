@@ -616,7 +616,8 @@ export interface RuleView {
   readings: number;
 }
 /**
- * What a lesson came to. number: counts lessons; program: its text, null where there is none.
+ * What a lesson came to. number: counts lessons; program: its text, null where there is none; looked_at: how many
+ * assets were looked at, of very many not all.
  *
  * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
  * where a rule has no extractor. stale: ids of answers that no longer fit.
@@ -625,6 +626,7 @@ export interface LessonView {
   number: number;
   status: "found" | "ambiguous" | "repair" | "none" | "timeout" | "error";
   program: string | null;
+  looked_at: number;
   rules: RuleView[];
   settled: boolean;
   readings: ReadingView[];

@@ -67,6 +67,7 @@ function Face({ card, large }: { card: CardData; large: boolean }) {
   const [over, setOver] = useState(false);
   const results = useDesk((desk) => desk.stage === "review" && desk.highlight === null);
   const marked = useDesk((desk) => (desk.highlight ? (desk.highlight.assets[card.asset] ?? NONE) : undefined));
+  const isKnown = marked !== NONE;
   const edited = results && card.edited_picture !== null && card.output !== "failed";
   const showing = edited && !(large && over) ? "output" : "source";
   if (card.hulls === null) return <div className={css.skeleton} aria-hidden />;
@@ -80,7 +81,7 @@ function Face({ card, large }: { card: CardData; large: boolean }) {
   return (
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
-      {marked && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
+      {marked && isKnown && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
       {card.hulls === 0 && card.sources > 0 && (
         <span className={css.over}>
           <MakeHulls asset={card.asset} />

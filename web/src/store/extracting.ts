@@ -4,6 +4,7 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { Mark, Selected } from "../wire";
 import { type DeskState, select, setHighlight, useDesk } from "./desk";
+import { type Spread, spreadOf } from "./lessons";
 import { useScenes } from "./scenes";
 import { complainedOf } from "./toasts";
 
@@ -14,7 +15,7 @@ interface ExtractingState {
   /** The text and the state of the asset that `found` is of. */
   of: string;
   /** How many hulls it selects on all assets, and on how many. */
-  family: { hulls: number; assets: number } | null;
+  family: Spread | null;
 }
 
 const nothing: ExtractingState = { text: "", found: null, of: "", family: null };
@@ -83,9 +84,7 @@ async function look(extractor: string, signal: AbortSignal): Promise<void> {
 async function spread(extractor: string, rule: number, signal: AbortSignal): Promise<void> {
   const { assets } = await api.generalise(extractor, rule, signal);
   if (signal.aborted) return;
-  const counts = Object.values(assets).map((hulls) => hulls.length);
-  const family = { hulls: counts.reduce((sum, n) => sum + n, 0), assets: counts.filter((n) => n > 0).length };
-  useExtracting.setState({ family });
+  useExtracting.setState({ family: spreadOf(Object.values(assets).map((hulls) => hulls.length)) });
   setHighlight({ what: extractor, assets });
 }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { LessonView, ReadingView } from "../wire";
-import { choiceText, differing, extractorOf, highlightOfRule, learnedDiffers, lessonSummary, reachOfRule, readingsOf } from "./lessons";
+import { choiceText, differing, extractorOf, highlightOfRule, learnedDiffers, lessonSummary, reachOfRule, readingsOf, spreadText } from "./lessons";
 import { emptyProject } from "./project";
 
 const lesson = (more: Partial<LessonView>): LessonView => ({
@@ -8,6 +8,7 @@ const lesson = (more: Partial<LessonView>): LessonView => ({
   status: "found",
   program: "Is(a) => Delete",
   rules: [],
+  looked_at: 0,
   settled: false,
   readings: [],
   repairs: [],
@@ -40,8 +41,19 @@ const reach = {
 
 describe("the summary of a lesson", () => {
   it("says that all readings agree once it is settled", () => {
-    const said = lessonSummary(lesson({ settled: true }), 60);
+    const said = lessonSummary(lesson({ settled: true, looked_at: 60 }), 60);
     expect(said).toEqual({ mood: "good", title: "Settled", more: "All readings agree on your 60 assets." });
+  });
+
+  it("says so where not all assets were looked at", () => {
+    const said = lessonSummary(lesson({ settled: true, looked_at: 400 }), 12_000);
+    expect(said.more).toBe("All readings agree on the 400 assets looked at, of your 12,000 assets.");
+    const spread = { hulls: 12, assets: 9, lookedAt: 400 };
+    expect([spreadText(spread, 12_000), spreadText(spread, 400), spreadText({ ...spread, hulls: 0 }, 400)]).toEqual([
+      "12 hulls on 9 assets of the 400 looked at",
+      "12 hulls on 9 assets",
+      "selects nothing on any asset",
+    ]);
   });
 
   it("names where a less believable reading differs", () => {
@@ -68,7 +80,7 @@ describe("what a rule reaches", () => {
   });
 
   it("is counted in hulls and in assets that have some", () => {
-    expect(reachOfRule(reach, 1)).toEqual({ hulls: 2, assets: 1 });
+    expect(reachOfRule(reach, 1)).toEqual({ hulls: 2, assets: 1, lookedAt: 3 });
     expect(reachOfRule({}, 1)).toBeNull();
   });
 });

@@ -1,7 +1,7 @@
 // What a lesson came to, in words, and what a rule reaches; knows neither DOM nor three.js.
 import type { ChoiceView, LessonView, ProgramView, Reach, ReadingView, RuleView } from "../wire";
 import type { Highlight } from "./desk";
-import { counted, listed, shortName } from "./words";
+import { among, counted, listed, shortName } from "./words";
 
 /** How learning stands: a title, what more there is to say, and whether that is good. */
 export interface Summary {
@@ -13,11 +13,12 @@ export interface Summary {
 /** From which belief on another reading is worth a look; the same as in the synthesis. */
 const BELIEVABLE = 0.005;
 
+/** assets: how many there are to be learned from. */
 export function lessonSummary(lesson: LessonView | null, assets: number): Summary {
   if (!lesson) return summary("plain", "Nothing is demonstrated yet", "Show the steps on an asset; the program comes by itself.");
   switch (lesson.status) {
     case "found":
-      return lesson.settled ? settled(assets) : almost(lesson);
+      return lesson.settled ? settled(lesson.looked_at, assets) : almost(lesson);
     case "ambiguous":
       return summary("warn", "One question is open", "The program does what you showed; your answer decides the rest.");
     case "repair": {
@@ -33,8 +34,9 @@ export function lessonSummary(lesson: LessonView | null, assets: number): Summar
   }
 }
 
-function settled(assets: number): Summary {
-  const where = assets === 1 ? "your one asset" : `your ${assets.toLocaleString("en-GB")} assets`;
+function settled(lookedAt: number, assets: number): Summary {
+  const all = assets === 1 ? "your one asset" : `your ${counted(assets, "asset")}`;
+  const where = lookedAt < assets ? `the ${counted(lookedAt, "asset")} looked at, of ${all}` : all;
   return summary("good", "Settled", `All readings agree on ${where}.`);
 }
 
@@ -58,11 +60,30 @@ export function highlightOfRule(reach: Readonly<Record<string, Reach>>, rule: nu
   return { what: `rule ${rule}`, assets: Object.fromEntries(rows) };
 }
 
-/** On how many assets a rule (from 1) selects something, and how many hulls in all; null while it is not known. */
-export function reachOfRule(reach: Readonly<Record<string, Reach>>, rule: number): { hulls: number; assets: number } | null {
-  const counts = Object.values(reach).flatMap(({ rules }) => rules[rule - 1]?.length ?? []);
-  if (!counts.length) return null;
-  return { hulls: counts.reduce((sum, count) => sum + count, 0), assets: counts.filter((count) => count > 0).length };
+/** On how many assets something is selected, how many hulls in all, and how many assets were looked at for that. */
+export interface Spread {
+  readonly hulls: number;
+  readonly assets: number;
+  readonly lookedAt: number;
+}
+
+/** counts: hulls that are selected on each asset. */
+export function spreadOf(counts: readonly number[], lookedAt = counts.length): Spread {
+  const hulls = counts.reduce((sum, count) => sum + count, 0);
+  return { hulls, assets: counts.filter((count) => count > 0).length, lookedAt };
+}
+
+/** How far a rule (from 1) reaches; null while it is not known. */
+export function reachOfRule(reach: Readonly<Record<string, Reach>>, rule: number): Spread | null {
+  const rows = Object.values(reach);
+  const counts = rows.flatMap(({ rules }) => rules[rule - 1]?.length ?? []);
+  return counts.length ? spreadOf(counts, rows.length) : null;
+}
+
+/** assets: how many there are. */
+export function spreadText({ hulls, assets, lookedAt }: Spread, all: number): string {
+  const of = among(lookedAt, all);
+  return hulls ? `${counted(hulls, "hull")} on ${counted(assets, "asset")}${of}` : `selects nothing on any asset${of}`;
 }
 
 /** The readings of a rule, the one of the program first, then the most believable. */

@@ -127,6 +127,10 @@ export function receive(event: Event): void {
   useProject.setState((state) => received(state, event), true);
 }
 
+/** How many assets could be read. */
+export const readable = (cards: ProjectState["cards"]): number =>
+  Object.values(cards).filter((card) => card.hulls !== null).length;
+
 function byAsset<T extends { asset: string }>(rows: readonly T[]): Record<string, T> {
   return Object.fromEntries(rows.map((row) => [row.asset, row]));
 }

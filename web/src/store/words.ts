@@ -12,6 +12,11 @@ export function listed(words: readonly string[], most = 4): string {
   return all.length < 2 ? all.join("") : `${all.slice(0, -1).join(", ")} and ${all.at(-1)}`;
 }
 
+/** How many assets a count is of, where that is not all of them: ` of the 400 looked at`. */
+export function among(lookedAt: number, assets: number): string {
+  return lookedAt < assets ? ` of the ${lookedAt.toLocaleString("en-GB")} looked at` : "";
+}
+
 /** The name of an asset without the folders it lies in. */
 export function shortName(asset: string): string {
   return asset.slice(asset.lastIndexOf("/") + 1);

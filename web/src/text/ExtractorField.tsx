@@ -5,6 +5,8 @@ import { Popover } from "radix-ui";
 import { useEffect, useMemo, useState } from "react";
 import { left, takeFound, typed, useExtracting } from "../store/extracting";
 import { askLanguage } from "../store/language";
+import { spreadText } from "../store/lessons";
+import { readable, useProject } from "../store/project";
 import { Button } from "../ui/Button";
 import { counted } from "../store/words";
 import { editing } from "./editing";
@@ -63,6 +65,7 @@ export function ExtractorField() {
 function Found() {
   const found = useExtracting((state) => state.found);
   const family = useExtracting((state) => state.family);
+  const assets = useProject((state) => readable(state.cards));
   if (!found) return <p role="status">Looking…</p>;
   if (found.mark)
     return (
@@ -76,7 +79,7 @@ function Found() {
       <div className={css.use}>
         <span>
           <strong>{counted(found.select.length, "hull")}</strong> here
-          {family && `, ${family.hulls} on ${counted(family.assets, "asset")}`}
+          {family && `; in the family ${spreadText(family, assets)}`}
         </span>
         <Button
           look="primary"

@@ -19,8 +19,8 @@ from meshforge.studio.wire.lesson import (
 from meshforge.synthesis import Choice, NoProgram, Outcome, Question, Reading, Repair
 
 
-def lesson_view(number: int, outcome: Outcome, seconds: float) -> LessonView:
-    """What a lesson came to; number: which one it is; seconds: the time it took."""
+def lesson_view(number: int, outcome: Outcome, looked_at: int, seconds: float) -> LessonView:
+    """What a lesson came to; number: which one it is; looked_at: how many assets were; seconds: the time it took."""
     counts = Counter(reading.rule for reading in outcome.readings)
     failure = outcome if isinstance(outcome, NoProgram) else None
     suggested = failure.suggested if failure else None
@@ -28,6 +28,7 @@ def lesson_view(number: int, outcome: Outcome, seconds: float) -> LessonView:
         number=number,
         status=outcome.status,
         program=str(outcome.program) if outcome.program else None,
+        looked_at=looked_at,
         rules=rule_views(outcome.program or Program(rules=outcome.rules), counts),
         settled=outcome.settled,
         readings=tuple(map(_reading, outcome.readings)),

@@ -41,7 +41,7 @@ def learn(folder: Path, ticket: Ticket, number: int, take: bool) -> LessonView:
         return LessonView(number=number, status="timeout", seconds=perf_counter() - begun)
     except MeshForgeError as error:
         return LessonView(number=number, status="error", error=error.message, seconds=perf_counter() - begun)
-    return lesson_view(number, outcome, perf_counter() - begun)
+    return lesson_view(number, outcome, len(meshes), perf_counter() - begun)
 
 
 def reach(folder: Path, ticket: Ticket, program: str) -> tuple[Reach, ...] | None:

@@ -82,7 +82,8 @@ class HintView(Wire):
 
 
 class LessonView(Wire):
-    """What a lesson came to. number: counts lessons; program: its text, null where there is none.
+    """What a lesson came to. number: counts lessons; program: its text, null where there is none; looked_at: how many
+    assets were looked at, of very many not all.
 
     error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
     where a rule has no extractor. stale: ids of answers that no longer fit.
@@ -91,6 +92,7 @@ class LessonView(Wire):
     number: int
     status: Status
     program: str | None = None
+    looked_at: int = 0
     rules: tuple[RuleView, ...] = ()
     settled: bool = False
     readings: tuple[ReadingView, ...] = ()

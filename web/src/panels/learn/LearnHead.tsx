@@ -2,7 +2,7 @@
 import { Check, CircleAlert, CircleHelp, GraduationCap, LoaderCircle, Square } from "lucide-react";
 import { learnNow, stopLearning } from "../../commands/learning";
 import { lessonSummary, type Summary } from "../../store/lessons";
-import { useProject } from "../../store/project";
+import { readable, useProject } from "../../store/project";
 import { Button } from "../../ui/Button";
 import css from "./learn.module.css";
 
@@ -36,8 +36,8 @@ export function LearnHead() {
 function State() {
   const lesson = useProject((state) => state.lesson);
   const learning = useProject((state) => state.learning);
-  const readable = useProject((state) => Object.values(state.cards).filter((card) => card.hulls !== null).length);
-  const said = lessonSummary(lesson, readable);
+  const assets = useProject((state) => readable(state.cards));
+  const said = lessonSummary(lesson, assets);
   const Icon = learning ? LoaderCircle : ICONS[said.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">

@@ -2,8 +2,8 @@
 import { ChevronRight } from "lucide-react";
 import { memo, useState } from "react";
 import { setHighlight } from "../../store/desk";
-import { extractorOf, highlightOfRule, reachOfRule, readingsOf } from "../../store/lessons";
-import { useProject } from "../../store/project";
+import { extractorOf, highlightOfRule, reachOfRule, readingsOf, spreadText } from "../../store/lessons";
+import { readable, useProject } from "../../store/project";
 import { counted } from "../../store/words";
 import type { RuleView } from "../../wire";
 import css from "./learn.module.css";
@@ -60,15 +60,12 @@ function usePointing({ rule, text }: RuleView, accepted: boolean): { on: () => v
 
 /** How much the rule selects in the family, and how many readings of it there are. */
 function Facts({ rule, accepted, learned }: RuleRowProps) {
-  const selects = useProject((state) => (accepted ? reachText(reachOfRule(state.reach, rule.rule)) : null));
+  const selects = useProject(({ reach, cards }) => {
+    const found = accepted ? reachOfRule(reach, rule.rule) : null;
+    return found && spreadText(found, readable(cards));
+  });
   const readings = useProject((state) => (learned ? readingsOf(state.lesson, rule).length : 0));
   const fit = readings > 1 ? `${counted(readings, "reading")} fit` : readings === 1 ? "the only reading" : null;
   const facts = [selects, fit].filter((fact) => fact !== null).join(" · ");
   return facts ? <span className={css.facts}>{facts}</span> : null;
-}
-
-function reachText(found: ReturnType<typeof reachOfRule>): string | null {
-  if (!found) return null;
-  if (!found.hulls) return "selects nothing anywhere";
-  return `${counted(found.hulls, "hull")} on ${counted(found.assets, "asset")}`;
 }
