@@ -66,7 +66,7 @@ def _reviewing(page: Page, path: Path) -> None:
     """Before and after, divided by the slider."""
     page.keyboard.press("Alt+4")
     page.get_by_role("option", name="table_11.obj").first.click()
-    page.get_by_role("radio", name="Slider").last.click()
+    page.get_by_role("radio", name="Before and after with a line between them").click()
     page.wait_for_timeout(4000)
     page.screenshot(path=path)
 

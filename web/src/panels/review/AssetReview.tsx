@@ -10,7 +10,6 @@ import css from "./review.module.css";
 import { Trace } from "./Trace";
 import { useOf, useResult } from "./useResult";
 import { VerdictSection } from "./VerdictSection";
-import { ViewChoice } from "./ViewChoice";
 
 export function AssetReview() {
   const asset = useDesk((state) => state.asset);
@@ -22,7 +21,6 @@ export function AssetReview() {
 function OneAsset({ asset }: { asset: string }) {
   const of = useOf(asset);
   const result = useResult(asset, of);
-  const program = useProject((state) => state.program.text.trim() !== "");
   const told = useProject((state) => state.cards[asset]?.error != null);
   const correcting = useDesk((state) => state.draft !== null);
   return (
@@ -30,7 +28,6 @@ function OneAsset({ asset }: { asset: string }) {
       <VerdictSection asset={asset} />
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
-      {program && <ViewChoice asset={asset} of={of} />}
       {result.kind === "problem" && !told && (
         <Section title="Result">
           <Note mood="bad">
