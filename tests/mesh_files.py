@@ -11,6 +11,23 @@ import numpy as np
 
 from tests.soups import Soup
 
+ROOM = """\
+v 0 0 0
+v 4 0 0
+v 4 4 0
+v 0 4 0
+v 0 0 3
+v 4 0 3
+v 2 2 1
+f 1 2 7
+f 2 3 7
+f 3 4 7
+f 4 1 7
+f 1 5 2
+f 2 5 6
+"""
+"""An OBJ file of a floor with a peak in it and a wall: no convex hull, but hulls can be made of it."""
+
 
 def obj(soup: Soup) -> bytes:
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in soup[0].tolist()]

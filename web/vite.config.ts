@@ -11,6 +11,7 @@ const server = { target: `http://${studio}`, changeOrigin: true, headers: { orig
 export default defineConfig({
   base: "./",
   plugins: [react()],
+  css: { transformer: "lightningcss" },
   build: {
     outDir: "../src/meshforge/studio/static",
     emptyOutDir: true,

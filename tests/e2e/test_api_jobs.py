@@ -10,25 +10,11 @@ import pytest
 
 from meshforge.formats import load
 from tests.e2e.studio import Studio, ok, opened
+from tests.mesh_files import ROOM
 from tests.studio_project import demo_project
 from tests.unit.batch.families import tree
 
 FIRST, THIRD = "table_01.obj", "table_03.obj"
-ROOM = """\
-v 0 0 0
-v 4 0 0
-v 4 4 0
-v 0 4 0
-v 0 0 3
-v 4 0 3
-v 2 2 1
-f 1 2 7
-f 2 3 7
-f 3 4 7
-f 4 1 7
-f 1 5 2
-f 2 5 6
-"""
 
 
 @pytest.fixture

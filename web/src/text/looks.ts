@@ -4,7 +4,7 @@ import { EditorView } from "@codemirror/view";
 export const looks = EditorView.theme({
   "&": {
     color: "var(--text)",
-    backgroundColor: "var(--sunken)",
+    backgroundColor: "var(--raised)",
     border: "1px solid var(--line-strong)",
     borderRadius: "var(--radius)",
   },

@@ -70,5 +70,7 @@ function press(event: KeyboardEvent): void {
   event.preventDefault();
 }
 
+/** Whether Enter is for what has the focus; the choice of a direction, which Space takes, has no use for it. */
 const isOnButton = ({ target }: KeyboardEvent): boolean =>
-  target instanceof Element && target.matches("button:focus-visible, input, textarea, [contenteditable=true]");
+  target instanceof Element &&
+  target.matches("button:not([role=radio]):focus-visible, input, textarea, [contenteditable=true]");

@@ -1,0 +1,88 @@
+"""What is done to an asset before its demonstration, in the browser: labels from names, hulls made, hulls cut."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from meshforge.project import Project
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import opened
+from tests.e2e.walk import PAGE, address, go_to
+from tests.mesh_files import ROOM
+
+STOOL = """
+o seat_1
+v 0 0 1
+v 2 0 1
+v 2 2 1
+v 0 2 1
+v 1 1 1.5
+f 1 3 2
+f 1 4 3
+f 1 2 5
+f 2 3 5
+f 3 4 5
+f 4 1 5
+o leg_1
+v 0.5 0.5 0
+v 1 0.5 0
+v 0.5 1 0
+v 0.5 0.5 1
+f 6 8 7
+f 6 7 9
+f 7 8 9
+f 8 6 9
+"""
+
+
+def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: Path) -> None:
+    assets = tmp_path / "assets"
+    assets.mkdir()
+    (assets / "room.obj").write_text(ROOM, encoding="utf-8")
+    (assets / "stool.obj").write_text(STOOL, encoding="utf-8")
+    project = Project.create(tmp_path / "project", [assets / "*.obj"], vocabulary=("seat", "leg"))
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        person = hand(browser)
+        person.open(address(studio))
+        _label_by_names(person)
+        labels = {hull.name: (hull.label, hull.source) for hull in project.mesh("stool.obj").hulls}
+        assert labels == {"seat_1": ("seat", "name"), "leg_1": ("leg", "name")}
+        _cut_in_two(person)
+        assert len(project.mesh("stool.obj").hulls) == 3
+        person.press("Control+z")
+        _has_hulls(person, 2)
+        _make_hulls(person)
+        assert len(project.mesh("room.obj").hulls) > 1
+        assert not person.complaints
+
+
+def _label_by_names(person: Hand) -> None:
+    person.press("Alt+1")
+    go_to(person, "stool.obj")
+    person.click(person.page.get_by_role("button", name=re.compile("^From names")))
+    person.sees("Every hull is labelled")
+
+
+def _cut_in_two(person: Hand) -> None:
+    person.press("Alt+2")
+    person.hull("seat_1")
+    person.press("k")
+    person.click(person.page.get_by_role("radio", name="Across the Y axis"))
+    person.press("Enter")
+    _has_hulls(person, 3)
+
+
+def _make_hulls(person: Hand) -> None:
+    # in the middle of its card is a button that makes hulls, too
+    person.click(person.page.get_by_role("option", name="room.obj").first, position={"x": 8, "y": 8})
+    person.drawn("room.obj")
+    person.click("Decompose into hulls")
+    person.page.wait_for_function("() => document.querySelectorAll('[role=row][data-name]').length > 1")
+
+
+def _has_hulls(person: Hand, count: int) -> None:
+    person.page.wait_for_function(
+        "count => document.querySelectorAll('[role=row][data-name]').length === count", arg=count
+    )
