@@ -18,7 +18,7 @@ export const COLUMNS: readonly { column: Column; title: string; hint: string }[]
   { column: "label", title: "Label", hint: "Label" },
   { column: "volume", title: "Volume", hint: "Volume" },
   { column: "shape", title: "Shape", hint: "Primitive, or number of vertices" },
-  { column: "neighbours", title: "Next", hint: "Number of hulls that touch it" },
+  { column: "neighbours", title: "Touch", hint: "Number of hulls that touch it" },
 ];
 
 /** Clicking a head sorts by it, a second time the other way round, a third time not at all. */
