@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -33,6 +33,24 @@ def replacing(path: Path) -> Iterator[Path]:
     except BaseException:
         draft.unlink(missing_ok=True)
         raise
+
+
+Times = dict[Path, tuple[int, int] | None]
+"""Of files, what `changed_at` gives: where it is the same, they most likely hold the same."""
+
+
+def changed_at(path: Path) -> tuple[int, int] | None:
+    """When a file was changed last [ns] and its size [bytes], None where it is not there."""
+    try:
+        stat = path.stat()
+    except OSError:
+        return None
+    return stat.st_mtime_ns, stat.st_size
+
+
+def times_of(paths: Iterable[Path]) -> Times:
+    """When files were changed last, with their sizes."""
+    return {path: changed_at(path) for path in paths}
 
 
 def relative_name(path: Path, base: Path) -> str:

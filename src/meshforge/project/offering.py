@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.batch import labels_for
 from meshforge.errors import MeshForgeError
+from meshforge.files import changed_at
 from meshforge.formats import labels_beside
 from meshforge.project.labelling import is_kept
 from meshforge.project.naming import named_labels
@@ -41,7 +41,7 @@ class Offers:
         vocabulary, rows = project.vocabulary, {}
         for asset, facts in survey(project.found, project.layout, only).items():
             places = (project.layout.labels(asset), labels_beside(project.path(asset)))
-            state = (vocabulary, facts.times, facts.preparation, *map(_time, places))
+            state = (vocabulary, facts.times, facts.preparation, *map(changed_at, places))
             before, rows[asset] = self._known.get(asset, (None, _Offer()))
             if before != state:
                 rows[asset] = _offer(project, asset, facts, vocabulary)
@@ -79,11 +79,3 @@ def _has_news(
         return True
     news = ((present.get(name), label) for name, label in given.items() if not vocabulary or label.name in vocabulary)
     return any(now != label and not is_kept(now, label) for now, label in news)
-
-
-def _time(path: Path) -> tuple[int, int] | None:
-    try:
-        stat = path.stat()
-    except OSError:
-        return None
-    return stat.st_mtime_ns, stat.st_size

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Lock
@@ -11,6 +10,7 @@ from threading import Lock
 from meshforge.asset import Asset
 from meshforge.batch import Found, source_files
 from meshforge.errors import MeshForgeError
+from meshforge.files import Times, times_of
 from meshforge.preparation import read_prepared, record_digest
 from meshforge.project import Project
 from meshforge.studio.workers import Workers
@@ -18,8 +18,6 @@ from meshforge.symbolic import SymbolicMesh, follow_labels
 
 MOST = 80
 """Assets that are kept; the one that was not asked for longest goes."""
-
-Times = dict[Path, tuple[int, int] | None]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,12 +67,12 @@ class Meshes:
 
     def _fresh(self, project: Project, asset: str, path: Path) -> _Read:
         folder = project.layout.preparation(asset)
-        prepared, times = record_digest(folder), _times([*source_files(path), path])
+        prepared, times = record_digest(folder), times_of([*source_files(path), path])
         try:
             source: Asset = self._workers.run(read_prepared, path, folder)
         except MeshForgeError as error:
             raise error.at(str(path)) from None
-        return _Read(times | _times(source.files), prepared, SymbolicMesh.of(source))
+        return _Read(times | times_of(source.files), prepared, SymbolicMesh.of(source))
 
 
 @dataclass(frozen=True)
@@ -98,7 +96,7 @@ class KeptProject(Project):
 
 def _holds(read: _Read, project: Project, asset: str) -> bool:
     folder = project.layout.preparation(asset)
-    return record_digest(folder) == read.prepared and _times(read.times) == read.times
+    return record_digest(folder) == read.prepared and times_of(read.times) == read.times
 
 
 def _labelled(project: Project, asset: str, read: _Read, kept: _Labelled | None) -> _Labelled:
@@ -115,15 +113,3 @@ def _labelled(project: Project, asset: str, read: _Read, kept: _Labelled | None)
 def _bare(mesh: SymbolicMesh) -> SymbolicMesh:
     """The mesh without labels; what was measured between its hulls stays known."""
     return mesh.labelled(dict.fromkeys(mesh.index))
-
-
-def _times(paths: Iterable[Path]) -> Times:
-    return {path: _time(path) for path in paths}
-
-
-def _time(path: Path) -> tuple[int, int] | None:
-    try:
-        stat = path.stat()
-    except OSError:
-        return None
-    return stat.st_mtime_ns, stat.st_size

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from meshforge.batch import source_files
 from meshforge.errors import MeshForgeError
+from meshforge.files import Times, times_of
 from meshforge.preparation import RECORD
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, follow_labels
@@ -15,8 +15,6 @@ from meshforge.symbolic import SymbolicMesh, follow_labels
 LIFE = 64
 """Lessons after which memory is given back: each that meets a new rule leaves about 25 kB an asset (measured on tables
 of 40 hulls), and the lesson after that takes some tenths of a second longer."""
-
-Times = dict[Path, tuple[int, int] | None]
 
 
 class Stopped(Exception):  # noqa: N818 (not an error: nobody waits for the rest)
@@ -63,7 +61,7 @@ class Shelf:
 
     def _now(self, project: Project, asset: str, contact: float | None) -> _Kept:
         kept, labels = self._kept.get(asset), _labels(project, asset)
-        if kept is None or kept.contact != contact or _times(kept.times) != kept.times:
+        if kept is None or kept.contact != contact or times_of(kept.times) != kept.times:
             return _read(project, asset, contact, labels)
         if kept.labels == labels:
             return kept
@@ -74,13 +72,13 @@ class Shelf:
 
 def _read(project: Project, asset: str, contact: float | None, labels: bytes) -> _Kept:
     path = project.path(asset)
-    times = _times([path, *source_files(path), project.layout.preparation(asset) / RECORD])
+    times = times_of([path, *source_files(path), project.layout.preparation(asset) / RECORD])
     try:
         mesh = project.mesh(asset)
     except MeshForgeError:
         return _Kept(times, contact, labels, None)
     referred = mesh.asset.files if mesh.asset else ()
-    return _Kept(_times(referred) | times, contact, labels, mesh)
+    return _Kept(times_of(referred) | times, contact, labels, mesh)
 
 
 def _renewed(kept: _Kept) -> _Kept:
@@ -99,16 +97,3 @@ def _labelled(project: Project, asset: str, mesh: SymbolicMesh) -> SymbolicMesh 
 def _labels(project: Project, asset: str) -> bytes:
     path = project.layout.labels(asset)
     return path.read_bytes() if path.exists() else b""
-
-
-def _times(paths: Iterable[Path]) -> Times:
-    return {path: _time(path) for path in paths}
-
-
-def _time(path: Path) -> tuple[int, int] | None:
-    """When a file was changed [ns] and its size, None where it is gone."""
-    try:
-        stat = path.stat()
-    except OSError:
-        return None
-    return stat.st_mtime_ns, stat.st_size
