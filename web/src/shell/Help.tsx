@@ -64,7 +64,7 @@ function Content() {
         </Button>
         <IconButton icon={X} name="Close" keys="Escape" onClick={close} />
       </header>
-      <div className={css.scroll}>
+      <div className={css.scroll} tabIndex={0}>
         {!word && <How />}
         {none && <p className={css.none}>No command fits.</p>}
         <div className={css.groups}>
@@ -96,7 +96,7 @@ function How() {
 
 function Group({ name, commands }: { name: string; commands: readonly Command[] }) {
   return (
-    <section className={css.group} aria-label={name}>
+    <div className={css.group} role="group" aria-label={name}>
       <h3>{name}</h3>
       <dl>
         {folded(commands).map((command) => (
@@ -118,6 +118,6 @@ function Group({ name, commands }: { name: string; commands: readonly Command[] 
           </div>
         )}
       </dl>
-    </section>
+    </div>
   );
 }

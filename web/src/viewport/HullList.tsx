@@ -37,6 +37,7 @@ export function HullList() {
 }
 
 const HEIGHT = 26;
+const HEAD = 26; // the head stays in sight, over the rows
 
 interface RowsProps {
   scene: Scene;
@@ -52,11 +53,13 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const rows = useMemo(() => rowsOf(scene.hulls, scene.contacts, search, order), [scene, search, order]);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
   const opaque = scene.view.opaque.filter((piece) => isFound(search, piece.name, piece.reason, piece.body));
-  const body = useRef<HTMLDivElement>(null);
+  const grid = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
     count: rows.length + opaque.length,
-    getScrollElement: () => body.current,
+    getScrollElement: () => grid.current,
     estimateSize: () => HEIGHT,
+    scrollMargin: HEAD,
+    scrollPaddingStart: HEAD,
     overscan: 8,
   });
   const reveal = (index: number) => virtual.scrollToIndex(index, { align: "auto" });
@@ -67,16 +70,21 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
     keys.setActive(name);
   });
   return (
-    <div role="grid" aria-label="Hulls" aria-multiselectable aria-rowcount={rows.length + opaque.length + 1} className={css.grid}>
+    <div
+      ref={grid}
+      role="grid"
+      aria-label="Hulls"
+      aria-multiselectable
+      aria-rowcount={rows.length + opaque.length + 1}
+      aria-activedescendant={at >= 0 ? `hull-${at}` : undefined}
+      className={css.grid}
+      tabIndex={0}
+      data-first
+      onKeyDown={(event) => event.target === event.currentTarget && keys.onKeyDown(event)}
+    >
       <Head order={order} onOrder={onOrder} />
       <div
-        ref={body}
-        className={css.body}
         role="rowgroup"
-        tabIndex={0}
-        data-first
-        aria-activedescendant={at >= 0 ? `hull-${at}` : undefined}
-        onKeyDown={keys.onKeyDown}
         onClick={keys.onClick}
         onDoubleClick={keys.onDoubleClick}
       >
@@ -85,10 +93,10 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             const row = rows[index];
             if (row) {
               const { name } = row.hull;
-              return <HullRow key={name} row={row} tone={tone(row.hull)} active={index === at} index={index} top={start} />;
+              return <HullRow key={name} row={row} tone={tone(row.hull)} active={index === at} index={index} top={start - HEAD} />;
             }
             const piece = opaque[index - rows.length];
-            return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start} />;
+            return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;
           })}
         </div>
         {rows.length + opaque.length === 0 && <p className={css.none}>{search ? "No hull is found." : "No hulls."}</p>}

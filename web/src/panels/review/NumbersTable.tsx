@@ -13,7 +13,7 @@ export function NumbersTable({ before, edit }: { before: readonly HullView[]; ed
       <table className={css.numbers}>
         <thead>
           <tr>
-            <th scope="col" aria-label="What" />
+            <td />
             <th scope="col">Before</th>
             <th scope="col">After</th>
             <th scope="col">Change</th>
