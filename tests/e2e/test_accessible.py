@@ -20,7 +20,7 @@ _JUDGE = """
   rules: {
     // the handles between the columns stand in no landmark
     region: { enabled: false },
-    // it does not see that names hold the words of a card, with commas between them
+    // it does not see that names hold the words of a card, with signs between them
     'label-content-name-mismatch': { enabled: false },
   },
 })

@@ -1,4 +1,5 @@
-import { expect, test } from "vitest";
+import { afterEach, expect, test, vi } from "vitest";
+import { useToasts } from "../store/toasts";
 import { inTurn, isBusy } from "./turns";
 
 function slow() {
@@ -6,6 +7,10 @@ function slow() {
   const done = new Promise<void>((resolve) => (end = resolve));
   return { done, end };
 }
+
+afterEach(() => {
+  vi.useRealTimers();
+});
 
 test("what is quick is run at once", () => {
   const ran: string[] = [];
@@ -29,4 +34,23 @@ test("what is typed ahead waits, and means what it means then", async () => {
   await expect.poll(() => ran).toEqual(["full"]);
   second.end();
   await expect.poll(() => [ran, isBusy()]).toEqual([["full", "third"], false]);
+});
+
+test("what never ends does not hold up the keys for ever", async () => {
+  vi.useFakeTimers();
+  const ran: string[] = [];
+  inTurn(() => new Promise(() => undefined));
+  inTurn(() => ran.push("after"));
+  await vi.advanceTimersByTimeAsync(9000);
+  expect(ran).toEqual([]);
+  await vi.advanceTimersByTimeAsync(2000);
+  expect([ran, isBusy()]).toEqual([["after"], false]);
+});
+
+test("what fails is told, and does not keep what comes after it from its turn", async () => {
+  const ran: string[] = [];
+  inTurn(() => Promise.reject(new Error("no")));
+  inTurn(() => ran.push("after"));
+  await expect.poll(() => ran).toEqual(["after"]);
+  expect(useToasts.getState().toasts.map((toast) => toast.text)).toContain("no");
 });

@@ -1,4 +1,9 @@
 // Commands in turn: while one is still on its way, keys that are typed ahead wait for it.
+import { complainedOf } from "../store/toasts";
+
+/** What takes longer, as where the connection hangs, is no longer waited for [ms]. */
+const PATIENCE = 10_000;
+
 let last: Promise<unknown> | null = null;
 
 /** Whether a command is on its way. */
@@ -11,8 +16,11 @@ export function inTurn(run: () => unknown): void {
 
 function follow(result: unknown): void {
   if (!(result instanceof Promise)) return;
-  const mine = result.finally(() => {
-    if (last === mine) last = null;
-  });
+  const late = new Promise((pass) => setTimeout(pass, PATIENCE));
+  const mine = Promise.race([result, late])
+    .catch(complainedOf)
+    .finally(() => {
+      if (last === mine) last = null;
+    });
   last = mine;
 }

@@ -64,5 +64,5 @@ function flagged(card: Card): string {
 export function spoken(card: Card): string {
   const amount = card.hulls === null ? (card.error ?? "being read") : hulls(card.hulls);
   const after = card.after !== null && card.output !== "none" ? `, ${card.after} after` : "";
-  return [card.asset, amount + after, ...badges(card).map((badge) => badge.text)].join(", ");
+  return [card.asset, amount + after, ...badges(card).map((badge) => badge.text)].join("; ");
 }
