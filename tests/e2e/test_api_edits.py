@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -248,3 +249,18 @@ def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> N
         for _ in range(2):
             assert not ok(studio.post("/api/undo"))["nothing"]
         assert project.layout.labels(FIRST).read_bytes() == labels
+
+
+def test_a_program_by_hand_reaches_the_family_where_nothing_was_demonstrated(tmp_path: Path) -> None:
+    project = demo_project(tmp_path, demonstrated=False)
+    with opened(tmp_path, project.folder) as studio:
+        text = "labels panel, leg, handle, drawer, misc\n"
+        for rule in ("Is(misc) => Delete\n", "Is(leg) => Each(Merge)\n"):
+            text += rule
+            studio.edit("program", text=text, version=studio.settled()["program"]["version"])
+            hello = studio.until(partial(_all_reached, text.count("=>")))
+            assert any(row["rules"][-1] for row in hello["reach"])
+
+
+def _all_reached(rules: int, hello: dict[str, Any]) -> bool:
+    return [len(row["rules"]) for row in hello["reach"]] == [rules] * 14

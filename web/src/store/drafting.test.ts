@@ -90,6 +90,16 @@ afterEach(() => {
 });
 
 describe("an action in hand", () => {
+  it("leaves what was begun and selected while it was sent", async () => {
+    given([], []);
+    useDesk.setState({ draft: { action: "Delete", arguments: {}, each: false, label: "", editing: null }, selection: new Set(["x"]) });
+    const accepted = acceptDraft();
+    select(["y"]);
+    expect(await accepted).toBe(true);
+    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"], action: "Delete" }] });
+    expect(useDesk.getState()).toMatchObject({ draft: null, selection: new Set(["y"]) });
+  });
+
   it("begins as the first open rule of its kind does it elsewhere", async () => {
     given([step(["x"])], ["Delete", "Each(Replace(capsule, tight)) as leg"]);
     await startDraft("Replace");
@@ -193,16 +203,6 @@ describe("the preview", () => {
     await vi.advanceTimersByTimeAsync(100);
     expect(usePreview.getState().preview).toBeNull();
     stop();
-  });
-
-  it("leaves what was begun and selected while it was sent", async () => {
-    given([], []);
-    useDesk.setState({ draft: { action: "Delete", arguments: {}, each: false, label: "", editing: null }, selection: new Set(["x"]) });
-    const accepted = acceptDraft();
-    select(["y"]);
-    expect(await accepted).toBe(true);
-    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"], action: "Delete" }] });
-    expect(useDesk.getState()).toMatchObject({ draft: null, selection: new Set(["y"]) });
   });
 });
 

@@ -53,13 +53,17 @@ class Jobs:
             thread.join()
 
     def _run(self, running: Running, work: Work, out: str | None) -> None:
-        try:
-            message = work(running)
-        except StoppedError:
-            running.end("cancelled", "Cancelled: what was done by then stays.", out)
-        except Exception as error:  # what a job does wrong is told as its outcome
-            running.end("failed", told(error))
-        else:
-            running.end("done", message, out)
-        with self._lock:
+        end = _ended(running, work, out)
+        with self._lock:  # before pages are told, which may ask for the next one at once
             del self._running[running.job.id]
+        running.end(*end)
+
+
+def _ended(running: Running, work: Work, out: str | None) -> tuple[str, str, str | None]:
+    """How a job ended, what is said of that, and the folder that it wrote."""
+    try:
+        return "done", work(running), out
+    except StoppedError:
+        return "cancelled", "Cancelled: what was done by then stays.", out
+    except Exception as error:  # what a job does wrong is told as its outcome
+        return "failed", told(error), None

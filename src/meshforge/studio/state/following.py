@@ -34,9 +34,9 @@ class Following:
         changes = changes_of(desk.project, names)
         if changes.settings:
             self.reopen()
-        if changes.lesson:  # first of all, as it takes longest
-            desk.lessons.restart()
         other = self.show_program() if changes.settings or changes.program else False
+        if changes.lesson:  # before the rest, as it takes longest
+            desk.lessons.restart()
         desk.shown.tell_assets(sorted(changes.assets), bool(changes.shapes))
         desk.chores.add(changes.assets, later=changes.settings)
         if changes.reviews:
