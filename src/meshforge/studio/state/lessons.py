@@ -119,7 +119,7 @@ class Lessons:
             lesson = future.result()
         except CancelledError:
             return
-        except Exception as error:
+        except Exception as error:  # whatever it is, the page is told that the lesson is over
             lesson = LessonView(number=number, status="error", error=told(error))
         if number != self._number:
             return
