@@ -11,6 +11,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
+from benchmark.evaluation.page import write as write_page
 from benchmark.machine import machine
 from benchmark.pages import PAGES, Page, page_of, text_of
 from benchmark.report import Result, as_text
@@ -56,7 +57,10 @@ def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     write_atomically(out / f"{page.name}-{result.part}.json", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]
     found = [json.loads(f.read_text("utf-8")) for f in files if f.is_file()]
-    write_atomically(out / f"{page.name}.md", text_of(page, found))
+    if page.name == "evaluation":
+        write_page(out.parent if out == RESULTS else out, found)
+    else:
+        write_atomically(out / f"{page.name}.md", text_of(page, found))
 
 
 if __name__ == "__main__":

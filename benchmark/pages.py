@@ -43,6 +43,13 @@ PAGES = (
         aside=("calibrate",),
     ),
     Page(
+        "evaluation",
+        "",
+        ("ceiling", "calibration", "effectiveness", "comparison", "ablation", "correction", "scaling", "gallery"),
+        ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco"),
+        aside=("tuning",),
+    ),
+    Page(
         "studio",
         "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
         ("opening", "moving", "relearning", "scrolling"),

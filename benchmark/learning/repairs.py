@@ -45,12 +45,14 @@ class Noise:
     source: Source = "vlm"
 
 
-def spoilt(mesh: SymbolicMesh, errors: int, noise: Noise, rng: np.random.Generator) -> SymbolicMesh:
-    """The mesh with some labels wrong: those of touching or look-alike hulls."""
+def spoilt(
+    mesh: SymbolicMesh, errors: int, noise: Noise, rng: np.random.Generator, order: Sequence[int] | None = None
+) -> SymbolicMesh:
+    """The mesh with some labels wrong: those of touching or look-alike hulls; order: which hulls first."""
     rows = descriptors([mesh])
     rows = (rows - rows.mean(axis=0)) / np.maximum(rows.std(axis=0), 0.05)
     wrong: dict[int, str] = {}
-    for index in rng.permutation(len(mesh.hulls)).tolist():
+    for index in rng.permutation(len(mesh.hulls)).tolist() if order is None else order:
         if len(wrong) == errors:
             break
         own = mesh.hulls[index].label

@@ -1,0 +1,1 @@
+"""The eight generators, a file each: `LABELS`, `KINDS`, `RARE` and `build`."""

@@ -1,0 +1,45 @@
+"""RQ3, first part: the layers of the extractors, left out one by one."""
+
+from __future__ import annotations
+
+from benchmark.evaluation import paper
+from benchmark.evaluation.figures import Groups, by_task, fpr, shown, solved, spread
+from benchmark.evaluation.sessions import sessions
+from benchmark.report import Cell, Goal, Result, Table, Tell
+from benchmark.study import CONDITIONS, FULL
+from benchmark.tasks import DIFFICULTIES, task
+
+LAYERS = ("S", "S+T", "S+G")
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Teach all tasks with some layers missing."""
+    conditions = [*(CONDITIONS[name] for name in LAYERS), FULL]
+    rows = sessions(conditions, tell, quick)
+    groups = {condition.options.layers: by_task(rows, condition.name) for condition in conditions}
+    columns = ("layers", "SSR (paper)", "SSR", *(f"SSR, {level}" for level in DIFFICULTIES), "FPR", "demonstrations")
+    shares: dict[str, float] = {layers: solved(found) / max(len(found), 1) for layers, found in groups.items()}
+    missing = {layers: 100 * (shares["S+T+G"] - shares[layers]) for layers in LAYERS}
+    return Result(
+        "ablation",
+        "RQ3: layers of the extractors",
+        (Table("SSR with true labels", columns, tuple(_row(layers, found) for layers, found in groups.items())),),
+        tuple(Goal(f"SSR lost with {layers} alone, points", "at least", 0.1, lost) for layers, lost in missing.items()),
+        (
+            "S: `All` and `Is` under set operators; T: `Attach`; G: `Geo`. Orientation by landmarks is there in all.",
+            paper.CONDITIONS,
+        ),
+        tuple(row.to_json() for row in rows if row.condition in LAYERS),
+    )
+
+
+def _row(layers: str, groups: Groups) -> tuple[Cell, ...]:
+    levels = [{name: rows for name, rows in groups.items() if task(name).difficulty == level} for level in DIFFICULTIES]
+    return (
+        layers,
+        paper.LAYERS[layers],
+        f"{solved(groups)}/{len(groups)} = {solved(groups) / max(len(groups), 1):.3f}",
+        *(f"{solved(level)}/{len(level)}" for level in levels),
+        shown(spread(groups, fpr)),
+        shown(spread(groups, lambda row: len(row.shown)), 1),
+    )

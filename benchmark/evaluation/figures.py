@@ -1,0 +1,83 @@
+"""What sessions come to: means over demonstrators, then over tasks, as the paper has it."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from statistics import mean, stdev
+
+from benchmark.study import Session
+from benchmark.tasks import DIFFICULTIES, task
+
+Groups = Mapping[str, Sequence[Session]]
+"""Sessions by task."""
+
+
+def by_task(rows: Iterable[Session], condition: str) -> dict[str, list[Session]]:
+    """The sessions of a condition, task by task."""
+    found = defaultdict(list)
+    for row in rows:
+        if row.condition == condition:
+            found[row.task].append(row)
+    return dict(found)
+
+
+def of_difficulty(groups: Groups, difficulty: str) -> dict[str, Sequence[Session]]:
+    """The tasks of a difficulty, or `all`."""
+    return {name: rows for name, rows in groups.items() if difficulty in ("all", task(name).difficulty)}
+
+
+LEVELS = (*DIFFICULTIES, "all")
+
+
+def solved(groups: Groups) -> int:
+    """Tasks that all demonstrators taught rightly."""
+    return sum(all(row.right for row in rows) for rows in groups.values())
+
+
+def first_right(row: Session) -> int | None:
+    """Demonstrations plus answers at the first program that was right."""
+    return next((r.demonstrations + r.answers for r in row.rounds if r.right), None)
+
+
+def solved_at(groups: Groups, k: int) -> float:
+    """The share of tasks that all demonstrators have had right by then."""
+    firsts = [[first_right(row) for row in rows] for rows in groups.values()]
+    return mean(all(first is not None and first <= k for first in row) for row in firsts) if firsts else 0.0
+
+
+def spread(groups: Groups, figure: Callable[[Session], float | None]) -> tuple[float, float]:
+    """Mean and standard deviation over tasks of the mean over demonstrators; None is left out."""
+    rows = [[x for row in sessions if (x := figure(row)) is not None] for sessions in groups.values()]
+    means = [mean(row) for row in rows if row]
+    return (mean(means), stdev(means) if len(means) > 1 else 0.0) if means else (0.0, 0.0)
+
+
+def shown(pair: tuple[float, float], digits: int = 2) -> str:
+    """Mean and deviation as text."""
+    return f"{pair[0]:.{digits}f} ± {pair[1]:.{digits}f}"
+
+
+def fpr(row: Session) -> float:
+    """The share of the meshes, not demonstrated, that meet the criterion."""
+    return 1 - len(row.failures) / max(row.judged, 1)
+
+
+def fpr_pure(row: Session) -> float | None:
+    """The same of the meshes whose hulls that matter are of one part each."""
+    return 1 - row.failed_pure / row.judged_pure if row.judged_pure else None
+
+
+def synthesis(row: Session) -> float:
+    """Seconds of the tool, all rounds."""
+    return sum(r.seconds["all"] for r in row.rounds)
+
+
+def demonstrations(row: Session) -> float:
+    """How many meshes were demonstrated."""
+    return float(len(row.shown))
+
+
+def confirmations(row: Session) -> float:
+    """How many labels a person was asked about."""
+    return float(row.confirmed + row.refused)

@@ -1,0 +1,113 @@
+"""A static gallery: for each task a handful of assets, before and after, rule by rule; pictures load as needed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+
+from benchmark.assets import Sample
+from benchmark.assets.looking import upright
+from benchmark.evaluation.journal import ROOT, done
+from benchmark.evaluation.sessions import QUICK
+from benchmark.report import Result, Table, Tell
+from benchmark.tasks import Edited, Task, task, tasks
+from meshforge.files import write_atomically
+from meshforge.symbolic import SymbolicMesh
+from meshforge.views import joint_bounds, render, webp
+
+GALLERY = ROOT / "benchmark" / "gallery"
+_SIDE, _HANDFUL = 194, 4
+_STYLE = Path(__file__).with_suffix(".css")
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Draw all pictures, and write the page."""
+    folder = ROOT / ".bench" / "gallery" if quick else GALLERY
+    every = [one for one in tasks() if not quick or one.category == QUICK]
+    rows = done("gallery", drawn, [(one.name, str(folder.relative_to(ROOT))) for one in every], tell)
+    text = "".join(row["html"] for row in rows)
+    links = " ".join(f'<a href="#{one.name}">{one.name}</a>' for one in every)
+    style = _STYLE.read_text("utf-8")
+    head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>The 24 tasks</title><style>{style}</style>'
+    intro = (
+        "<h1>The 24 tasks, before and after</h1><p>The reference program of each task on some of its 75 meshes, rule "
+        "by rule: first the mesh as CoACD made it, coloured by label, then after each rule, what it made or left. "
+        "Written by <code>script/bench gallery</code>.</p>"
+    )
+    write_atomically(folder / "index.html", f"{head}{intro}<nav>{links}</nav>{text}</html>\n")
+    count = sum(row["pictures"] for row in rows)
+    return Result(
+        "gallery",
+        "The gallery",
+        (Table("What it shows", ("tasks", "pictures"), ((len(rows), count),)),),
+        notes=("The gallery is `gallery/index.html`; open it in a browser.",),
+    )
+
+
+def drawn(name: str, folder: str) -> dict[str, object]:
+    """The pictures of a task, written, and its piece of the page."""
+    one = task(name)
+    chosen = handful(one)
+    pictures, rows = 0, []
+    for sample in chosen:
+        cells = list(_cells(one, sample, ROOT / folder))
+        pictures += len(cells)
+        rows.append(f'<div class="row">{"".join(cells)}</div>')
+    rare = f" Rare: {escape(one.rare)}." if one.rare else ""
+    about = f"<p>{escape(one.says)}{rare}</p><pre>{escape(str(one.program))}</pre>"
+    text = f'<h2 id="{name}">{name}</h2>{about}{"".join(rows)}'
+    return {"html": text, "pictures": pictures}
+
+
+def handful(one: Task) -> list[Sample]:
+    """A coarse, a medium and a fine mesh of different kinds, and the first of the rare kind."""
+    rows = one.samples()
+    rare = [row for row in rows if row.asset.kind == one.rare] if one.rare else []
+    found: list[Sample] = rare[1:2]
+    for setting in ("coarse", "medium", "fine", "fine"):
+        kinds, names = {row.asset.kind for row in found}, {row.asset.name for row in found}
+        able = [row for row in rows if row.setting == setting and row.asset.name not in names and not one.impure(row)]
+        able = sorted(able, key=lambda row: row.asset.kind in kinds)
+        found += able[:1]
+    return found[:_HANDFUL]
+
+
+def stages(one: Task, sample: Sample) -> list[SymbolicMesh]:
+    """The mesh before, and after each rule, upright."""
+    rules = one.program.rules
+    edits = [one.run(replace(one.program, rules=rules[: k + 1]), sample.mesh).mesh for k in range(len(rules))]
+    return [upright(sample), *(upright(sample, mesh) for mesh in edits if mesh)]
+
+
+def _cells(one: Task, sample: Sample, folder: Path) -> Iterator[str]:
+    shown = stages(one, sample)
+    box = joint_bounds(*shown)
+    why = [one.failure(sample, Edited(sample.mesh)), one.failure(sample, one.run(one.program, sample.mesh))]
+    for k, mesh in enumerate(shown):
+        image = render(mesh, color_by="label", size=(_SIDE, _SIDE), legend=False, bounds=box,
+                       vocabulary=one.program.labels)  # fmt: skip
+        path = folder / "pictures" / f"{one.name}-{sample.name}-{k}.webp"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(path, webp(image))
+        told = escape(f"{sample.name} ({sample.asset.kind}), {len(mesh.hulls)} hulls" if not k else _rule(one, k))
+        verdict = _verdict(why[0]) if not k else _verdict(why[1]) if k == len(shown) - 1 else ""
+        yield (
+            f'<figure><img loading="lazy" width="{_SIDE}" height="{_SIDE}" alt="{told}" src="pictures/{path.name}">'
+            f"<figcaption>{told}{verdict}</figcaption></figure>"
+        )
+
+
+def _rule(one: Task, number: int) -> str:
+    return f"{number}. {one.program.rules[number - 1]}"
+
+
+def _verdict(why: str | None) -> str:
+    return f'<br><span class="bad">{escape(why)}</span>' if why else '<br><span class="good">meets the criterion</span>'
+
+
+def overview(every: Sequence[Task]) -> list[tuple[str, Sample, SymbolicMesh]]:
+    """Of each task the first of the handful, before and after."""
+    rows = ((one, handful(one)[0]) for one in every)
+    return [(one.name, sample, stages(one, sample)[-1]) for one, sample in rows]

@@ -1,0 +1,89 @@
+"""Writes `benchmark/README.md`, its plots and its pictures from the results."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from benchmark.assets.looking import upright
+from benchmark.evaluation.gallery import overview
+from benchmark.evaluation.plots import plots
+from benchmark.evaluation.sessions import QUICK
+from benchmark.report import Result, as_text
+from benchmark.tasks import task, tasks
+from meshforge.files import write_atomically
+from meshforge.views import before_after, sheet, write_png
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+_INTRO = """# The benchmark
+
+24 tasks on 600 collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at three settings;
+a task is a program that a person has in mind, demonstrations of which the tool has to learn from, and a criterion that
+the edited meshes must meet, by physics in MuJoCo where it is physical. Written by `script/bench` from the JSON files in
+[results](results); every run of every demonstrator is in them.
+
+- `script/bench effectiveness` (any part by name, `script/bench` all of them, `--quick` one category and one seed)
+  measures again what this page says; what was interrupted goes on where it was.
+- `script/make-benchmark` makes the 600 meshes and the calibration set again ([assets](assets)); the tasks are folders
+  in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in [study](study).
+- [The gallery](gallery/index.html) shows each task before and after, rule by rule.
+
+![Each task before and after](pictures/tasks.png)
+"""
+_CAPTIONS = {
+    "effectiveness": "SSR against demonstrations plus answers; time by phase",
+    "ablation": "SSR by layers",
+    "scaling": "Seconds against meshes, hulls a mesh and labels",
+}
+
+
+def write(folder: Path, found: Sequence[Mapping[str, Any]]) -> None:
+    """The page, in a folder, from what the JSON files of its parts hold."""
+    results = {data["part"]: Result.of_json(data) for data in found}
+    quick = any(data["quick"] for data in found)
+    drawn = plots(results, folder / "pictures")
+    pictures(folder / "pictures", results, quick)
+    machine = ", ".join(f"{name} {value}" for name, value in found[-1]["machine"].items())
+    lines = [_INTRO, f"Machine: {machine}.\n", *(["**A quick run: one category, one seed.**\n"] if quick else [])]
+    for part, result in results.items():
+        lines += [as_text(result), f"`script/bench {part}` measures this.\n"]
+        if part in drawn:
+            lines.append(f"![{_CAPTIONS[part]}](pictures/{drawn[part]})\n")
+        if part == "ceiling" and _failing(result):
+            lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
+    write_atomically(folder / "README.md", "\n".join(lines))
+
+
+def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:
+    """All tasks before and after, and what fails under the reference program."""
+    folder.mkdir(parents=True, exist_ok=True)
+    every = [one for one in tasks() if not quick or one.category == QUICK]
+    shown = [
+        before_after(upright(sample), after, size=(200, 160), vocabulary=task(name).program.labels)
+        for name, sample, after in overview(every)
+    ]
+    write_png(folder / "tasks.png", sheet(shown, 3, [one.name for one in every]))
+    failing = _failing(results["ceiling"]) if "ceiling" in results else []
+    if failing:
+        write_png(
+            folder / "failures.png", sheet([_failed(*row) for row in failing], 2, [f"{a}, {b}" for a, b in failing])
+        )
+
+
+def _failing(result: Result) -> Sequence[tuple[str, str]]:
+    """Task and mesh of what fails: pure ones, and of each task's impure ones the first."""
+    rows = [row for row in result.details if row["reference"] is not None]
+    pure = [(row["task"], row["mesh"]) for row in rows if not row["impure"]]
+    first = {row["task"]: row["mesh"] for row in reversed(rows) if row["impure"]}
+    return [*pure, *first.items()][:12]
+
+
+def _failed(name: str, mesh: str) -> Image:
+    one = task(name)
+    sample = next(row for row in one.samples() if row.name == mesh)
+    edited = one.run(one.program, sample.mesh)
+    after = upright(sample, edited.mesh) if edited.mesh else upright(sample)
+    return before_after(upright(sample), after, size=(260, 200), vocabulary=one.program.labels)

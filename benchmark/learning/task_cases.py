@@ -1,0 +1,40 @@
+"""The rules of the 24 tasks on the calibration set, as problems for the fit of beliefs: never the 600 meshes."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+from benchmark.learning.cases import Case
+from benchmark.study import FULL, Bench
+from benchmark.study.person import Person
+from benchmark.tasks import tasks
+from meshforge.language import select_mask
+
+
+def task_cases(seeds: Iterable[int], counts: Iterable[int], only: str | None = None) -> Iterator[Case]:
+    """Each rule of each task, shown as demonstrators of these seeds do: first a mesh that shows most, then any."""
+    for one in tasks():
+        if only in (None, one.category):
+            yield from _of_task(one.name, tuple(seeds), tuple(counts))
+
+
+@lru_cache(maxsize=1)
+def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...]) -> tuple[Case, ...]:
+    one = next(row for row in tasks() if row.name == name)
+    desk = Bench(one, calibration=True).truth
+    names = [mesh for mesh, done in desk.reference.items() if done is not None]
+    found = []
+    for place, rule in enumerate(one.program.rules):
+        meshes = tuple(desk.met(mesh, place) for mesh in names)
+        assert all(mesh.contacts is not None for mesh in meshes)
+        masks = tuple(select_mask(rule.extractor, mesh) for mesh in meshes)
+        for seed in seeds:
+            first = names.index(Person(desk, seed, FULL).begins_with(names))
+            rest = [k for k in range(len(names)) if k != first]
+            for count in counts:
+                shown = (first, *random.Random(f"{seed} {name} {place}").sample(rest, count - 1))
+                if any(masks[k] for k in shown):
+                    found.append(Case(name, rule.extractor, one.program.labels, meshes, masks, shown))
+    return tuple(found)

@@ -1,0 +1,117 @@
+"""A task with its meshes under some labels: what programs select there, and how that compares with the reference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from benchmark.assets import Sample
+from benchmark.study.condition import Labels
+from benchmark.study.labels import noisy
+from benchmark.tasks import Edited, Task
+from meshforge.language import EXTREMITY, Extractor, Program, select_mask
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Correction, Demonstration
+from meshforge.synthesis.replay import Replay, advanced, begun
+
+Selections = tuple[frozenset[str], ...]
+"""What each rule selects on a mesh, by hull names."""
+
+
+class Bench:
+    """What all desks of a task share: true meshes, their contacts known, and what was judged before."""
+
+    def __init__(self, task: Task, calibration: bool = False) -> None:
+        self.task = task
+        self.samples: dict[str, Sample] = {sample.name: sample for sample in task.samples(calibration)}
+        assert all(sample.mesh.contacts is not None for sample in self.samples.values())
+        self._judged: dict[tuple[str, Selections | None], str | None] = {}
+
+    @cached_property
+    def pure(self) -> frozenset[str]:
+        """The meshes on which no hull that matters is of several parts."""
+        return frozenset(name for name, sample in self.samples.items() if not self.task.impure(sample))
+
+    @cached_property
+    def truth(self) -> Desk:
+        """The desk with true labels."""
+        return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
+
+    def desk(self, labels: Labels, seed: int) -> Desk:
+        """The meshes as a demonstrator gets them."""
+        if labels == "true":
+            return self.truth
+        rows = enumerate(self.samples.items())
+        seeds = {name: (seed, *self.task.category.encode(), k) for k, (name, _) in rows}
+        return Desk(self, {name: noisy(sample.mesh, seeds[name]) for name, sample in self.samples.items()})
+
+    def failure(self, name: str, edited: Edited) -> str | None:
+        """Why an edit of a mesh does not do; the same selections are judged once, since they make the same edit."""
+        done = None if edited.mesh is None else tuple(frozenset(line.selected) for line in edited.trace)
+        key = (name, done)
+        if key not in self._judged:
+            self._judged[key] = self.task.failure(self.samples[name], edited)
+        return self._judged[key]
+
+
+@dataclass(eq=False)
+class Desk:
+    """Meshes by name, labelled somehow; edits by programs are remembered."""
+
+    bench: Bench
+    meshes: Mapping[str, SymbolicMesh]
+    _edits: dict[tuple[str, str], Edited] = field(default_factory=dict, repr=False)
+    _met: dict[tuple[str, int], Replay] = field(default_factory=dict, repr=False)
+
+    def edited(self, program: Program, name: str) -> Edited:
+        """What a program makes of a mesh."""
+        key = (str(program), name)
+        if key not in self._edits:
+            self._edits[key] = self.bench.task.run(program, self.meshes[name])
+        return self._edits[key]
+
+    def selected(self, program: Program, name: str) -> Selections | None:
+        """What each rule of a program selects on a mesh, None where it fails."""
+        edited = self.edited(program, name)
+        return None if edited.mesh is None else tuple(frozenset(line.selected) for line in edited.trace)
+
+    @cached_property
+    def reference(self) -> dict[str, Selections | None]:
+        """What the reference selects under these labels."""
+        return {name: self.selected(self.bench.task.program, name) for name in self.meshes}
+
+    def met(self, name: str, place: int) -> SymbolicMesh:
+        """A mesh as a rule of the reference meets it, after the rules before it; place: from 0."""
+        key = (name, place)
+        if key not in self._met:
+            task = self.bench.task
+            frame = task.program
+            if not place:
+                replay = begun(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
+            else:
+                self.met(name, place - 1)
+                before, rule = self._met[name, place - 1], frame.rules[place - 1]
+                replay = advanced(before, place, rule, task.templates, frame.extremity)
+            self._met[key] = replay
+        return self._met[key].mesh
+
+    def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
+        """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""
+        right, delta = self.bench.task.program.rules[place].extractor, self.bench.task.program.extremity or EXTREMITY
+        meshes = (self.met(name, place) for name in names)
+        return all(select_mask(extractor, mesh, delta) == select_mask(right, mesh, delta) for mesh in meshes)
+
+    def differing(self, program: Program | None, names: Iterable[str]) -> list[str]:
+        """The meshes on which a program selects something else than the reference."""
+        if program is None:
+            return list(names)
+        return [name for name in names if self.selected(program, name) != self.reference[name]]
+
+    def corrected(self, corrections: Iterable[Correction]) -> Desk:
+        """The same with some labels corrected."""
+        meshes = dict(self.meshes)
+        for one in corrections:
+            meshes[one.asset] = meshes[one.asset].labelled({one.hull: Label(one.to, 1.0, "repair")})
+        kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
+        return Desk(self.bench, meshes, kept)

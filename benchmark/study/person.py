@@ -1,0 +1,96 @@
+"""A simulated demonstrator: knows what the task wants, shows it, looks at results, answers and confirms."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from benchmark.study.condition import SEEN, Condition
+from benchmark.study.desk import Desk
+from meshforge.language import Program
+from meshforge.synthesis import Answer, Correction, Demonstration, Question, Repair, Step
+
+
+class Person:
+    """Draws from a seed of its own; the same seed, the same choices."""
+
+    def __init__(self, desk: Desk, seed: int, condition: Condition) -> None:
+        self._draw = random.Random(f"{seed} {desk.bench.task.name}")
+        self._slips = random.Random(f"slips {seed} {desk.bench.task.name}")
+        self._task, self._truth, self._errs = desk.bench.task, desk.bench.truth, condition.errs
+
+    def begins_with(self, names: Sequence[str]) -> str:
+        """Of a dozen meshes the first on which most rules have something to do: it shows the most at once."""
+        some = self._draw.sample(list(names), min(SEEN, len(names)))
+        return max(some, key=lambda name: (self._busy(name), -some.index(name)))
+
+    def _busy(self, name: str) -> int:
+        wanted = self._truth.reference[name]
+        return sum(map(bool, wanted or ()))
+
+    def wants(self, name: str, rule: int) -> bool:
+        """Whether a rule has something to do on a mesh."""
+        wanted = self._truth.reference[name]
+        return bool(wanted and wanted[rule - 1])
+
+    def shows(self, desk: Desk, name: str, rule: int | None = None) -> Demonstration:
+        """What is wanted on a mesh, by the eye: all rules, or one of them."""
+        wanted = self._truth.reference[name]
+        assert wanted is not None, f"the reference fails on {name}"
+        rows = list(enumerate(zip(self._task.program.rules, wanted, strict=True), 1))
+        steps = [
+            Step(number, select if rule in (None, number) else None, one.action, one.label)
+            for number, (one, select) in rows
+            if rule is None or number <= rule
+        ]
+        return Demonstration(desk.meshes[name], steps, name)
+
+    def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, int] | None:
+        """A mesh on which the result is not as it should be, and the first rule that is wrong there; None: all well.
+
+        What the reference would get wrong as well, as a label is wrong, is no failure of the program.
+        """
+        for name in self._draw.sample(list(names), min(SEEN, len(names))):
+            done, wanted = desk.selected(program, name), desk.reference[name]
+            if wanted is not None and done != wanted:
+                pairs = enumerate(zip(done or ((),) * len(wanted), wanted, strict=True), 1)
+                return name, next(number for number, (a, b) in pairs if a != b)
+        return None
+
+    def answers(self, desk: Desk, question: Question, program: Program) -> Answer:
+        """The choice that is right, by the eye, or as the reference selects under these labels; else neither.
+
+        program: what was learned so far, since the rule meets the mesh as the rules before it leave it.
+        """
+        choices = [frozenset(choice.select) for choice in question.choices]
+        wanted = self._wanted(desk, question, program)
+        right = next((choices.index(select) for select in wanted if select in choices), None)
+        if self._slips.random() < self._errs:
+            right = self._slips.choice([place for place in (*range(len(choices)), None) if place != right])
+        return question.answered(right)
+
+    def _wanted(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
+        name, place = question.asset, question.rule - 1
+        mixed = replace(program, rules=(*program.rules[:place], self._task.program.rules[place]))
+        for done in (self._truth.reference[name], desk.reference[name], desk.selected(mixed, name)):
+            if done is not None:
+                yield done[place]
+
+    def takes_back(self, desk: Desk, answers: Sequence[Answer], rule: int) -> Answer | None:
+        """The last answer about a rule that was wrong, when a person looks at them again."""
+        for answer in reversed(answers):
+            known = (self._truth.reference[answer.asset], desk.reference[answer.asset])
+            right = [done[rule - 1] for done in known if done is not None]
+            if answer.rule == rule and answer.select is not None and answer.select not in right:
+                return answer
+        return None
+
+    def confirms(self, repair: Repair) -> bool:
+        """Whether a label is to be corrected so."""
+        right = self.knows(repair.correction)
+        return right != (self._slips.random() < self._errs)
+
+    def knows(self, correction: Correction) -> bool:
+        """Whether a correction is right."""
+        return self._truth.meshes[correction.asset].named(correction.hull).label == correction.to

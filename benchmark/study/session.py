@@ -1,0 +1,279 @@
+"""One person teaches one task: demonstrations, questions, confirmations, looks at the result (paper, protocol)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from time import perf_counter
+from typing import Any
+
+from benchmark.study.condition import MOST, Condition
+from benchmark.study.desk import Bench
+from benchmark.study.person import Person
+from meshforge.errors import MeshForgeError
+from meshforge.language import Program
+from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, Outcome, Repair, synthesize
+
+_ANSWERS = 12  # that a person gives between two demonstrations at most
+
+
+@dataclass(slots=True)
+class Round:
+    """One look of the tool at all that it was told; differs: meshes, of those not demonstrated, on which its program
+    selects something else than the reference; seconds: of the tool."""
+
+    demonstrations: int
+    answers: int
+    status: str
+    program: str | None
+    settled: bool
+    differs: int
+    seconds: dict[str, float]
+
+    @property
+    def right(self) -> bool:
+        return self.program is not None and not self.differs
+
+
+@dataclass(slots=True)
+class Session:
+    """All that happened; accepted: whether the person saw nothing wrong in the end; passed, failed: meshes, not
+    demonstrated, whose edit does or does not meet the criterion."""
+
+    task: str
+    condition: str
+    seed: int
+    rounds: list[Round] = field(default_factory=list)
+    shown: list[str] = field(default_factory=list)
+    hulls_shown: int = 0
+    answers: int = 0
+    neither: int = 0
+    taken_back: int = 0
+    set_aside: int = 0
+    confirmed: int = 0
+    refused: int = 0
+    rightly: int = 0
+    typed: int = 0
+    looked: int = 0
+    accepted: bool = False
+    settled: bool = False
+    right: bool = False
+    program: str | None = None
+    f1: float = 0.0
+    failures: dict[str, str] = field(default_factory=dict)
+    judged: int = 0
+    judged_pure: int = 0
+    failed_pure: int = 0
+    known_among: list[bool] = field(default_factory=list)
+
+    @property
+    def k(self) -> int:
+        """Demonstrations plus answers."""
+        return len(self.shown) + self.answers
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+    @staticmethod
+    def of_json(data: dict[str, Any]) -> Session:
+        return Session(**{**data, "rounds": [Round(**row) for row in data["rounds"]]})
+
+
+def taught(bench: Bench, condition: Condition, seed: int) -> Session:
+    """A task taught by one person under a condition."""
+    return _Teaching(bench, condition, seed).session()
+
+
+class _Teaching:
+    """The state of a session on its way."""
+
+    def __init__(self, bench: Bench, condition: Condition, seed: int) -> None:
+        self.bench, self.condition = bench, condition
+        self.desk = bench.desk(condition.labels, seed)
+        self.person = Person(self.desk, seed, condition)
+        self.log = Session(bench.task.name, condition.name, seed)
+        self.able = [name for name, done in bench.truth.reference.items() if done is not None]
+        self.given: list[tuple[str, int | None]] = []
+        """Meshes with the rule that was shown on them, None for all."""
+        self.answers: list[Answer] = []
+        self.rejected: set[Correction] = set()
+        self.corrections: list[Correction] = []
+
+    def session(self) -> Session:
+        self._begin()
+        while True:
+            outcome = self._learn()
+            if self._answered(outcome) or self._labelled(outcome):
+                continue
+            if isinstance(outcome, MeshForgeError) or outcome.program is None:
+                if not self._another(outcome):
+                    break
+                continue
+            if not self._looks_on(outcome.program):
+                break
+        self._judge(outcome)
+        return self.log
+
+    def _rest(self) -> list[str]:
+        """The meshes that are not demonstrated."""
+        return [name for name in self.bench.samples if name not in self.log.shown]
+
+    def _showable(self) -> list[str]:
+        """Those of them on which the reference can run: a person could show what is wanted there."""
+        return [name for name in self.able if name not in self.log.shown]
+
+    def _show(self, name: str, rule: int | None) -> None:
+        self.given.append((name, rule))
+        self.log.shown.append(name)
+        steps = self.person.shows(self.desk, name, rule).steps
+        self.log.hulls_shown += sum(len(step.select or ()) for step in steps)
+
+    def _begin(self) -> None:
+        """Show a mesh, and another one while there is a rule that had nothing to do on any."""
+        self._show(self.person.begins_with(self._showable()), None)
+        for rule in range(1, len(self.bench.task.program.rules) + 1):
+            if not any(self.person.wants(name, rule) for name, _ in self.given) and len(self.log.shown) < MOST:
+                busy = [name for name in self._showable() if self.person.wants(name, rule)]
+                if busy:
+                    self._show(self.person.begins_with(busy), None)
+
+    def _learn(self) -> Outcome | MeshForgeError:
+        """What the tool makes of it, or why it refuses the demonstrations."""
+        demos = [self.person.shows(self.desk, name, rule) for name, rule in self.given]
+        start = perf_counter()
+        try:
+            outcome: Outcome | MeshForgeError = self._outcome(demos)
+        except MeshForgeError as error:
+            outcome = error
+        seconds = {"all": perf_counter() - start}
+        if self.corrections:
+            self.desk, self.corrections = self.desk.corrected(self.corrections), []
+        if isinstance(outcome, MeshForgeError):
+            self._note("refused", None, False, seconds)
+            return outcome
+        if outcome.program and not self.log.known_among:
+            self.log.known_among = self._known_among(outcome)
+        self._note(outcome.status, outcome.program, outcome.settled, {**seconds, **outcome.seconds})
+        return outcome
+
+    def _note(self, status: str, program: Program | None, settled: bool, seconds: dict[str, float]) -> None:
+        log, differs = self.log, len(self.desk.differing(program, self._rest()))
+        log.rounds.append(Round(len(log.shown), log.answers, status, _text(program), settled, differs, seconds))
+
+    def _labelled(self, outcome: Outcome | MeshForgeError) -> bool:
+        """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
+        given = {name for name, _ in self.given}
+        if not isinstance(outcome, MeshForgeError) or outcome.where not in given:
+            return False
+        landmarks = Program(orient=self.bench.task.program.orient).used_labels
+        mesh, true = self.desk.meshes[outcome.where], self.bench.truth.meshes[outcome.where]
+        pairs = [(hull, true.named(hull.name).label) for hull in mesh.hulls]
+        wrong = [Correction(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to]
+        self.desk = self.desk.corrected(wrong)
+        self.log.typed += len(wrong)
+        return bool(wrong)
+
+    def _outcome(self, demos: list[Demonstration]) -> Outcome:
+        program = self.bench.task.program
+        return synthesize(
+            demos,
+            self.desk.meshes,
+            orient=program.orient,
+            templates=self.bench.task.templates,
+            vocabulary=program.labels,
+            contact=program.contact,
+            extremity=program.extremity,
+            options=self.condition.options,
+            confirm=self._confirm,
+            answers=self.answers,
+            rejected=self.rejected,
+        )
+
+    def _known_among(self, outcome: Outcome) -> list[bool]:
+        """For each rule, whether one of its readings behaves as the reference does on every mesh."""
+        rules, readings = range(len(self.bench.task.program.rules)), outcome.readings
+        able = [name for name in self.able if self.desk.reference[name] is not None]
+        return [
+            any(self.desk.behaves(r.extractor, place, able) for r in readings if r.rule == place + 1) for place in rules
+        ]
+
+    def _confirm(self, repair: Repair) -> bool:
+        said, log = self.person.confirms(repair), self.log
+        log.rightly += said == self.person.knows(repair.correction)
+        if said:
+            log.confirmed += 1
+            self.corrections.append(repair.correction)
+        else:
+            log.refused += 1
+            self.rejected.add(repair.correction)
+        return said
+
+    def _answered(self, outcome: Outcome | MeshForgeError) -> bool:
+        """Whether a question of the tool was answered."""
+        since = self.log.answers - self.log.rounds[-1].answers if self.log.rounds else 0
+        if not self.condition.questions or not isinstance(outcome, Ambiguous) or since >= _ANSWERS:
+            return False
+        if sum(row.demonstrations == len(self.log.shown) for row in self.log.rounds) > _ANSWERS:
+            return False
+        answer = self.person.answers(self.desk, outcome.question, outcome.program)
+        self.answers.append(answer)
+        self.log.answers += 1
+        self.log.neither += answer.select is None
+        return True
+
+    def _another(self, outcome: Outcome | MeshForgeError) -> bool:
+        """No program fits: the demonstration that is hardest to fit is set aside, another mesh demonstrated."""
+        if len(self.log.shown) >= MOST:
+            return False
+        named = outcome.where if isinstance(outcome, MeshForgeError) else outcome.nearest and outcome.nearest.asset
+        hardest = named if named in {name for name, _ in self.given} else self.given[-1][0]
+        kept = [row for row in self.given if row[0] != hardest]
+        self.answers = [answer for answer in self.answers if answer.asset != hardest]
+        self.log.set_aside += len(self.given) - len(kept)
+        self.given = kept
+        self._begin()
+        return True
+
+    def _looks_on(self, program: Program) -> bool:
+        """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there."""
+        self.log.looked += 1
+        seen = self.person.sees(self.desk, program, self._showable())
+        self.log.accepted = seen is None
+        if seen is None:
+            return False
+        name, rule = seen
+        wrong = self.person.takes_back(self.desk, self.answers, rule)
+        if wrong:
+            self.answers.remove(wrong)
+            self.log.taken_back += 1
+            return True
+        if len(self.log.shown) >= MOST:
+            return False
+        self._show(name, rule)
+        return True
+
+    def _judge(self, outcome: Outcome | MeshForgeError) -> None:
+        """How good the last program is on all meshes that were not demonstrated."""
+        log, bench, rest = self.log, self.bench, self._rest()
+        program = None if isinstance(outcome, MeshForgeError) else outcome.program
+        log.program, log.right, log.settled = _text(program), log.rounds[-1].right, log.rounds[-1].settled
+        log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
+        log.f1 = self._f1(program, rest)
+        for name in rest:
+            why = bench.failure(name, self.desk.edited(program, name)) if program else "no program was learned"
+            if why:
+                log.failures[name] = why
+                log.failed_pure += name in bench.pure
+
+    def _f1(self, program: Program | None, names: list[str]) -> float:
+        """F1 of what the rules select, hull by hull, against the truth."""
+        hit = chosen = meant = 0
+        for name in names:
+            wanted = self.bench.truth.reference[name] or ()
+            done = (self.desk.selected(program, name) if program else None) or ((frozenset(),) * len(wanted))
+            hit += sum(len(a & b) for a, b in zip(done, wanted, strict=True))
+            chosen, meant = chosen + sum(map(len, done)), meant + sum(map(len, wanted))
+        return 2 * hit / (chosen + meant) if chosen + meant else 1.0
+
+
+def _text(program: Program | None) -> str | None:
+    return str(program) if program else None

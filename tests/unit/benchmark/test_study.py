@@ -1,0 +1,101 @@
+"""Simulated demonstrators: the same seed does the same, what they say is true, noisy labels are as noisy as said."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from benchmark.assets import CATEGORIES, samples
+from benchmark.study import CONDITIONS, FULL, NOISY, Bench, Session, taught
+from benchmark.study.instances import instance, mended
+from benchmark.study.keystrokes import modelled
+from benchmark.study.labels import ACCURACY, FEW, MOST, noisy, wrong
+from benchmark.tasks import task
+
+EASY = task("cup-easy")
+
+
+@pytest.fixture(scope="module")
+def bench() -> Bench:
+    return Bench(task("cup-medium"))
+
+
+def without_times(session: Session) -> Session:
+    return replace(session, rounds=[replace(row, seconds={}) for row in session.rounds])
+
+
+@pytest.mark.parametrize("condition", [FULL, NOISY, CONDITIONS["noisy labels, errs in 5%"]])
+def test_a_session_is_the_same_every_time_and_survives_json(bench: Bench, condition: object) -> None:
+    one, other = (taught(bench, condition, 0) for _ in range(2))  # type: ignore[arg-type]
+    assert without_times(one) == without_times(other)
+    assert Session.of_json(json.loads(json.dumps(one.to_json()))) == one
+    assert one.k == len(one.shown) + one.answers
+    assert one.judged == len(bench.samples) - len(set(one.shown))
+
+
+def test_with_true_labels_nobody_confirms_anything_wrong_and_accepts_only_what_looks_right(bench: Bench) -> None:
+    session = taught(bench, FULL, 1)
+    assert session.confirmed == 0
+    assert session.f1 == pytest.approx(1.0) or not session.right
+    assert session.right == (session.rounds[-1].differs == 0)
+
+
+def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> None:
+    session = taught(bench, FULL, 1)
+    assert session.right
+    program = bench.task.program
+    rest = set(bench.samples) - set(session.shown)
+    failing = {name for name in rest if bench.failure(name, bench.truth.edited(program, name))}
+    assert set(session.failures) == failing
+
+
+def test_without_questions_nothing_is_answered(bench: Bench) -> None:
+    assert taught(bench, CONDITIONS["true labels, no questions"], 2).answers == 0
+
+
+def test_the_noisy_labeller_is_as_noisy_as_it_says() -> None:
+    rows = [sample for category in CATEGORIES for sample in samples(category, calibration=True)]
+    errors = [wrong(row.mesh, noisy(row.mesh, (5, k))) for k, row in enumerate(rows)]
+    hulls = [len(row.mesh.hulls) for row in rows]
+    assert 1 - sum(errors) / sum(hulls) == pytest.approx(ACCURACY, abs=0.02)
+    assert all(error <= MOST for error, count in zip(errors, hulls, strict=True) if count <= FEW)
+
+
+def test_wrong_labels_come_together() -> None:
+    """More often than drawn blindly, a wrong hull touches another wrong one."""
+    rows = [sample.mesh for sample in samples("table", calibration=True)]
+    rng = np.random.default_rng(0)
+    together = blindly = 0
+    for k, mesh in enumerate(rows):
+        labelled = noisy(mesh, (9, k))
+        places = [i for i, (a, b) in enumerate(zip(mesh.hulls, labelled.hulls, strict=True)) if a.label != b.label]
+        drawn = rng.permutation(len(mesh.hulls))[: len(places)].tolist()
+        together += sum(bool(mesh.neighbours(i) & set(places)) for i in places)
+        blindly += sum(bool(mesh.neighbours(i) & set(drawn)) for i in drawn)
+    assert together > blindly
+
+
+def test_a_persons_time_is_modelled_from_what_was_done(bench: Bench) -> None:
+    session = taught(bench, FULL, 0)
+    spent = modelled(session, len(bench.task.program.rules))
+    assert spent["answering"] == pytest.approx(session.answers * 4.0)
+    assert spent["demonstrating"] > 0
+    assert modelled(Session("cup-medium", "", 0), 2) == dict.fromkeys(spent, 0.0)
+
+
+def test_an_instance_of_the_repair_study_is_a_near_miss() -> None:
+    found = instance("cup-medium")
+    if found is None:
+        pytest.skip("no draw of this task is a near miss")
+    without, inspected, repaired = (
+        mended(found, way) for way in ("no correction", "all labels inspected (Standard PBE)", "ABI")
+    )
+    assert inspected.right
+    assert inspected.demonstrations == 2
+    assert inspected.inspected == sum(len(found.desk.meshes[name].hulls) for name in found.pool[:2])
+    assert without.confirmed == inspected.confirmed == 0
+    assert without.demonstrations > 2 or not without.right
+    assert repaired.inspected == 0

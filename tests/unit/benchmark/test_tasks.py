@@ -1,0 +1,136 @@
+"""The frozen assets and the tasks are what the design asks for."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from benchmark.assets import CATEGORIES, SETTINGS, samples
+from benchmark.assets.__main__ import main as make
+from benchmark.assets.frozen import DATA, read
+from benchmark.assets.making import COUNT, category, kinds
+from benchmark.tasks import DIFFICULTIES, Edited, Task, task, tasks
+from meshforge.geometry import is_closed, is_convex
+from meshforge.language import Attach, Base, Diff, Each, Extractor, Geo, Intersect, Union, size
+
+TASKS = tasks()
+MOTIFS = {
+    "remove residue",
+    "one stable support proxy",
+    "merge each leg by itself",
+    "clear an interior",
+    "make handles graspable",
+    "ground-contact base only",
+    "drop what hangs below or sticks out",
+    "separate a moving leaf from its frame",
+    "add a stop, a lip, a knob",
+    "grow or shrink for clearance",
+    "primitives instead of hulls for speed",
+}
+
+
+@pytest.mark.parametrize("name", CATEGORIES)
+def test_a_category_is_whole(name: str) -> None:
+    rows = samples(name)
+    assert len(rows) == COUNT * len(SETTINGS)
+    assert len({row.name for row in rows}) == len(rows)
+    module = category(name)
+    kinds_of = Counter(row.asset.kind for row in rows if row.setting == "fine")
+    assert kinds_of == Counter(kinds(name, COUNT, 2026)) == Counter(dict(module.KINDS))
+    assert sum(kinds_of[kind] for kind in module.RARE) > 0
+    assert max(kinds_of[kind] for kind in module.RARE) <= 0.12 * COUNT
+    tilted = sum(row.asset.pose.rotation[2, 2] < 0.9999 for row in rows) / len(rows)
+    assert 0.1 < tilted < 0.6
+
+
+@pytest.mark.parametrize("name", CATEGORIES)
+def test_hulls_are_sound_and_carry_the_label_of_the_part_that_they_share_most_with(name: str) -> None:
+    for row in samples(name):
+        assert row.mesh.hulls
+        for hull, share in zip(row.mesh.hulls, row.shares, strict=True):
+            assert hull.label == max(share, key=lambda label: share[label])
+            assert is_convex(hull.vertices, hull.faces, 1e-3 * row.mesh.diagonal)
+            assert is_closed(hull.faces)
+            assert hull.volume > 0
+            assert np.isfinite(hull.vertices).all()
+
+
+def test_the_calibration_set_has_200_other_meshes() -> None:
+    rows = [row for name in CATEGORIES for row in samples(name, calibration=True)]
+    assert len(rows) == 201
+    mine = {np.asarray(row.mesh.hulls[0].vertices).tobytes() for name in CATEGORIES for row in samples(name)}
+    assert not any(np.asarray(row.mesh.hulls[0].vertices).tobytes() in mine for row in rows)
+
+
+def test_the_data_are_small_and_made_by_the_command(tmp_path, capsys, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+    assert sum(path.stat().st_size for path in DATA.iterdir()) < 25e6
+    monkeypatch.setattr("sys.argv", ["make", "knife", "--out", str(tmp_path), "--only", "1"])
+    make()
+    made, kept = read(tmp_path, "knife"), samples("knife")[:3]
+    assert [row.name for row in made] == [row.name for row in kept]
+    for one, other in zip(made, kept, strict=True):
+        assert one.shares == other.shares
+        assert all(
+            np.array_equal(a.vertices, b.vertices) for a, b in zip(one.mesh.hulls, other.mesh.hulls, strict=True)
+        )
+
+
+def test_there_are_three_tasks_a_category() -> None:
+    assert [(one.category, one.difficulty) for one in TASKS] == [(c, d) for c in CATEGORIES for d in DIFFICULTIES]
+    counts = Counter(motif for one in TASKS for motif in one.motifs)
+    assert set(counts) == MOTIFS
+    assert min(counts.values()) >= 2
+    rare = [one for one in TASKS if one.rare]
+    assert len(rare) >= 8
+    assert all(one.rare in category(one.category).RARE for one in rare)
+
+
+def leaves(extractor: Extractor) -> list[Extractor]:
+    match extractor:
+        case Union() | Intersect() | Diff():
+            return [*leaves(extractor.left), *leaves(extractor.right)]
+        case _:
+            return [extractor]
+
+
+@pytest.mark.parametrize("one", TASKS, ids=lambda one: one.name)
+def test_a_task_is_as_hard_as_its_name_says(one: Task) -> None:
+    rules = one.program.rules
+    extractors = [rule.extractor for rule in rules]
+    near = [e for e in extractors if any(isinstance(leaf, Attach | Geo) for leaf in leaves(e))]
+    if one.difficulty == "easy":
+        assert len(rules) == 1
+        assert isinstance(extractors[0], Base)
+    elif one.difficulty == "medium":
+        assert len(rules) == 2
+        assert near
+    else:
+        assert 3 <= len(rules) <= 5
+        assert any(isinstance(e, Union | Intersect | Diff) for e in near)
+        assert one.program.orient
+    assert set(one.program.labels) == set(category(one.category).LABELS)
+    assert all(size(e) <= 9 for e in extractors)
+    templates = {name for rule in rules for name in rule.action.templates}
+    assert templates == set(one.templates)
+    assert not any(isinstance(rule.action, Each) and rule.action.action == rule.action for rule in rules)
+
+
+@pytest.mark.parametrize("one", TASKS, ids=lambda one: one.name)
+def test_the_reference_runs_on_every_pure_mesh_and_mends_the_first_pure_ones(one: Task) -> None:
+    rows = one.samples()
+    edits = [one.run(one.program, row.mesh) for row in rows]
+    pure = [(row, edited) for row, edited in zip(rows, edits, strict=True) if not one.impure(row)]
+    assert [edited.error for _, edited in pure if edited.error] == []
+    assert len(pure) >= 0.4 * len(rows)
+    for row, edited in pure[:3]:
+        assert one.failure(row, edited) is None
+
+
+@pytest.mark.parametrize("name", ["cup-easy", "table-hard"])
+def test_the_criterion_refuses_what_is_unedited_and_a_wrong_edit(name: str) -> None:
+    one = task(name)
+    rows = one.samples()[:12]
+    assert any(one.failure(row, Edited(row.mesh)) for row in rows)
+    assert any(one.failure(row, one.run(one.wrong, row.mesh)) for row in rows)
