@@ -15,13 +15,17 @@ from benchmark.evaluation.journal import done
 from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.study.labels import noisy, wrong
+from benchmark.tasks import task
+from meshforge.errors import MeshForgeError
 from meshforge.geometry import distance
-from meshforge.language import DIRECTIONS, Geo, Is, select
+from meshforge.language import Direction, Geo, Is, select, stage
 from meshforge.symbolic import SymbolicMesh
 
+UPRIGHT: tuple[Direction, ...] = ("+Z", "-Z")
 EPSILONS = (0.0005, 0.001, 0.002, 0.004, 0.008)
 DELTAS = (0.01, 0.02, 0.05, 0.1, 0.2)
 _FACE = 0.01  # of a label's extent: what lies in this outermost slice is at the boundary
+_JOINT = 0.001  # m: parts that the generators join are no farther apart
 _HELD = 0.02  # of a hull's volume: less of a part than this is not held by it
 _ETA = 2
 
@@ -54,16 +58,14 @@ def measure(tell: Tell, quick: bool) -> Result:
                 ),
             ),
         ),
+        (Goal("meshes of up to 12 hulls: 95th percentile of wrong labels", "at most", _ETA, _most(few)),),
         (
-            Goal("epsilon = 0.002: pairs told rightly, %", "at least", 99.0, dict(touching)[0.002]),
-            Goal("delta = 0.05: hulls told rightly, %", "at least", 95.0, dict(outermost)[0.05]),
-            Goal("meshes of up to 12 hulls: 95th percentile of wrong labels", "at most", _ETA, _most(few)),
-        ),
-        (
-            f"{len(rows)} meshes of other seeds than the 600. Two parts touch where their solids do (no gap at all); "
-            "they are told to touch where a hull of one is within epsilon of a hull of the other, hulls of several "
-            "parts being left out. A hull is at the boundary of its label where it holds something of the outermost "
-            "hundredth of that label's parts. The paper says 100% for epsilon = 0.002 and 96% for delta = 0.05.",
+            f"{len(rows)} meshes of other seeds than the 600. Two parts touch where their solids are within 1 mm, as "
+            "parts are that the generators join; they are told to touch where hulls of both are within epsilon, hulls "
+            "of several parts being left out. A hull is at the upper or lower boundary of its label where it holds "
+            "something of the outermost hundredth of that label's parts, upright; it is told so on the mesh as "
+            "landmarks orient it, which leans a little. The paper, by annotators: 100% for epsilon = 0.002, 96% for "
+            "delta = 0.05.",
         ),
     )
 
@@ -80,7 +82,7 @@ def judged(category: str) -> list[dict[str, Any]]:
         labelled = noisy(sample.mesh, (1, *category.encode(), place))
         counts: Counter[str] = Counter()
         _contacts(sample, counts)
-        _boundary(sample, counts)
+        _boundary(sample, _oriented(sample), counts)
         rows.append({"mesh": sample.name, "hulls": len(sample.mesh.hulls), "wrong": wrong(sample.mesh, labelled),
                      **counts})  # fmt: skip
     return rows
@@ -115,24 +117,33 @@ def _contacts(sample: Sample, counts: Counter[str]) -> None:
             gaps = (distance(mesh.hulls[a].shape, mesh.hulls[b].shape) for a in holders[i] for b in holders[j])
             gap = min(gaps)
             for x in EPSILONS:
-                counts[f"epsilon {x}"] += (gap <= x * length) == (near <= 1e-6)
+                counts[f"epsilon {x}"] += (gap <= x * length) == (near <= _JOINT)
                 counts[f"epsilon {x} of"] += 1
 
 
-def _boundary(sample: Sample, counts: Counter[str]) -> None:
+def _oriented(sample: Sample) -> SymbolicMesh | None:
+    """The mesh as the category's hard task orients it, which may lean a little; None where it cannot be oriented."""
+    try:
+        orient = task(f"{sample.asset.category}-hard").program.orient
+        return stage(sample.mesh, orient, None)[0]
+    except MeshForgeError:
+        return None
+
+
+def _boundary(sample: Sample, met: SymbolicMesh | None, counts: Counter[str]) -> None:
     mesh = upright(sample)
-    for label in sorted({hull.label for hull in mesh.hulls if hull.label}):
+    for label in sorted({hull.label for hull in mesh.hulls if hull.label}) if met else ():
         solids = [part.solid for part in sample.asset.parts if part.label == label]
-        for direction in DIRECTIONS:
+        own = [k for k, hull in enumerate(mesh.hulls) if hull.label == label]
+        for direction in UPRIGHT if met and solids else ():
             known = set(_outermost(mesh, label, solids, direction))
             for x in DELTAS:
-                told = select(Geo(Is(label), direction), mesh, x)
-                own = [k for k, hull in enumerate(mesh.hulls) if hull.label == label]
+                told = select(Geo(Is(label), direction), met, x) if met else ()
                 counts[f"delta {x}"] += sum((k in told) == (k in known) for k in own)
                 counts[f"delta {x} of"] += len(own)
 
 
-def _outermost(mesh: SymbolicMesh, label: str, solids: Sequence[Manifold], direction: str) -> Iterator[int]:
+def _outermost(mesh: SymbolicMesh, label: str, solids: Sequence[Manifold], direction: Direction) -> Iterator[int]:
     """The hulls of a label that hold something of its parts' outermost slice."""
     axis, sign = "XYZ".index(direction[1]), 1.0 if direction[0] == "+" else -1.0
     boxes = np.array([solid.bounding_box() for solid in solids])

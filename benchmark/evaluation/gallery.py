@@ -9,7 +9,7 @@ from pathlib import Path
 
 from benchmark.assets import Sample
 from benchmark.assets.looking import upright
-from benchmark.evaluation.journal import ROOT, done
+from benchmark.evaluation.journal import JOURNALS, ROOT, done
 from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, Table, Tell
 from benchmark.tasks import Edited, Task, task, tasks
@@ -24,7 +24,7 @@ _STYLE = Path(__file__).with_suffix(".css")
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Draw all pictures, and write the page."""
-    folder = ROOT / ".bench" / "gallery" if quick else GALLERY
+    folder = JOURNALS / "gallery" if quick else GALLERY
     every = [one for one in tasks() if not quick or one.category == QUICK]
     rows = done("gallery", drawn, [(one.name, str(folder.relative_to(ROOT))) for one in every], tell)
     text = "".join(row["html"] for row in rows)

@@ -14,6 +14,7 @@ from typing import Any
 from benchmark.report import Tell
 
 ROOT = Path(__file__).resolve().parents[2]
+JOURNALS = ROOT / ".bench"
 _SOURCES = ("src/meshforge/**/*.py", "src/meshforge/**/*.lark", "benchmark/**/*.py", "benchmark/**/*.toml")
 _DATA = ("benchmark/assets/data/*", "benchmark/tasks/*/templates/*")
 Unit = tuple[Any, ...]
@@ -36,12 +37,13 @@ def done(kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: Tell)
 
     work: a function of a module, called with the unit. A unit that raises ends the run; what was done stays kept.
     """
-    path = ROOT / ".bench" / f"{digest()}-{kind}.jsonl"
+    path = JOURNALS / f"{digest()}-{kind}.jsonl"
     known = dict(_kept(path))
     missing = [unit for unit in units if _key(unit) not in known]
     if missing:
-        path.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("a", encoding="utf-8") as journal, ProcessPoolExecutor(os.cpu_count()) as pool:
+            journal.write("\n" if journal.tell() else "")  # after a line that was cut off
             for count, (unit, result) in enumerate(_finished(pool, work, missing), 1):
                 known[_key(unit)] = result
                 journal.write(json.dumps([unit, result]) + "\n")

@@ -23,7 +23,7 @@ _INTRO = """# The benchmark
 24 tasks on 600 collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at three settings;
 a task is a program that a person has in mind, demonstrations of which the tool has to learn from, and a criterion that
 the edited meshes must meet, by physics in MuJoCo where it is physical. Written by `script/bench` from the JSON files in
-[results](results); every run of every demonstrator is in them.
+[results](results), which hold every run.
 
 - `script/bench effectiveness` (any part by name, `script/bench` all of them, `--quick` one category and one seed)
   measures again what this page says; what was interrupted goes on where it was.
@@ -40,8 +40,8 @@ _CAPTIONS = {
 }
 
 
-def write(folder: Path, found: Sequence[Mapping[str, Any]]) -> None:
-    """The page, in a folder, from what the JSON files of its parts hold."""
+def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]) -> None:
+    """The page, in a folder, from what the JSON files of its parts hold; parts: all that a whole run has."""
     results = {data["part"]: Result.of_json(data) for data in found}
     quick = any(data["quick"] for data in found)
     drawn = plots(results, folder / "pictures")
@@ -54,6 +54,8 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]]) -> None:
             lines.append(f"![{_CAPTIONS[part]}](pictures/{drawn[part]})\n")
         if part == "ceiling" and _failing(result):
             lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
+    if missing := [part for part in parts if part not in results]:
+        lines.append(f"Not run yet: `script/bench {' '.join(missing)}`.\n")
     write_atomically(folder / "README.md", "\n".join(lines))
 
 

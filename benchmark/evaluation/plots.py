@@ -57,7 +57,7 @@ def _few_shot_and_phases(result: Result, path: Path) -> None:
             if row[0] == condition:
                 axis.plot(ks, row[2:], marker="o", ms=3, color=_COLORS[str(row[1])], label=str(row[1]))
         paper = {k: float(str(x)) for k, x in zip(ks, table.rows[0][2:], strict=True) if str(x) not in ("", "–")}
-        axis.plot(paper, list(paper.values()), "s", mfc="none", color=_COLORS["paper"], label="paper, all")
+        axis.plot(list(paper), list(paper.values()), "s", mfc="none", color=_COLORS["paper"], label="paper, all")
         axis.set(title=title, xlabel="demonstrations plus answers", ylabel="SSR, %", ylim=(-3, 103))
         axis.legend(frameon=False, fontsize=7)
     _phases(_table(result, "Time by phase"), axes[2])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 from unittest.mock import patch
 
@@ -17,6 +17,7 @@ from scipy.optimize import minimize
 
 from benchmark.learning.asking_rules import percent
 from benchmark.learning.cases import Case, cases
+from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
 from meshforge.synthesis.readings import belief, every
@@ -53,7 +54,8 @@ def measure(tell: Tell, quick: bool) -> Result:
     sets = []
     for seeds in (FITTED[:1], JUDGED[:1]) if quick else (FITTED, JUDGED):
         drawn = (case for count in COUNTS for case in cases(seeds, count, **only))
-        sets.append([rule for case in drawn if (rule := _rule(case))])
+        shown = task_cases(seeds, COUNTS[:2], QUICK if quick else None)
+        sets.append([rule for case in chain(drawn, shown) if (rule := _rule(case))])
         tell(f"calibrate: {len(sets[-1])} rules with several readings")
     fitting, judging = sets
     used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
@@ -77,7 +79,8 @@ def measure(tell: Tell, quick: bool) -> Result:
         ),
         notes=(
             f"Fitted on {len(fitting)} rules with several readings one of which is right, judged on {len(judging)} of "
-            "other seeds; demonstrations drawn blindly. *Surprise*: mean nats of the right reading.",
+            "other seeds: families of boxes, shown blindly, and the tasks of the benchmark on its calibration set, as "
+            "its demonstrators show them. *Surprise*: mean nats of the right reading.",
             "UNTRIED is set higher than it is fitted: a person shows what is wanted on a mesh that has it.",
         ),
     )

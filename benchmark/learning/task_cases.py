@@ -12,6 +12,9 @@ from benchmark.study.person import Person
 from benchmark.tasks import tasks
 from meshforge.language import select_mask
 
+QUICK = "cup"
+"""The category of a quick run."""
+
 
 def task_cases(seeds: Iterable[int], counts: Iterable[int], only: str | None = None) -> Iterator[Case]:
     """Each rule of each task, shown as demonstrators of these seeds do: first a mesh that shows most, then any."""
