@@ -20,6 +20,7 @@ PARTS = ["ceiling", "calibration", "effectiveness", "comparison"]
 @pytest.fixture
 def journals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(journal, "JOURNALS", tmp_path / "journals")
+    monkeypatch.setattr("os.cpu_count", lambda: 1)  # other tests run beside it
     return tmp_path / "journals"
 
 
