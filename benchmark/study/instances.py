@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from time import perf_counter
 from typing import Any, Literal
 
@@ -49,7 +50,7 @@ class Instance:
     seed: int
     pool: tuple[str, ...]
 
-    @property
+    @cached_property
     def desk(self) -> Desk:
         return self.bench.desk("noisy", self.seed)
 
