@@ -148,10 +148,10 @@ def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
         assert one.hello == two.hello
         studio.edit("label", page="one", asset=FIRST, hulls=["convex_00"], label="leg")
         for page in (one, two):
+            assert page.kind("assets")["assets"] == [FIRST]
             event = page.kind("history")
             assert (event["did"], event["by"]) == ("edit", "one")
             assert event["said"] == f"1 hull of {FIRST} labelled leg"
-            assert page.kind("assets")["assets"] == [FIRST]
             (card,) = page.kind("cards")["cards"]
             assert card["labels"][0] == 1
             page.until(lambda e: e["kind"] == "lesson" and not e["learning"])
@@ -161,6 +161,16 @@ def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
             page.until(lambda e: e["kind"] == "cards" and e["cards"][0]["labels"][0] == 0)
         ending = [[e for e in page.events if e["kind"] in ("history", "assets", "project")] for page in (one, two)]
         assert ending[0] == ending[1]
+
+
+def test_an_edit_of_the_vocabulary_is_told_before_the_edit_is(studio: Studio) -> None:
+    labels = [row["name"] for row in studio.settled()["project"]["vocabulary"]]
+    with studio.page() as page:
+        studio.edit("vocabulary", page="one", labels=[*labels, "new"])
+        page.kind("history")
+        told = [event for event in page.events if event["kind"] == "project"]
+        assert [row["name"] for row in told[0]["project"]["vocabulary"]] == [*labels, "new"]
+    ok(studio.post("/api/undo"))
 
 
 def test_steps_that_were_changed_elsewhere_are_a_conflict_and_stay(studio: Studio) -> None:
@@ -181,7 +191,8 @@ def test_the_program_is_learned_again_after_each_step_and_shown(studio: Studio) 
         studio.edit("delete-rule", rule=5)
         lesson = page.until(lambda e: e["kind"] == "lesson" and not e["learning"])["lesson"]
         assert len(lesson["rules"]) == 4
-        assert page.kind("program")["program"]["text"] == lesson["program"]
+        (told,) = [event for event in page.events if event["kind"] == "program"]
+        assert told["program"]["text"] == lesson["program"]
         assert all(len(row["rules"]) == 4 for row in page.kind("reach")["reach"])
     ok(studio.post("/api/undo"))
     assert studio.settled()["program"]["text"] == before

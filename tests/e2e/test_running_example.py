@@ -108,7 +108,6 @@ def _label(person: Hand) -> None:
     person.page.keyboard.type("panel, leg, handle, drawer, misc")
     person.press("Enter")
     person.click(person.page.get_by_role("button", name=re.compile("^From files")))
-    person.sees("Labels taken over from files")
     go_to(person, SECOND)
     click_row(person, MISLABELLED)
     person.press("2")

@@ -738,7 +738,8 @@ export interface ProjectChanged {
   project: ProjectView;
 }
 /**
- * What can be undone now; said: what was just done, undone or redone, in words, by which page.
+ * What can be undone now; said: what was just done, undone or redone, in words, by which page. Other settings and
+ * the names of changed assets are told before, their cards after it.
  */
 export interface HistoryChanged {
   kind: "history";

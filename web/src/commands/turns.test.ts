@@ -1,6 +1,10 @@
 import { afterEach, expect, test, vi } from "vitest";
+import { api } from "../server/api";
+import { perform } from "../store/edits";
 import { useToasts } from "../store/toasts";
-import { inTurn, isBusy } from "./turns";
+import { inTurn, isBusy, typed } from "./turns";
+
+vi.mock("../server/api", () => ({ api: { edit: vi.fn() } }));
 
 function slow() {
   let end = (): void => undefined;
@@ -53,4 +57,21 @@ test("what fails is told, and does not keep what comes after it from its turn", 
   inTurn(() => ran.push("after"));
   await expect.poll(() => ran).toEqual(["after"]);
   expect(useToasts.getState().toasts.map((toast) => toast.text)).toContain("no");
+});
+
+test("a key that means something only after an edit on its way waits for it; one that does already does not", async () => {
+  const [ran, edit] = [[] as string[], slow()];
+  let isKnown = false;
+  vi.mocked(api.edit).mockImplementation(async () => {
+    await edit.done;
+    isKnown = true;
+    return { said: "labels taken over" };
+  });
+  const made = perform({ kind: "label-files" });
+  typed(() => () => ran.push("known before"));
+  typed(() => (isKnown ? () => ran.push("known after") : undefined));
+  expect([ran, isBusy()]).toEqual([["known before"], true]);
+  edit.end();
+  await made;
+  await expect.poll(() => [ran, isBusy()]).toEqual([["known before", "known after"], false]);
 });

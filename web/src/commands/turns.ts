@@ -1,4 +1,5 @@
-// Commands in turn: while one is still on its way, keys that are typed ahead wait for it.
+// Commands in turn: while one, or an edit, is still on its way, keys that are typed ahead wait for it.
+import { onTheirWay } from "../store/edits";
 import { complainedOf } from "../store/toasts";
 
 /** What takes longer, as where the connection hangs, is no longer waited for [ms]. */
@@ -6,8 +7,15 @@ const PATIENCE = 10_000;
 
 let last: Promise<unknown> | null = null;
 
-/** Whether a command is on its way. */
-export const isBusy = (): boolean => last !== null;
+/** Whether a command or an edit is on its way. */
+export const isBusy = (): boolean => last !== null || onTheirWay() !== null;
+
+/** Runs what a key means; one that means nothing yet may mean something once the edits on their way are done. */
+export function typed(meaning: () => (() => unknown) | undefined): void {
+  const edits = meaning() === undefined ? onTheirWay() : null;
+  const run = () => meaning()?.();
+  inTurn(edits === null ? run : () => edits.then(run));
+}
 
 /** Runs something once all before it is done; where it returns a promise, what comes after waits for it. */
 export function inTurn(run: () => unknown): void {

@@ -1,7 +1,7 @@
 // Keys mean commands, unless a person types, or a control that was reached by key wants them itself.
 import { all, commandFor } from "../commands/all";
 import { pressed } from "../commands/command";
-import { inTurn, isBusy } from "../commands/turns";
+import { isBusy, typed } from "../commands/turns";
 import { useDesk } from "../store/desk";
 import { toNextPart } from "./parts";
 
@@ -31,7 +31,7 @@ export function bindKeys(): void {
     if (isOurs ? isToPart(key) : MOVES.test(key)) byKey = true;
     if (!isOurs) return;
     event.preventDefault();
-    if (!event.repeat || MAY_REPEAT.test(key)) inTurn(() => meaning(key)?.());
+    if (!event.repeat || MAY_REPEAT.test(key)) typed(() => meaning(key));
   });
 }
 

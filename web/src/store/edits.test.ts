@@ -1,8 +1,9 @@
 // Edits, one after the other, and what is said of them.
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
-import { perform, sentence, undo } from "./edits";
+import { page, ServerProblem } from "../server/http";
+import { onTheirWay, perform, sentence, undo } from "./edits";
+import { emptyProject, receive, useProject } from "./project";
 import { useToasts } from "./toasts";
 
 vi.mock("../server/api", () => ({ api: { edit: vi.fn(), undo: vi.fn(), redo: vi.fn() } }));
@@ -14,6 +15,7 @@ const labels = { kind: "vocabulary" as const, labels: [] };
 beforeEach(() => {
   vi.clearAllMocks();
   useToasts.setState({ toasts: [] });
+  useProject.setState(emptyProject, true);
 });
 
 test("what was done is told, and can be undone", async () => {
@@ -47,6 +49,24 @@ test("an edit waits for those before it, also where one is refused", async () =>
   expect(await Promise.all([perform(labels), perform(labels)])).toEqual([false, true]);
   expect(order).toEqual(["first", "second"]);
   expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
+});
+
+test("an edit is over when the page was told what it changed, or is not connected any more", async () => {
+  useProject.setState({ connected: true });
+  edit.mockResolvedValue({ said: "done" });
+  const over = vi.fn();
+  void perform(labels).then(over);
+  const history = { kind: "history", history: emptyProject.history, did: "edit", said: "done" } as const;
+  receive({ ...history, by: "another page" });
+  await new Promise((soon) => setTimeout(soon, 20));
+  expect([over.mock.calls.length, onTheirWay() === null]).toEqual([0, false]);
+  receive({ ...history, by: page });
+  await expect.poll(() => [over.mock.calls.length, onTheirWay()]).toEqual([1, null]);
+  void perform(labels).then(over);
+  await new Promise((soon) => setTimeout(soon, 20));
+  expect(over).toHaveBeenCalledTimes(1);
+  useProject.setState({ connected: false });
+  await expect.poll(() => over.mock.calls.length).toBe(2);
 });
 
 test("names of files keep their first letter", () => {

@@ -1,9 +1,17 @@
-// Edits go to the server one after the other; each is on disk when its promise is fulfilled with true.
+// Edits go to the server one after the other; each is on disk, and what it changed is on the page, when its promise is
+// fulfilled with true.
 import { api } from "../server/api";
 import type { AnyEdit, Done } from "../wire";
+import { type ProjectState, useProject } from "./project";
 import { complainedOf, told } from "./toasts";
 
-let queue: Promise<unknown> = Promise.resolve();
+/** What takes longer to reach the page, as where the connection hangs, is no longer waited for [ms]. */
+const PATIENCE = 3000;
+
+let queue: Promise<unknown> | null = null;
+
+/** Fulfilled when all edits that are on their way now are done; null where there is none. */
+export const onTheirWay = (): Promise<unknown> | null => queue;
 
 /** Makes an edit; tells what was done, or what went wrong. */
 export function perform(edit: AnyEdit, options: { quiet?: boolean } = {}): Promise<boolean> {
@@ -18,16 +26,35 @@ export const sentence = (said: string): string => said.replace(/^[a-z](?=[a-z]*[
 
 /** Does one request after those before; tell: what the toast says of what was done, null for no toast. */
 function inTurn(request: () => Promise<Done>, tell: ((said: string) => string) | null): Promise<boolean> {
-  const mine = queue.then(async () => {
+  const mine = (queue ?? Promise.resolve()).then(async () => {
+    const before = useProject.getState();
     try {
       const done = await request();
+      if (!done.nothing) await shown(before);
       if (tell && done.said) told(tell(done.said), tell === sentence && !done.nothing);
       return true;
     } catch (error) {
       complainedOf(error);
       return false;
+    } finally {
+      if (queue === mine) queue = null;
     }
   });
   queue = mine;
   return mine;
+}
+
+/** Waits until the page was told what its edit changed; before: the state when the edit was sent. */
+function shown(before: ProjectState): Promise<void> {
+  const isOver = (now: ProjectState) => !now.connected || now.own !== before.own || now.hellos !== before.hellos;
+  return new Promise((pass) => {
+    const end = () => {
+      stop();
+      clearTimeout(late);
+      pass();
+    };
+    const stop = useProject.subscribe((now) => isOver(now) && end());
+    const late = setTimeout(end, PATIENCE);
+    if (isOver(useProject.getState())) end();
+  });
 }

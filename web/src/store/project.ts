@@ -1,5 +1,6 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
+import { page } from "../server/http";
 import type { Card, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach } from "../wire";
 
 export interface ProjectState {
@@ -19,6 +20,9 @@ export interface ProjectState {
   reach: Readonly<Record<string, Reach>>;
   jobs: readonly Job[];
   tour: boolean;
+  /** How often everything was told anew, and of how many edits of this page. */
+  hellos: number;
+  own: number;
   /** Counts up for each asset whose details changed, so that what is kept of it is fetched anew. */
   revisions: Readonly<Record<string, number>>;
   shapeRevisions: Readonly<Record<string, number>>;
@@ -63,6 +67,8 @@ export const emptyProject: ProjectState = {
   reach: {},
   jobs: [],
   tour: false,
+  hellos: 0,
+  own: 0,
   revisions: {},
   shapeRevisions: {},
 };
@@ -87,6 +93,7 @@ export function received(state: ProjectState, event: Event): ProjectState {
         reach: byAsset(event.reach),
         jobs: event.jobs,
         tour: event.tour,
+        hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection
         revisions: raised(state.revisions, event.cards.map((card) => card.asset)),
         shapeRevisions: raised(state.shapeRevisions, event.cards.map((card) => card.asset)),
@@ -105,7 +112,7 @@ export function received(state: ProjectState, event: Event): ProjectState {
     case "project":
       return { ...state, project: event.project };
     case "history":
-      return { ...state, history: event.history };
+      return { ...state, history: event.history, own: state.own + Number(event.by === page) };
     case "assets": {
       const shapes = event.shapes ? raised(state.shapeRevisions, event.assets) : state.shapeRevisions;
       return { ...state, revisions: raised(state.revisions, event.assets), shapeRevisions: shapes };

@@ -151,12 +151,12 @@ class Desk:
         return Done(said=entries[0].title)
 
     def noted(self, entries: Iterable[Entry], did: Did, by: str | None = None) -> None:
-        """Tell all pages of entries that were made, undone or redone."""
+        """Tell all pages of entries that were made, undone or redone, after what they changed (cards follow)."""
         with self._mutex:
             entries = tuple(entries)
             said = entries[0].title
-            self.shown.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
             self.changed({name for entry in entries for name in entry.names})
+            self.shown.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
 
     @contextmanager
     def making(self, edit: Edit, group: str) -> Iterator[None]:

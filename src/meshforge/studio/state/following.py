@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from meshforge.errors import MeshForgeError
 from meshforge.project import Project, Review
 from meshforge.studio.showing.programs import program_view
+from meshforge.studio.showing.project import vocabulary_view
 from meshforge.studio.state.changes import LEARNED, PROGRAM, changes_of
 from meshforge.studio.state.watch import differing, look, looked
 from meshforge.studio.wire.lesson import ProgramView
@@ -55,9 +56,10 @@ class Following:
         return other
 
     def reopen(self) -> None:
-        """Look for assets that came or went."""
+        """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         desk = self._desk
         desk.project = desk.project.with_assets(Project.open(desk.project.folder).found)
+        desk.shown.set_vocabulary(vocabulary_view(desk.project.settings.vocabulary, desk.shown.cards))
         desk.chores.add(desk.shown.set_assets(desk.project.assets()), later=True)
 
     def look_again(self) -> None:

@@ -24,7 +24,8 @@ Result = TypeVar("Result")
 class Lessons:
     """Begins lessons and takes their outcomes; of several begun, only the last one counts.
 
-    taught: whether anything is demonstrated; learned: called when a lesson is over, before its reach is measured.
+    taught: whether anything is demonstrated; learned: called when a lesson is over, before pages are told so and its
+    reach is measured, so that who sees that it is over sees its program, too.
     """
 
     def __init__(
@@ -123,9 +124,16 @@ class Lessons:
             lesson = LessonView(number=number, status="error", error=told(error))
         if number != self._number:
             return
-        self._shown.set_lesson(lesson, learning=False)
-        self._learned(lesson)
+        try:
+            self._learned(lesson)
+        finally:
+            self._show(number, lesson)
         self.measure()
+
+    def _show(self, number: int, lesson: LessonView) -> None:
+        with self._lock:  # so that no other lesson begins meanwhile
+            if number == self._number:
+                self._shown.set_lesson(lesson, learning=False)
 
     def _measured(self, number: int, reach: tuple[Reach, ...]) -> None:
         if number == self._number:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import logging
+from functools import partial
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, StoppedError, told
-from meshforge.project import Project, Status
+from meshforge.project import Project, Status, first_to_show
 from meshforge.studio.showing.cards import card
 from meshforge.studio.showing.next_step import next_step
 from meshforge.studio.showing.project import project_view
@@ -62,7 +63,8 @@ class Refreshing:
         desk, cards = self._desk, self._desk.shown.cards
         program = desk.shown.program
         has_program = bool(program.text) and not program.error
-        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem)
+        first = partial(first_to_show, desk.project)
+        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem, first)
         return project_view(desk.project, cards, following, status.problem, status.lost)
 
     def _count(self) -> None:

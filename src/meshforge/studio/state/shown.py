@@ -7,7 +7,7 @@ from threading import RLock
 
 from meshforge.studio.state.hub import Hub, Page
 from meshforge.studio.wire import events
-from meshforge.studio.wire.family import Card, HistoryView, ProjectView
+from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.jobs import Job
 from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
 
@@ -91,6 +91,11 @@ class Shown:
             if project != self._project:
                 self._project = project
                 self._hub.tell(events.ProjectChanged(project=project))
+
+    def set_vocabulary(self, labels: tuple[VocabularyLabel, ...]) -> None:
+        """Show other labels."""
+        with self._lock:
+            self.set_project(self._project.model_copy(update={"vocabulary": labels}))
 
     def set_problem(self, problem: str) -> None:
         """Show what is wrong with the project."""

@@ -56,7 +56,8 @@ class ProjectChanged(Wire):
 
 
 class HistoryChanged(Wire):
-    """What can be undone now; said: what was just done, undone or redone, in words, by which page."""
+    """What can be undone now; said: what was just done, undone or redone, in words, by which page. Other settings and
+    the names of changed assets are told before, their cards after it."""
 
     kind: Literal["history"] = "history"
     history: HistoryView
