@@ -14,8 +14,8 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.views import compare, render, sheet, write_png
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
-CHOICES = ("Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
-"""Two readings of a rule of docs/learning.md, on the table that it is asked about."""
+CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
+"""Three readings of a rule of docs/learning.md, on the table that it is asked about."""
 
 
 def main(folder: Path) -> None:
@@ -41,13 +41,13 @@ def _tables(path: Path) -> None:
 
 
 def _question(path: Path) -> None:
-    mesh, _ = stage(load(TABLES / "table_14.obj"), Program.read(TABLES / "tables.mf").orient)
+    mesh, _ = stage(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
     drawn = []
     for text in CHOICES:
         (rule,) = Program.parse(f"{text} => Delete").rules
         chosen = frozenset(mesh.hulls[k].name for k in rule.extractor.select(mesh))
         drawn.append(render(mesh, highlight=chosen, size=(520, 400), up="Z"))
-    write_png(path, sheet(drawn, columns=2, titles=[f"choice {k}" for k in (1, 2)]))
+    write_png(path, sheet(drawn, columns=len(drawn), titles=[f"choice {k}" for k in range(1, len(drawn) + 1)]))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from meshforge.project.accepting import Standing
 from meshforge.project.advice import Advice
 from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLine, RepairLine
+from meshforge.project.beginning import first_to_show
 from meshforge.project.family import Family, looked_at
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
@@ -35,6 +36,7 @@ __all__ = [
     "Status",
     "Verdict",
     "action_text",
+    "first_to_show",
     "geometry_digest",
     "looked_at",
     "parse_action_text",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,14 +31,18 @@ def advice(
     rules: int | None,
     stands: Standing,
     problem: str | None,
+    first: Callable[[Sequence[str]], str | None],
 ) -> Advice:
-    """The first thing that is missing on the way from assets to edited assets; paths: of the assets by id."""
+    """The first thing that is missing on the way from assets to edited assets.
+
+    paths: of the assets by id; first: which of some assets, by id, is to be demonstrated first.
+    """
     if problem:
         return Advice(f"The program cannot be applied: {problem}")
     return (
         _hulls(folder, assets)
         or _labels(folder, paths, assets, vocabulary, rules)
-        or _demonstrations(folder, paths, assets, rules)
+        or _demonstrations(folder, paths, assets, rules, first)
         or _program(folder, rules, stands.outdated)
         or _question(folder, assets, stands.question)
         or _output(folder, assets)
@@ -75,13 +79,18 @@ def _labels(
 
 
 def _demonstrations(
-    folder: Path, paths: Mapping[str, Path], assets: Sequence[AssetStatus], rules: int | None
+    folder: Path,
+    paths: Mapping[str, Path],
+    assets: Sequence[AssetStatus],
+    rules: int | None,
+    first: Callable[[Sequence[str]], str | None],
 ) -> Advice | None:
     if rules is not None or any(asset.demonstrated for asset in assets):
         return None
-    example = next((asset.id for asset in assets if asset.labelled), next(iter(paths)))
+    labelled = [asset.id for asset in assets if asset.labelled]
+    example = first(labelled) or next(iter(labelled or paths))
     return Advice(
-        "Nothing is demonstrated yet: show the steps of the edit on an asset or two. "
+        f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
         f"The names of hulls: meshforge info {_word(Path(example))} --project {_word(folder)}",
         f"meshforge demonstrate {_word(folder)} {_word(Path(example))} 'HULLS => ACTION' ...",
     )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
@@ -11,6 +12,7 @@ from meshforge.language import Program
 from meshforge.project.accepting import standing
 from meshforge.project.advice import advice
 from meshforge.project.applying import jobs, task
+from meshforge.project.beginning import first_to_show
 from meshforge.project.demonstrating import astray
 from meshforge.project.reviewing import Review, output_digest
 from meshforge.project.status import AssetStatus, State, Status
@@ -43,7 +45,8 @@ def status(
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    advised = advice(project.folder, ids, every, settings.vocabulary, rules, stands, problem)
+    first = partial(first_to_show, project) if only is None else _unchosen
+    advised = advice(project.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
     return Status(
         settings.name,
         assets,
@@ -55,6 +58,10 @@ def status(
         advised,
         stands.question,
     )
+
+
+def _unchosen(assets: Sequence[str]) -> None:
+    """Of a project that is looked at in part no asset stands out."""
 
 
 def _program(project: Project) -> tuple[Program | None, Task | None, str | None]:

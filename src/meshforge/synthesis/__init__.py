@@ -8,6 +8,7 @@ from meshforge.synthesis.learn import synthesize
 from meshforge.synthesis.options import LAYERS, Layers, Options, Shortcuts
 from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, NoProgram, Outcome, Reading, TimedOut
 from meshforge.synthesis.search import Tried
+from meshforge.synthesis.telling import most_telling
 from meshforge.synthesis.wire import outcome_json
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "TimedOut",
     "Tried",
     "consolidated",
+    "most_telling",
     "outcome_json",
     "synthesize",
 ]

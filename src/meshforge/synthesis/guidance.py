@@ -26,10 +26,10 @@ def question(rule: int, weighed: Weighed, names: Sequence[str], declined: Collec
     names: of the meshes of the field; declined: those for which a person said that neither choice is right.
     """
     doubt = weighed.doubt
-    if len(declined) >= BALKED or not doubt.grave:
+    if len(declined) >= BALKED:
         return None
     split = weighed.split(k for k, name in enumerate(names) if name in declined)
-    if not split:
+    if not split or not split.worth_asking:
         return None
     choices = tuple(
         Choice(reading_id(rule, reading), _hulls(weighed, reading, split.asset)) for reading in split.choices

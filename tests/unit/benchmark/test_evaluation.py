@@ -10,11 +10,13 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark.evaluation import journal
+from benchmark.evaluation.failing import failing, reason
 from benchmark.evaluation.figures import solved_at
 from benchmark.evaluation.journal import done
 from benchmark.study import Round, Session
+from benchmark.tasks import task
 
-PARTS = ["ceiling", "calibration", "effectiveness", "comparison"]
+PARTS = ["ceiling", "calibration", "effectiveness", "comparison", "contest"]
 
 
 @pytest.fixture
@@ -84,3 +86,17 @@ def test_a_task_is_solved_once_all_demonstrators_have_had_it_right() -> None:
     assert [solved_at(groups, k) for k in (1, 2, 3)] == [0.0, 0.0, 1.0]
     groups["cup-hard"] = [session(0, [(1, 0, 1)])]
     assert solved_at(groups, 9) == 0.5
+
+
+def test_the_reason_of_a_failing_session_is_what_is_kept_of_it() -> None:
+    wanted = task("cup-easy").program
+    row = session(0, [(1, 0, 3)])
+    row.condition, row.program, row.accepted = "true labels", str(wanted).replace("\nIs(wall)", "\nAll"), True
+    assert reason(row).endswith("accepted, as no difference was among the twelve results looked at")
+    larger = str(wanted).replace("\nIs(wall)", "\nUnion(Is(wall), Is(lid))")
+    row.program, row.accepted, row.condition = larger, False, "noisy labels"
+    assert reason(row) == "a larger rule was learned, under noisy labels; given up after 0 demonstrations"
+    row.program = None
+    assert reason(row).startswith("no program fits what was shown, under noisy labels")
+    table = failing({"noisy labels": {"cup-easy": [row]}})
+    assert [line[:3] for line in table.rows] == [("cup-easy", "noisy labels", 0)]

@@ -81,7 +81,7 @@ Rule 1 is now: Geo(Is(board), +Z) => Delete
 
 def test_neither_leads_to_the_labels(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    outcome, seen, _ = talk(project, "n", "shelf=lek", "shelf", "shelf=leg", "2")
+    outcome, seen, _ = talk(project, "n", "shelf=lek", "shelf", "shelf=leg", "1")
     assert isinstance(outcome, Found)
     assert project.mesh(SHELVED).named("shelf").label == "leg"
     assert project.answers().ids == ("1:rack3.obj",)

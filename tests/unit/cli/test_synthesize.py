@@ -74,7 +74,7 @@ def test_answers_come_from_a_file_by_the_choice(run: Run, tmp_path: Path) -> Non
         timeless(told.err)
         == """
 learned in TIME with 1 answer, kept as racks/program.mf
-settled: all believable readings agree on your 7 assets
+settled: all believable readings agree on your 12 assets
 Next: meshforge apply racks
 """
     )
@@ -84,7 +84,7 @@ Next: meshforge apply racks
 
 def test_answers_come_from_a_file_by_the_selection(run: Run, tmp_path: Path) -> None:
     ambiguous(tmp_path)
-    told = run("synthesize", "racks", "--answers", answers({"rule": 1, "asset": "rack5.obj", "select": ["top"]}))
+    told = run("synthesize", "racks", "--answers", answers({"rule": 1, "asset": "rack3.obj", "select": ["top"]}))
     assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
     assert run("synthesize", "racks", "--json").json["status"] == "found"
 
@@ -102,7 +102,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
     assert timeless(told.err).splitlines()[1:] == [
         "learned in TIME with 1 answer",
-        "settled: all believable readings agree on your 7 assets",
+        "settled: all believable readings agree on your 12 assets",
     ]
     assert project.program() is None and not project.answers().ids
 
@@ -114,7 +114,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
         ([{"question": "1:rack2.obj", "choice": 4}], "1:rack2.obj has 3 choices, there is no choice 4"),
         ([{"question": "1:rack2.obj", "choice": 0}], "answer 1: the choice 0 is no number from 1"),
         ([{"question": "rack2.obj", "choice": 1}], "answer 1: 'rack2.obj' is no question"),
-        ([{"question": "1:rack9.obj", "choice": 1}], "there is no asset 'rack9.obj'"),
+        ([{"question": "1:rack99.obj", "choice": 1}], "there is no asset 'rack99.obj'"),
         ([{"rule": 2, "asset": "rack2.obj", "select": []}], "there is no rule 2 to answer for"),
         ([{"rule": 1, "asset": "rack2.obj"}], "answer 1: it has not the right form"),
         ([{"rule": 1, "asset": "rack2.obj", "select": [3]}], "answer 1: it has not the right form"),

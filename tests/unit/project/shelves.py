@@ -15,7 +15,7 @@ PLAIN, OTHER, SHELVED = "rack0.obj", "rack1.obj", "rack2.obj"
 
 
 def boxes(number: int) -> dict[str, tuple[Corner, Corner]]:
-    """A board on two legs; from the third rack on there is a shelf between them. A knob on the left leg."""
+    """A board on two legs; in the third and the fourth rack there is a shelf between them. A knob on the left leg."""
     height = 1.0 + number / 8
     found: dict[str, tuple[Corner, Corner]] = {
         "top": ((0, 0, height), (2, 1, height + 0.1)),
@@ -23,7 +23,7 @@ def boxes(number: int) -> dict[str, tuple[Corner, Corner]]:
         "right": ((1.9, 0, 0), (2, 1, height)),
         "knob": ((-0.1, 0.4, height / 2), (0, 0.6, height / 2 + 0.2)),
     }
-    return found | {"shelf": ((0.1, 0, height / 4), (1.9, 1, height / 4 + 0.1))} if number > 1 else found
+    return found | {"shelf": ((0.1, 0, height / 4), (1.9, 1, height / 4 + 0.1))} if number in (2, 3) else found
 
 
 def label_of(name: str) -> str:
@@ -45,8 +45,11 @@ def racks(folder: Path, count: int = 7, **wrong: str) -> Project:
 
 
 def ambiguous(folder: Path) -> Project:
-    """Demonstrated on the racks without a shelf: is it all boards that are deleted, or the highest?"""
-    project = racks(folder)
+    """Demonstrated on racks without a shelf: is it all boards that are deleted, or the highest?
+
+    Only two of twelve have a shelf, so that a wrong program would likely not be seen.
+    """
+    project = racks(folder, 12)
     for asset in (PLAIN, OTHER):
         project.demonstrate(asset, [Step(1, {"top"}, Delete())])
     return project

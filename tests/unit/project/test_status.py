@@ -9,7 +9,7 @@ import pytest
 from meshforge.errors import ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Program
-from meshforge.project import AssetStatus, Project, Standing, Status
+from meshforge.project import AssetStatus, Project, Standing, Status, first_to_show
 from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -34,6 +34,18 @@ def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> N
         ["meshforge", "apply"],
         ["meshforge", "check"],
     ]
+
+
+def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed_over(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    first = first_to_show(project, project.assets())
+    advised = of(project).next
+    assert first in project.assets()
+    assert f"best first on {first}." in advised.say
+    assert first in (advised.command or "")
+    project.path(first).write_text("no obj")
+    assert first_to_show(project, project.assets()) not in (first, None)
+    assert first_to_show(project, ()) is None
 
 
 def test_labels_that_lie_nowhere_are_asked_for(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from meshforge.studio.showing.next_step import next_step
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.lesson import LessonView, NearestView, QuestionView, RepairView
@@ -15,10 +17,14 @@ ASKING = FOUND.model_copy(
 REPAIR = RepairView(id="c#h=leg", rule=1, asset="c", hull="h", was=None, to="leg", belief=0.9, why="it looks like one")
 
 
+def last(assets: Sequence[str]) -> str | None:
+    return assets[-1] if len(assets) > 1 else None
+
+
 def stage(
     card: Card, *, words: tuple[str, ...] = ("leg",), program: bool = False, lesson: LessonView | None = None
 ) -> str:
-    return next_step([card], words, program, lesson, None).stage
+    return next_step([card], words, program, lesson, None, last).stage
 
 
 def test_the_stages_follow_one_another() -> None:
@@ -32,26 +38,34 @@ def test_the_stages_follow_one_another() -> None:
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
-    assert next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None).asset == "b"
-    assert next_step([SHOWN], ("leg",), True, ASKING, None).asset == "b"
+    assert next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None, last).asset == "b"
+    assert next_step([SHOWN], ("leg",), True, ASKING, None, last).asset == "b"
     repairing = ASKING.model_copy(update={"repairs": (REPAIR,)})
-    assert next_step([SHOWN], ("leg",), True, repairing, None).asset == "c"
+    assert next_step([SHOWN], ("leg",), True, repairing, None, last).asset == "c"
     flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
-    assert next_step([DONE, flagged], ("leg",), True, FOUND, None).asset == "d"
-    assert next_step([DONE], ("leg",), True, FOUND, None).asset == "a"
+    assert next_step([DONE, flagged], ("leg",), True, FOUND, None, last).asset == "d"
+    assert next_step([DONE], ("leg",), True, FOUND, None, last).asset == "a"
+
+
+def test_the_asset_that_tells_most_is_shown_first_and_without_one_the_first_with_labels() -> None:
+    other = LABELLED.model_copy(update={"asset": "b"})
+    step = next_step([LABELLED, other], ("leg",), False, None, None, last)
+    assert (step.asset, step.say) == ("b", "Show the first step of the edit on one asset, best on b.")
+    step = next_step([LABELLED], ("leg",), False, None, None, last)
+    assert (step.asset, step.say) == ("a", "Show the first step of the edit on one asset.")
 
 
 def test_at_the_end_there_is_only_the_export() -> None:
     accepted = DONE.model_copy(update={"review": "accepted"})
-    assert "export" in next_step([accepted], ("leg",), True, FOUND, None).say
+    assert "export" in next_step([accepted], ("leg",), True, FOUND, None, last).say
 
 
 def test_a_lesson_without_a_program_leads_to_what_came_nearest_and_does_not_repeat_its_reasons() -> None:
     near = NearestView(rule=2, extractor="Is(leg)", asset="b", extra=(), missing=("h",))
     failed = LessonView(number=1, status="none", why="no extractor of up to 9 symbols", nearest=near)
-    step = next_step([SHOWN], ("leg",), False, failed, None)
+    step = next_step([SHOWN], ("leg",), False, failed, None, last)
     assert (step.stage, step.asset) == ("learn", "b")
     assert step.say == "No selection fits rule 2 yet: see what comes nearest."
     for status in ("none", "timeout", "error"):
         over = LessonView(number=1, status=status, why="a long reason", error="a long\n  message")
-        assert "long" not in next_step([SHOWN], ("leg",), False, over, None).say
+        assert "long" not in next_step([SHOWN], ("leg",), False, over, None, last).say

@@ -21,9 +21,9 @@ from meshforge.synthesis import (
     outcome_json,
     synthesize,
 )
-from tests.synthesis_cupboards import cupboard, cupboards, meant, selected, shown
+from tests.synthesis_cupboards import cupboard, cupboards, meant, selected, shown, with_rare_doors
 
-MESHES = cupboards()
+MESHES = with_rare_doors()
 DEMOS = shown(MESHES, ["c0"], "Is(handle) => Delete")
 BOTH, BY_DRAWER, BY_DOOR = {"pull", "knob"}, {"pull"}, {"knob"}
 

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.synthesis.readings.doubt import CHOICES, HARM, HARMED, Doubt
+from meshforge.synthesis.readings.doubt import CHOICES, PRICE, SEEN, UNSEEN, Doubt
 
 
 def test_readings_that_agree_everywhere_do_no_harm_and_raise_no_question() -> None:
     doubt = Doubt([["a", "b"], ["a", "b"]], [0.6, 0.4])
-    assert (doubt.harm, doubt.grave, doubt.best(range(2)), doubt.gains(0)) == (0.0, False, None, {})
+    assert (doubt.harm, doubt.best(range(2)), doubt.gains(0)) == (0.0, None, {})
 
 
 def test_one_reading_alone_does_no_harm() -> None:
     doubt = Doubt([["a", "b"]], [1.0])
-    assert (doubt.harm, doubt.grave, doubt.best(range(2))) == (0.0, False, None)
+    assert (doubt.harm, doubt.best(range(2))) == (0.0, None)
 
 
 def test_without_assets_nothing_is_at_stake() -> None:
     doubt = Doubt([[], []], [0.5, 0.5])
-    assert (doubt.harm, doubt.grave, doubt.best([]), doubt.gains(0)) == (0.0, False, None, {})
+    assert (doubt.harm, doubt.best([]), doubt.gains(0)) == (0.0, None, {})
 
 
 def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_program() -> None:
@@ -31,11 +31,19 @@ def test_the_harm_counts_from_the_programs_reading_even_where_another_is_believe
     assert Doubt([[1], [2]], [0.25, 0.75]).harm == pytest.approx(0.75)
 
 
-@pytest.mark.parametrize("assets", [1, 5, 16, 200])
-def test_a_question_is_worth_asking_above_a_share_and_a_number_of_assets(assets: int) -> None:
-    least = max(HARM, HARMED / assets)
-    for belief, grave in ((least * 0.99, False), (least * 1.01, True)):
-        assert Doubt([["a"] * assets, ["b"] * assets], [1 - belief, belief]).grave is grave
+def test_what_differs_everywhere_is_seen_and_costs_a_demonstration() -> None:
+    for belief, worth in ((PRICE * 0.99, False), (PRICE * 1.01, True)):
+        best = Doubt([["a"] * 5, ["b"] * 5], [1 - belief, belief]).best(range(5))
+        assert best is not None
+        assert best.spared == pytest.approx(belief)
+        assert best.worth_asking is worth
+
+
+def test_what_differs_on_few_assets_is_likely_not_seen_and_costs_more() -> None:
+    best = Doubt([["a"] * 50, ["a"] * 49 + ["b"]], [0.9, 0.1]).best(range(50))
+    assert best is not None
+    assert best.asset == 49
+    assert best.spared == pytest.approx(0.1 * (1 + UNSEEN * 0.98**SEEN))
 
 
 def test_the_best_question_leaves_least_harm_and_of_equals_is_about_the_first_asset() -> None:

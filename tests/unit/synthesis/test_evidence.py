@@ -1,4 +1,4 @@
-"""What the batch says about a reading: idle, crowded, strange; and operands that nothing was shown of."""
+"""What the batch says about a reading: idle, strange; and operands and limits that nothing was shown of."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.language import parse_extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.readings.evidence import NO_EVIDENCE, STRANGE_LABEL, Evidence, evidence, untried
+from meshforge.synthesis.readings.evidence import NO_EVIDENCE, STRANGE_LABEL, Evidence, evidence, unneeded, untried
 from meshforge.synthesis.search.field import Field
 from tests.synthesis_boxes import boxes
 
@@ -55,23 +55,12 @@ def test_a_reading_is_idle_on_the_share_of_assets_where_it_selects_nothing() -> 
 def test_a_mesh_without_hulls_is_one_where_nothing_is_selected() -> None:
     for batch in ([NONE_AT_ALL, row(2)], [row(2), NONE_AT_ALL]):
         (legs,) = said(["Is(leg)"], [row(2)], batch)
-        assert (legs.idle, legs.crowd) == (0.5, 0.0)
+        assert legs.idle == 0.5
         assert legs.strange == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_reading_that_never_selects_is_idle_and_nothing_else() -> None:
-    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (Evidence(1.0, 0.0, 0.0),)
-
-
-@pytest.mark.parametrize(("legs", "crowd"), [(1, 1.0), (2, 0.0), (4, 1.0)])
-def test_doubling_and_halving_crowd_alike(legs: int, crowd: float) -> None:
-    (found,) = said(["Is(leg)"], [row(2)], [row(legs), row(0)])
-    assert found.crowd == pytest.approx(crowd)
-
-
-def test_the_usual_number_is_the_middle_of_those_demonstrated_where_something_was() -> None:
-    (found,) = said(["Is(leg)"], [row(1), row(4), row(0)], [row(2)])
-    assert found.crowd == pytest.approx(0.0)
+    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (Evidence(1.0, 0.0),)
 
 
 def test_hulls_like_those_demonstrated_are_not_strange_and_others_are_the_more_the_less_alike() -> None:
@@ -96,7 +85,7 @@ def test_the_evidence_does_not_depend_on_the_unit_of_length() -> None:
     (metres,) = said(["All"], meshes[:1], meshes[1:])
     (microns,) = said(["All"], [scaled(meshes[0], 1e6)], [scaled(mesh, 1e6) for mesh in meshes[1:]])
     assert microns.strange == pytest.approx(metres.strange)
-    assert (microns.idle, microns.crowd) == (metres.idle, metres.crowd)
+    assert microns.idle == metres.idle
 
 
 @pytest.mark.parametrize(
@@ -119,3 +108,18 @@ def test_the_evidence_does_not_depend_on_the_unit_of_length() -> None:
 def test_operands_that_make_no_difference_where_it_was_shown_are_untried(text: str, count: int) -> None:
     field = Field([row(2), row(2, 2)], LABELS)
     assert untried(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1) == count
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("Is(leg)", 0),
+        ("Geo(Is(leg), -Z)", 1),
+        ("Geo(Is(leg), +X)", 0),
+        ("Diff(Is(leg), Geo(Is(leg), -Z))", 1),
+        ("Geo(All, -Z)", 0),
+    ],
+)
+def test_a_limit_that_leaves_nothing_out_where_it_was_shown_is_unneeded(text: str, count: int) -> None:
+    field = Field([row(2, 1), row(3, 2)], ("leg", "panel", "misc"))
+    assert unneeded(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1, field) == count

@@ -58,8 +58,8 @@ def test_one_asset_is_it_and_not_one_of_these() -> None:
 
 
 def test_a_larger_reading_that_is_believed_more_but_not_taken_is_told_so() -> None:
-    meshes = {f"t{k}": mesh for k, mesh in enumerate(family("table", 12, seed=5))}
-    demos = shown(meshes, ["t0"], "Is(leg) => Delete")
+    meshes = {f"t{k}": mesh for k, mesh in enumerate(family("cabinet", 12, seed=5))}
+    demos = shown(meshes, ["t1"], "Attach(Is(handle), Is(drawer)) => Delete")
     beliefs = {r.extractor: r.belief for r in synthesize(demos, meshes, options=Options(repair=False)).readings}
     taken, rival, *_ = beliefs
     assert beliefs[taken] < beliefs[rival], "else this family shows nothing"

@@ -10,7 +10,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Found, Hint, Options, Outcome, synthesize
 from meshforge.synthesis.guidance import hint, reading_id
 from tests.synthesis_boxes import boxes
-from tests.synthesis_cupboards import cupboard, cupboards, shown
+from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
 ALIKE = "believable readings of the rules differ there"
 
@@ -33,12 +33,12 @@ def test_readings_are_counted_from_one_within_their_rule() -> None:
         "Is(handle) => Delete",
         "Attach(Is(handle), Is(drawer)) => Delete",
         "Diff(All, Is(body)) => Delete",
-        "All => Delete",
+        "Diff(All, Is(foot)) => Delete",
         "Is(body) => Delete\nIs(handle) => Delete",
     ],
 )
 def test_a_question_has_two_or_three_choices_that_differ_and_is_about_an_asset_nobody_spoke_of(program: str) -> None:
-    meshes = cupboards(12)
+    meshes = with_rare_doors()
     outcome = learned(meshes, ["c2"], program)
     assert isinstance(outcome, Ambiguous)
     question = outcome.question
@@ -50,14 +50,14 @@ def test_a_question_has_two_or_three_choices_that_differ_and_is_about_an_asset_n
 
 @pytest.mark.parametrize(("order", "rule"), [(("Is(body)", "Is(handle)"), 2), (("Is(handle)", "Is(body)"), 1)])
 def test_a_question_is_about_the_first_rule_whose_doubt_is_worth_it(order: tuple[str, str], rule: int) -> None:
-    outcome = learned(cupboards(), ["c0"], "".join(f"{extractor} => Delete\n" for extractor in order))
+    outcome = learned(with_rare_doors(), ["c0"], "".join(f"{extractor} => Delete\n" for extractor in order))
     assert isinstance(outcome, Ambiguous)
     assert outcome.question.rule == rule
     assert outcome.question.id == f"{rule}:{outcome.question.asset}"
 
 
 def test_the_choices_of_a_question_are_what_its_readings_differ_by() -> None:
-    outcome = learned(cupboards(), ["c0"], "Is(handle) => Delete")
+    outcome = learned(with_rare_doors(), ["c0"], "Is(handle) => Delete")
     assert isinstance(outcome, Ambiguous)
     assert [set(choice.select) for choice in outcome.question.choices] == [{"pull", "knob"}, {"pull"}, {"knob"}]
     for choice in outcome.question.choices[1:]:
@@ -65,12 +65,23 @@ def test_the_choices_of_a_question_are_what_its_readings_differ_by() -> None:
         assert outcome.question.asset in reading.differs_on
 
 
+def test_what_differs_on_many_assets_is_sooner_seen_than_asked() -> None:
+    """Rivals believed alike: asked about where few assets tell them apart, only reported where many do."""
+    rare, common = (learned(meshes, ["c0"], "Is(handle) => Delete") for meshes in (with_rare_doors(), cupboards(12)))
+    assert isinstance(rare, Ambiguous)
+    assert isinstance(common, Found)
+    assert not common.settled
+    for outcome in (rare, common):
+        assert sum(reading.belief for reading in outcome.readings if "c1" in reading.differs_on) > 0.3
+
+
 def test_a_faint_doubt_is_reported_but_not_asked_about() -> None:
+    """It is about one cupboard of sixty-two, and would likely not be seen, but it is hardly believed."""
     usual = cupboard(feet=1)
     meshes = {"shown": cupboard(feet=1), **{f"c{k}": usual for k in range(60)}, "odd": cupboard(True, 1)}
-    outcome = learned(meshes, ["shown"], "Is(handle) => Delete")
+    outcome = learned(meshes, ["shown"], "Is(body) => Delete")
     assert isinstance(outcome, Found)
-    assert max(reading.belief for reading in outcome.readings if reading.differs_on == ("odd",)) > 0.1
+    assert max(reading.belief for reading in outcome.readings if reading.differs_on == ("odd",)) > 0.03
     assert not outcome.settled
 
 

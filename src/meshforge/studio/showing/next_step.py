@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.lesson import LessonView
@@ -10,13 +10,21 @@ from meshforge.words import counted
 
 
 def next_step(
-    cards: Sequence[Card], vocabulary: Sequence[str], has_program: bool, lesson: LessonView | None, problem: str | None
+    cards: Sequence[Card],
+    vocabulary: Sequence[str],
+    has_program: bool,
+    lesson: LessonView | None,
+    problem: str | None,
+    first: Callable[[Sequence[str]], str | None],
 ) -> Next:
-    """The first thing that is missing on the way from assets to exported outputs."""
+    """The first thing that is missing on the way from assets to exported outputs.
+
+    first: which of some assets, by id, is to be demonstrated first.
+    """
     return (
         _hulls(cards)
         or _labels(cards, vocabulary, has_program)
-        or _demonstrations(cards, has_program)
+        or _demonstrations(cards, has_program, first)
         or _lesson(lesson, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
         or _outputs(cards)
@@ -41,11 +49,15 @@ def _labels(cards: Sequence[Card], vocabulary: Sequence[str], has_program: bool)
     return Next(stage="label", say="No hull has a label yet: label those of one asset.", asset=first)
 
 
-def _demonstrations(cards: Sequence[Card], has_program: bool) -> Next | None:
+def _demonstrations(
+    cards: Sequence[Card], has_program: bool, first: Callable[[Sequence[str]], str | None]
+) -> Next | None:
     if has_program or any(card.demonstrated for card in cards):
         return None
-    labelled = (card.asset for card in cards if any(place >= 0 for place in card.labels))
-    return Next(stage="demonstrate", say="Show the first step of the edit on one asset.", asset=next(labelled, None))
+    labelled = [card.asset for card in cards if any(place >= 0 for place in card.labels)]
+    best = first(labelled)
+    say = f"Show the first step of the edit on one asset{f', best on {best}' if best else ''}."
+    return Next(stage="demonstrate", say=say, asset=best or next(iter(labelled), None))
 
 
 def _lesson(lesson: LessonView | None, has_program: bool) -> Next | None:

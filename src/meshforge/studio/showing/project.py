@@ -21,7 +21,7 @@ def project_view(
     return ProjectView(
         name=settings.name,
         folder=str(project.folder),
-        vocabulary=_vocabulary(settings.vocabulary, cards),
+        vocabulary=vocabulary_view(settings.vocabulary, cards),
         orient=settings.orient,
         orient_sentence=explain(orient) if orient else "",
         contact=settings.thresholds.contact,
@@ -58,7 +58,8 @@ def _rule_line(rule: int, shown: Mapping[str, Sequence[Step]]) -> RuleLine:
     )
 
 
-def _vocabulary(words: Sequence[str], cards: Iterable[Card]) -> tuple[VocabularyLabel, ...]:
+def vocabulary_view(words: Sequence[str], cards: Iterable[Card]) -> tuple[VocabularyLabel, ...]:
+    """The labels of the vocabulary, with how many hulls have each."""
     used = Counter(place for card in cards for place in card.labels)
     return tuple(VocabularyLabel(name=w, color=label_color(k), used=used[k]) for k, w in enumerate(words))
 

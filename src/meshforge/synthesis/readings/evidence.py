@@ -10,7 +10,7 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from meshforge.geometry import Floats
-from meshforge.language import Diff
+from meshforge.language import Attach, Diff, Geo
 from meshforge.symbolic import bits, descriptors
 from meshforge.synthesis.search.field import Field
 from meshforge.synthesis.search.term import Joined, Term
@@ -21,17 +21,15 @@ STRANGE_LABEL = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """Of one reading: the share of the assets where it selects nothing; how many times as many hulls as were
-    demonstrated it selects on the others, as a binary logarithm without its sign; and how far these hulls are from
-    the nearest demonstrated one, squared, in standard deviations of the descriptors.
+    """Of one reading: the share of the assets where it selects nothing; and how far the hulls that it selects on the
+    others are from the nearest demonstrated one, squared, in standard deviations of the descriptors.
     """
 
     idle: float
-    crowd: float
     strange: float
 
 
-NO_EVIDENCE = Evidence(0.0, 0.0, 0.0)
+NO_EVIDENCE = Evidence(0.0, 0.0)
 
 
 def evidence(field: Field, selections: Sequence[int], readings: Sequence[int]) -> tuple[Evidence, ...]:
@@ -49,12 +47,10 @@ def evidence(field: Field, selections: Sequence[int], readings: Sequence[int]) -
     many = _summed(chosen.astype(float), ends)
     strange = _summed(chosen * _strangeness(field, selections), ends)
     active = many > 0
-    usual = np.mean([np.log2(mask.bit_count()) for mask in selections if mask])
     meshes = np.maximum(active.sum(axis=1), 1)
-    crowd = np.where(active, np.log2(np.maximum(many, 1)) - usual, 0.0).sum(axis=1) / meshes
     odd = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / meshes
     idle = 1 - active.mean(axis=1)
-    rows = zip(idle.tolist(), np.abs(crowd).tolist(), odd.tolist(), strict=True)
+    rows = zip(idle.tolist(), odd.tolist(), strict=True)
     return tuple(Evidence(*row) for row in rows)
 
 
@@ -99,3 +95,18 @@ def untried(term: Term, shown: int) -> int:
     left, right = made.left.bits & shown, made.right.bits & shown
     idle = not left & right if made.joint is Diff else not left & ~right or not right & ~left
     return idle + untried(made.left, shown) + untried(made.right, shown)
+
+
+def unneeded(term: Term, shown: int, field: Field) -> int:
+    """How many `Attach` and `Geo` in a term leave nothing out of their label on the demonstrated meshes.
+
+    shown: the groups of demonstrated hulls.
+    """
+    made = term.made
+    match made:
+        case Joined():
+            return unneeded(made.left, shown, field) + unneeded(made.right, shown, field)
+        case Attach(base, _) | Geo(base, _):
+            return int(field.bits(base) & shown == term.bits & shown)
+        case _:
+            return 0

@@ -9,7 +9,7 @@ from meshforge.language import Extractor
 from meshforge.synthesis.readings.belief import beliefs, taken
 from meshforge.synthesis.readings.doubt import Doubt, Split
 from meshforge.synthesis.readings.every import Consistent
-from meshforge.synthesis.readings.evidence import evidence
+from meshforge.synthesis.readings.evidence import evidence, unneeded
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.term import Term
 
@@ -31,7 +31,9 @@ class Weighed:
         found = evidence(field, search.selections, [term.bits for term in terms]) if many else ()
         assets = len(field.meshes) - len(search.examples)
         against = [sum(field.on(term.bits, mesh) == mask for mesh, mask in refused) for term in terms]
-        shares = beliefs(terms, found, (1 << search.width) - 1, assets, against) if many else (1.0,)
+        shown = (1 << search.width) - 1
+        idle = [unneeded(term, shown, field) for term in terms]
+        shares = beliefs(terms, found, shown, assets, against, idle) if many else (1.0,)
         head = taken(terms, shares)
         order = sorted(range(len(terms)), key=lambda k: (k != head, -shares[k], k))
         self.field, self.consistent, self.examples = field, consistent, search.examples

@@ -1,0 +1,47 @@
+"""Which mesh is best demonstrated first."""
+
+from __future__ import annotations
+
+from meshforge.language import parse_orient
+from meshforge.symbolic import Label
+from meshforge.synthesis import most_telling
+from tests.synthesis_boxes import boxes
+from tests.synthesis_cupboards import cupboard, cupboards
+
+WORDS = ("body", "drawer", "handle", "door", "foot")
+
+
+def test_the_one_with_doors_feet_and_handles_on_both_tells_most() -> None:
+    meshes = cupboards()
+    assert most_telling(meshes, WORDS) == "c1"  # a door and a foot; c5 has as much, and two feet
+    assert most_telling({"c0": meshes["c0"], "c2": meshes["c2"]}, WORDS) == "c2"
+
+
+def test_more_hulls_that_tell_nothing_more_count_against_a_mesh_and_of_equals_the_first_is_taken() -> None:
+    alike = {"b": cupboard(feet=2), "a": cupboard(feet=2), "c": cupboard(feet=1)}
+    assert most_telling(alike, WORDS) == "c"
+    assert most_telling({name: alike[name] for name in "ba"}, WORDS) == "b"
+
+
+def test_labels_that_may_be_wrong_or_are_missing_count_against_a_mesh() -> None:
+    sure, door = cupboard(), cupboard(door=True)
+    assert most_telling({"sure": sure, "door": door}, WORDS) == "door"
+    doubted = door.labelled({hull.name: Label(str(hull.label), 0.5, "vlm") for hull in door.hulls})
+    assert most_telling({"sure": sure, "door": doubted}, WORDS) == "sure"
+    assert most_telling({"sure": sure, "door": door.labelled({"knob": None, "door": None})}, WORDS) == "sure"
+
+
+def test_only_labels_of_the_vocabulary_count() -> None:
+    assert most_telling({"plain": cupboard(), "door": cupboard(door=True)}, ("drawer",)) == "plain"
+
+
+def test_nothing_is_named_where_nothing_can_be_told() -> None:
+    bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)))
+    assert most_telling({}, WORDS) is None
+    assert most_telling({"bare": bare}, WORDS) is None
+
+
+def test_a_mesh_that_cannot_be_turned_is_passed_over() -> None:
+    orient = parse_orient("orient +X: Is(drawer) -> Is(door)")
+    assert most_telling({"c0": cupboard(), "c1": cupboard(door=True)}, WORDS, orient) == "c1"
+    assert most_telling({"c0": cupboard()}, WORDS, orient) is None
