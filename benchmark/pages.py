@@ -45,8 +45,18 @@ PAGES = (
     Page(
         "evaluation",
         "",
-        ("ceiling", "calibration", "effectiveness", "comparison", "ablation", "correction", "scaling", "gallery"),
-        ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco"),
+        (
+            "ceiling",
+            "calibration",
+            "effectiveness",
+            "comparison",
+            "ablation",
+            "correction",
+            "contest",
+            "scaling",
+            "gallery",
+        ),
+        ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco", "cvc5"),
         aside=("tuning",),
     ),
     Page(

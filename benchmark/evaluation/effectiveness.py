@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from benchmark.evaluation import paper
+from benchmark.evaluation.failing import failing
 from benchmark.evaluation.figures import (
     LEVELS,
     Groups,
@@ -27,9 +28,11 @@ from benchmark.study import CONDITIONS, FULL, NOISY, Session
 from benchmark.study.keystrokes import modelled
 from benchmark.tasks import DIFFICULTIES, task
 
-SILENT, NOISY_SILENT = CONDITIONS["true labels, no questions"], CONDITIONS["noisy labels, no questions"]
+OWN, SILENT, NOISY_SILENT = (
+    CONDITIONS[name] for name in ("true labels, own choice", "true labels, no questions", "noisy labels, no questions")
+)
 ERRS = CONDITIONS["noisy labels, errs in 5%"]
-ASKED = (FULL, SILENT, NOISY, NOISY_SILENT, ERRS)
+ASKED = (FULL, OWN, SILENT, NOISY, NOISY_SILENT, ERRS)
 KS = range(1, 9)
 
 
@@ -52,7 +55,7 @@ def said(rows: Sequence[Session], part: str, title: str) -> Result:
             _few_shot(groups),
             _phases(groups),
             _tasks(true, noisy),
-            _failures(groups),
+            failing({one.name: groups[one.name] for one in (FULL, OWN, SILENT, NOISY)}),
         ),
         tuple(_goals(groups)),
         tuple(_notes(true)),
@@ -127,7 +130,7 @@ def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
 def _few_shot(groups: dict[str, dict[str, list[Session]]]) -> Table:
     columns = ("condition", "difficulty", *(f"k = {k}" for k in KS))
     rows: list[tuple[Cell, ...]] = [("paper", "all", *(paper.FEW_SHOT.get(k, "") for k in KS))]
-    for condition in (FULL, SILENT, NOISY):
+    for condition in (FULL, OWN, SILENT, NOISY):
         for level in LEVELS:
             found = of_difficulty(groups[condition.name], level)
             rows.append((condition.name, level, *(100 * solved_at(found, k) for k in KS)))
@@ -189,36 +192,6 @@ def _task(name: str, true: Sequence[Session], noisy: Sequence[Session]) -> tuple
     )
 
 
-def _failures(groups: dict[str, dict[str, list[Session]]]) -> Table:
-    """Sessions that ended with another program than the reference."""
-    rows = [
-        (
-            row.task,
-            row.condition,
-            row.seed,
-            f"{len(row.shown)} + {row.answers}",
-            "accepted" if row.accepted else "given up",
-            row.rounds[-1].differs,
-            _told(row),
-        )
-        for found in groups.values()
-        for sessions in found.values()
-        for row in sessions
-        if not row.right
-    ]
-    columns = ("task", "condition", "seed", "demonstrations + answers", "", "meshes that differ", "rules that differ")
-    return Table("Sessions that ended with another behaviour than the reference's", columns, tuple(rows))
-
-
-def _told(row: Session) -> str:
-    if row.program is None:
-        return f"no program ({row.rounds[-1].status})"
-    wanted = [str(rule) for rule in task(row.task).program.rules]
-    learned = [line for line in row.program.splitlines() if "=>" in line]
-    pairs = zip(learned, wanted, strict=False)
-    return "; ".join(f"`{' '.join(a.split())}` for `{b}`" for a, b in pairs if a.split() != b.split()) or "none"
-
-
 def _goals(groups: dict[str, dict[str, list[Session]]]) -> Iterator[Goal]:
     true, noisy = groups[FULL.name], groups[NOISY.name]
     every = [row for rows in true.values() for row in rows]
@@ -234,6 +207,8 @@ def _goals(groups: dict[str, dict[str, list[Session]]]) -> Iterator[Goal]:
     settled = [row for row in accepted if row.settled]
     yield Goal("settled, % of accepted runs", "at least", 90.0, 100 * len(settled) / max(len(accepted), 1))
     yield Goal("settled, yet wrong", "at most", 0.0, float(sum(not row.right for row in settled)))
+    replayed = max((_measured(row, "replay") / len(row.rounds) for row in every), default=0.0)
+    yield Goal("replay over the batch, slowest task, a round, s", "at most", 1.0, replayed)
     yield Goal("functional pass rate, pure meshes", "at least", 0.98, spread(true, fpr_pure)[0])
     yield Goal("the same, hard tasks", "at least", 0.96, spread(of_difficulty(true, DIFFICULTIES[-1]), fpr_pure)[0])
     yield Goal("noisy labels: confirmations a task", "at most", 1.5, spread(noisy, confirmations)[0])
@@ -251,3 +226,15 @@ def _notes(true: Groups) -> Iterator[str]:
         "questions. *FPR*: share of those meshes whose edit meets the task's criterion; *pure*: no hull that the rules "
         "are about was made of several parts."
     )
+    yield (
+        "*Own choice*: of meshes on which equally many rules have something to do the person begins with any; else "
+        "with the one of them that the tool proposes."
+    )
+    yield (
+        "Where figures fall short. Found: sessions under true labels that end otherwise were accepted, as the "
+        "rare kind of asset was not among the dozen looked at. A question is asked only where it spares "
+        "demonstrations (decision 0016), so that much stays open, and few runs are *settled*. Supposed, not "
+        "shown: that noisy labels fail as larger rules fit what wrong labels leave; on the calibration set five "
+        "corrections a mesh instead of two changed nothing (92 and 93 sessions of 120)."
+    )
+    yield "Reasons in the table of failing sessions are read off the size of the rules and how a session ended."

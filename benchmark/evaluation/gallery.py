@@ -37,11 +37,14 @@ def measure(tell: Tell, quick: bool) -> Result:
         "Written by <code>script/bench gallery</code>.</p>"
     )
     write_atomically(folder / "index.html", f"{head}{intro}<nav>{links}</nav>{text}</html>\n")
-    count = sum(row["pictures"] for row in rows)
+    shown = {picture for row in rows for picture in row["pictures"]}
+    for path in (folder / "pictures").glob("*.webp"):
+        if path.name not in shown:  # of an earlier run
+            path.unlink()
     return Result(
         "gallery",
         "The gallery",
-        (Table("What it shows", ("tasks", "pictures"), ((len(rows), count),)),),
+        (Table("What it shows", ("tasks", "pictures"), ((len(rows), len(shown)),)),),
         notes=("The gallery is `gallery/index.html`; open it in a browser.",),
     )
 
@@ -50,10 +53,9 @@ def drawn(name: str, folder: str) -> dict[str, object]:
     """The pictures of a task, written, and its piece of the page."""
     one = task(name)
     chosen = handful(one)
-    pictures, rows = 0, []
+    pictures, rows = list[str](), []
     for sample in chosen:
-        cells = list(_cells(one, sample, ROOT / folder))
-        pictures += len(cells)
+        cells = list(_cells(one, sample, ROOT / folder, pictures))
         rows.append(f'<div class="row">{"".join(cells)}</div>')
     rare = f" Rare: {escape(one.rare)}." if one.rare else ""
     about = f"<p>{escape(one.says)}{rare}</p><pre>{escape(str(one.program))}</pre>"
@@ -62,16 +64,21 @@ def drawn(name: str, folder: str) -> dict[str, object]:
 
 
 def handful(one: Task) -> list[Sample]:
-    """A coarse, a medium and a fine mesh of different kinds, and the first of the rare kind."""
-    rows = one.samples()
-    rare = [row for row in rows if row.asset.kind == one.rare] if one.rare else []
-    found: list[Sample] = rare[1:2]
+    """One of the rare kind, then coarse, medium and fine ones of different kinds; such as fail unedited, if any."""
+    rows = [row for row in one.samples() if not one.impure(row)]
+    found = _telling(one, [row for row in rows if one.rare and row.asset.kind == one.rare])
     for setting in ("coarse", "medium", "fine", "fine"):
         kinds, names = {row.asset.kind for row in found}, {row.asset.name for row in found}
-        able = [row for row in rows if row.setting == setting and row.asset.name not in names and not one.impure(row)]
-        able = sorted(able, key=lambda row: row.asset.kind in kinds)
-        found += able[:1]
+        able = [row for row in rows if row.setting == setting and row.asset.name not in names]
+        found += _telling(one, [row for row in able if row.asset.kind not in kinds]) or _telling(one, able)
     return found[:_HANDFUL]
+
+
+def _telling(one: Task, rows: Sequence[Sample]) -> list[Sample]:
+    """The first that fails unedited, else the first."""
+    failing = (row for row in rows if one.failure(row, Edited(row.mesh)) is not None)
+    first = next(failing, next(iter(rows), None))
+    return [first] if first else []
 
 
 def stages(one: Task, sample: Sample) -> list[SymbolicMesh]:
@@ -81,7 +88,8 @@ def stages(one: Task, sample: Sample) -> list[SymbolicMesh]:
     return [upright(sample), *(upright(sample, mesh) for mesh in edits if mesh)]
 
 
-def _cells(one: Task, sample: Sample, folder: Path) -> Iterator[str]:
+def _cells(one: Task, sample: Sample, folder: Path, pictures: list[str]) -> Iterator[str]:
+    """The figures of a mesh; the names of their pictures are added to those of the task."""
     shown = stages(one, sample)
     box = joint_bounds(*shown)
     why = [one.failure(sample, Edited(sample.mesh)), one.failure(sample, one.run(one.program, sample.mesh))]
@@ -91,6 +99,7 @@ def _cells(one: Task, sample: Sample, folder: Path) -> Iterator[str]:
         path = folder / "pictures" / f"{one.name}-{sample.name}-{k}.webp"
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, webp(image))
+        pictures.append(path.name)
         told = escape(f"{sample.name} ({sample.asset.kind}), {len(mesh.hulls)} hulls" if not k else _rule(one, k))
         verdict = _verdict(why[0]) if not k else _verdict(why[1]) if k == len(shown) - 1 else ""
         yield (

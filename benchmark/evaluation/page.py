@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from benchmark.assets.looking import upright
+from benchmark.evaluation import failing
 from benchmark.evaluation.gallery import overview
 from benchmark.evaluation.plots import plots
 from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, as_text
+from benchmark.study import Session
 from benchmark.tasks import task, tasks
 from meshforge.files import write_atomically
 from meshforge.views import before_after, sheet, write_png
@@ -52,6 +54,8 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]
         lines += [as_text(result), f"`script/bench {part}` measures this.\n"]
         if part in drawn:
             lines.append(f"![{_CAPTIONS[part]}](pictures/{drawn[part]})\n")
+        if part == "effectiveness" and any(not row["right"] for row in result.details):
+            lines.append("![Sessions that ended otherwise: before, as learned, as meant](pictures/sessions.png)\n")
         if part == "ceiling" and _failing(result):
             lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
     if missing := [part for part in parts if part not in results]:
@@ -68,10 +72,14 @@ def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:
         for name, sample, after in overview(every)
     ]
     write_png(folder / "tasks.png", sheet(shown, 3, [one.name for one in every]))
-    failing = _failing(results["ceiling"]) if "ceiling" in results else []
-    if failing:
+    ended = [Session.of_json(row) for row in results["effectiveness"].details] if "effectiveness" in results else []
+    if otherwise := list(failing.pictures(ended)):
+        captions, images = zip(*otherwise, strict=True)
+        write_png(folder / "sessions.png", sheet(images, 2, captions))
+    meshes = _failing(results["ceiling"]) if "ceiling" in results else []
+    if meshes:
         write_png(
-            folder / "failures.png", sheet([_failed(*row) for row in failing], 2, [f"{a}, {b}" for a, b in failing])
+            folder / "failures.png", sheet([_failed(*row) for row in meshes], 2, [f"{a}, {b}" for a, b in meshes])
         )
 
 

@@ -59,7 +59,7 @@ def _few_shot_and_phases(result: Result, path: Path) -> None:
         paper = {k: float(str(x)) for k, x in zip(ks, table.rows[0][2:], strict=True) if str(x) not in ("", "–")}
         axis.plot(list(paper), list(paper.values()), "s", mfc="none", color=_COLORS["paper"], label="paper, all")
         axis.set(title=title, xlabel="demonstrations plus answers", ylabel="SSR, %", ylim=(-3, 103))
-        axis.legend(frameon=False, fontsize=7)
+    axes[0].legend(frameon=False, fontsize=7)  # once: the same in both
     _phases(_table(result, "Time by phase"), axes[2])
     _save(figure, path)
 
@@ -98,5 +98,8 @@ def _growth(result: Result, path: Path) -> None:
             seconds = [max(float(row[place]), 1e-4) for row in table.rows]
             axis.loglog(values, seconds, marker="o", ms=3, color=_PARTS[place - 2], label=label)
         axis.set(xlabel=table.title.lower(), ylabel="s")
-        axis.legend(frameon=False, fontsize=7)
+        if max(values) < 100:
+            axis.set_xticks(values, [f"{value:.0f}" for value in values], minor=False)
+            axis.set_xticks([], minor=True)
+    axes[0].legend(frameon=False, fontsize=7)  # once: the same in all
     _save(figure, path)

@@ -21,11 +21,11 @@ from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
 from meshforge.synthesis.readings import belief, every
-from meshforge.synthesis.readings.evidence import evidence
+from meshforge.synthesis.readings.evidence import evidence, unneeded
 from meshforge.synthesis.search import Hit
 from meshforge.synthesis.search.term import Term
 
-WEIGHTS = ("NODE", "ALL", "UPRIGHT", "SIDEWAYS", "SELF", "UNTRIED", "IDLE", "CROWD", "STRANGE")
+WEIGHTS = ("NODE", "ALL", "UPRIGHT", "SIDEWAYS", "SELF", "UNTRIED", "UNNEEDED", "IDLE", "STRANGE")
 FITTED, JUDGED = range(3), range(3, 5)
 COUNTS = (1, 2, 3)
 _BOUNDS = (-9.0, 9.0)  # a weight that nothing speaks against would grow without end
@@ -97,11 +97,13 @@ def _rule(case: Case) -> Rule | None:
     if right is None or len(terms) == 1:
         return None
     facts = evidence(search.field, search.selections, [term.bits for term in terms])
+    shown = (1 << search.width) - 1
+    idle = [unneeded(term, shown, search.field) for term in terms]
 
     def column(name: str) -> Floats:
         alone: dict[str, Any] = {other: float(other == name) for other in WEIGHTS}
         with patch.multiple(belief, **alone):
-            shares = belief.beliefs(terms, facts, (1 << search.width) - 1, len(case.rest()))
+            shares = belief.beliefs(terms, facts, shown, len(case.rest()), None, idle)
         nats: Floats = -np.log(np.array(shares))
         return nats
 

@@ -22,7 +22,8 @@ class Condition:
     """How a task is taught.
 
     labels: true ones, or those of the noisy labeller; questions: whether the tool's questions are answered; layers,
-    repair: ablations of the tool; errs: the share of answers and confirmations that are wrong.
+    repair: ablations of the tool; errs: the share of answers and confirmations that are wrong; advised: whether a
+    person who has several meshes in mind to begin with takes the one of them that the tool proposes.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Condition:
     layers: Layers = "S+T+G"
     repair: bool = True
     errs: float = 0.0
+    advised: bool = True
 
     @property
     def options(self) -> Options:
@@ -43,6 +45,7 @@ CONDITIONS = {
     condition.name: condition
     for condition in (
         FULL,
+        Condition("true labels, own choice", advised=False),
         Condition("true labels, no questions", questions=False),
         NOISY,
         Condition("noisy labels, no questions", "noisy", questions=False),

@@ -12,7 +12,7 @@ from benchmark.study.labels import noisy
 from benchmark.tasks import Edited, Task
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Correction, Demonstration
+from meshforge.synthesis import Correction, Demonstration, most_telling
 from meshforge.synthesis.replay import Replay, advanced, begun
 
 Selections = tuple[frozenset[str], ...]
@@ -95,6 +95,12 @@ class Desk:
                 replay = advanced(before, place, rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
+
+    def proposed(self, names: Iterable[str]) -> str | None:
+        """The mesh that the tool proposes to demonstrate first."""
+        program = self.bench.task.program
+        meshes = {name: self.meshes[name] for name in names}
+        return most_telling(meshes, program.labels, program.orient, program.contact, program.extremity)
 
     def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
         """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""

@@ -19,11 +19,16 @@ class Person:
         self._draw = random.Random(f"{seed} {desk.bench.task.name}")
         self._slips = random.Random(f"slips {seed} {desk.bench.task.name}")
         self._task, self._truth, self._errs = desk.bench.task, desk.bench.truth, condition.errs
+        self._advised = condition.advised
 
-    def begins_with(self, names: Sequence[str]) -> str:
-        """Of a dozen meshes the first on which most rules have something to do: it shows the most at once."""
+    def begins_with(self, desk: Desk, names: Sequence[str]) -> str:
+        """Of a dozen meshes one on which most rules have something to do; of several such the one that the tool
+        proposes, else the first.
+        """
         some = self._draw.sample(list(names), min(SEEN, len(names)))
-        return max(some, key=lambda name: (self._busy(name), -some.index(name)))
+        most = max(map(self._busy, some))
+        busy = [name for name in some if self._busy(name) == most]
+        return (self._advised and desk.proposed(busy)) or busy[0]
 
     def _busy(self, name: str) -> int:
         wanted = self._truth.reference[name]

@@ -129,12 +129,12 @@ class _Teaching:
 
     def _begin(self) -> None:
         """Show a mesh, and another one while there is a rule that had nothing to do on any."""
-        self._show(self.person.begins_with(self._showable()), None)
+        self._show(self.person.begins_with(self.desk, self._showable()), None)
         for rule in range(1, len(self.bench.task.program.rules) + 1):
             if not any(self.person.wants(name, rule) for name, _ in self.given) and len(self.log.shown) < MOST:
                 busy = [name for name in self._showable() if self.person.wants(name, rule)]
                 if busy:
-                    self._show(self.person.begins_with(busy), None)
+                    self._show(self.person.begins_with(self.desk, busy), None)
 
     def _learn(self) -> Outcome | MeshForgeError:
         """What the tool makes of it, or why it refuses the demonstrations."""

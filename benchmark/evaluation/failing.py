@@ -1,0 +1,112 @@
+"""Sessions that ended with another behaviour than the reference's: the reason for each, and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from benchmark.assets.looking import upright
+from benchmark.report import Table
+from benchmark.study import CONDITIONS, Bench, Session
+from benchmark.tasks import Edited, task
+from meshforge.language import Program, Rule, show, size
+from meshforge.symbolic import SymbolicMesh
+from meshforge.views import joint_bounds, render, sheet
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+_SIZE = (170, 150)
+
+COLUMNS = ("task", "condition", "seed", "demonstrations + answers", "meshes that differ", "rules that differ", "reason")
+
+
+def failing(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Table:
+    """Every session that ended otherwise; groups: sessions by task, by condition."""
+    every = (row for found in groups.values() for sessions in found.values() for row in sessions)
+    rows = tuple(
+        (
+            row.task,
+            row.condition,
+            row.seed,
+            f"{len(row.shown)} + {row.answers}",
+            row.rounds[-1].differs,
+            "; ".join(f"`{_short(learned)}` for `{_short(wanted)}`" for learned, wanted in _differing(row)) or "–",
+            reason(row),
+        )
+        for row in every
+        if not row.right
+    )
+    return Table(
+        "Sessions that ended with another behaviour than the reference's (of other conditions: in the JSON)",
+        COLUMNS,
+        rows,
+    )
+
+
+def reason(row: Session) -> str:
+    """Why a session ended otherwise, read off how large the rules are and how it ended; nothing is traced."""
+    noisy = CONDITIONS[row.condition].labels == "noisy"
+    if row.program is None:
+        return "no program fits what was shown" + (", under noisy labels" if noisy else "")
+    why = list(dict.fromkeys(_why(learned, wanted, noisy) for learned, wanted in _differing(row)))
+    if row.accepted:
+        why.append("accepted, as no difference was among the twelve results looked at")
+    else:
+        why.append(f"given up after {len(row.shown)} demonstrations")
+    return "; ".join(why)
+
+
+def _why(learned: Rule, wanted: Rule, noisy: bool) -> str:
+    ours, theirs = size(learned.extractor), size(wanted.extractor)
+    if ours > theirs:
+        return "a larger rule was learned, under noisy labels" if noisy else "a larger rule fits as well"
+    if ours < theirs:
+        told = "no demonstrated mesh tells the smaller rule from the one that is meant"
+        return f"{told}, under its labels" if noisy else told
+    return "a rule of the same size fits as well"
+
+
+def _differing(row: Session) -> list[tuple[Rule, Rule]]:
+    if row.program is None:
+        return []
+    pairs = zip(Program.parse(row.program).rules, task(row.task).program.rules, strict=False)
+    return [(learned, wanted) for learned, wanted in pairs if learned.extractor != wanted.extractor]
+
+
+def _short(rule: Rule) -> str:
+    return show(rule.extractor)
+
+
+def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Image]]:
+    """Of each task the first such session, of so many at most: a caption, and a mesh before, as learned, as meant."""
+    first: dict[str, Session] = {}
+    for row in sorted((r for r in rows if not r.right and r.program), key=lambda r: [*CONDITIONS].index(r.condition)):
+        first.setdefault(row.task, row)
+    for row in list(first.values())[:most]:
+        if found := _shown(row):
+            name, *meshes = found
+            box, words = joint_bounds(*meshes), task(row.task).program.labels
+            images = [
+                render(mesh, color_by="label", size=_SIZE, legend=False, bounds=box, vocabulary=words)
+                for mesh in meshes
+            ]
+            told = f"{row.task}, {name}, {row.condition}, seed {row.seed}"
+            yield told, sheet(images, 3, ["before", "as learned", "as meant"])
+
+
+def _shown(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:
+    """The first mesh, of those that fail by the criterion before the others, that was edited otherwise."""
+    bench = Bench(task(row.task))
+    desk = bench.desk(CONDITIONS[row.condition].labels, row.seed)
+    program = Program.parse(row.program or "")
+    for name in dict.fromkeys([*row.failures, *bench.samples]):
+        done, wanted = desk.edited(program, name), desk.edited(bench.task.program, name)
+        if name not in row.shown and done.mesh and wanted.mesh and _selected(done) != _selected(wanted):
+            sample = bench.samples[name]
+            return name, upright(sample), upright(sample, done.mesh), upright(sample, wanted.mesh)
+    return None
+
+
+def _selected(edited: Edited) -> list[tuple[str, ...]]:
+    return [tuple(sorted(line.selected)) for line in edited.trace]
