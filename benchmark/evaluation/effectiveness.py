@@ -31,8 +31,9 @@ from benchmark.tasks import DIFFICULTIES, task
 OWN, SILENT, NOISY_SILENT = (
     CONDITIONS[name] for name in ("true labels, own choice", "true labels, no questions", "noisy labels, no questions")
 )
+RANDOM, NOISY_RANDOM = (CONDITIONS[f"{labels} labels, random dozen"] for labels in ("true", "noisy"))
 ERRS = CONDITIONS["noisy labels, errs in 5%"]
-ASKED = (FULL, OWN, SILENT, NOISY, NOISY_SILENT, ERRS)
+ASKED = (FULL, RANDOM, OWN, SILENT, NOISY, NOISY_RANDOM, NOISY_SILENT, ERRS)
 KS = range(1, 9)
 
 
@@ -55,7 +56,7 @@ def said(rows: Sequence[Session], part: str, title: str) -> Result:
             _few_shot(groups),
             _phases(groups),
             _tasks(true, noisy),
-            failing({one.name: groups[one.name] for one in (FULL, OWN, SILENT, NOISY)}),
+            failing({one.name: groups[one.name] for one in (FULL, RANDOM, OWN, SILENT, NOISY)}),
         ),
         tuple(_goals(groups)),
         tuple(_notes(true)),
@@ -103,7 +104,7 @@ def _level(level: str, groups: Groups) -> tuple[Cell, ...]:
 
 def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
     asked = ("confirmations", "of these right, %")
-    columns = ("condition", "SSR", "sessions right", "k", *asked, "F1", "FPR", "settled, %", "settled but wrong")
+    columns = ("condition", "SSR", "sessions right", "right if labels were", "k", *asked, "F1", "FPR", "settled, %", "settled but wrong")
     rows = []
     for name, found in groups.items():
         every = [row for sessions in found.values() for row in sessions]
@@ -114,6 +115,7 @@ def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
                 name,
                 f"{solved(found)}/{len(found)}",
                 f"{sum(row.right for row in every)}/{len(every)}",
+                f"{sum(row.right_on_true for row in every)}/{len(every)}",
                 shown(spread(found, lambda row: row.k), 1),
                 shown(spread(found, confirmations), 1),
                 100 * sum(row.confirmed for row in every) / proposed if proposed else "–",
@@ -130,7 +132,7 @@ def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
 def _few_shot(groups: dict[str, dict[str, list[Session]]]) -> Table:
     columns = ("condition", "difficulty", *(f"k = {k}" for k in KS))
     rows: list[tuple[Cell, ...]] = [("paper", "all", *(paper.FEW_SHOT.get(k, "") for k in KS))]
-    for condition in (FULL, OWN, SILENT, NOISY):
+    for condition in (FULL, RANDOM, OWN, SILENT, NOISY):
         for level in LEVELS:
             found = of_difficulty(groups[condition.name], level)
             rows.append((condition.name, level, *(100 * solved_at(found, k) for k in KS)))

@@ -16,6 +16,8 @@ from benchmark.report import Tell
 ROOT = Path(__file__).resolve().parents[2]
 JOURNALS = ROOT / ".bench"
 _SOURCES = ("src/meshforge/**/*.py", "src/meshforge/**/*.lark", "benchmark/**/*.py", "benchmark/**/*.toml")
+_APART = {"batch", "checks", "cli", "preparation", "project", "samples", "studio", "evaluation", "results"}
+"""Rooms that no unit of work comes from: what they do is to use, or only shows, what is measured."""
 _DATA = ("benchmark/assets/data/*", "benchmark/tasks/*/templates/*")
 Unit = tuple[Any, ...]
 """What a unit of work is given: JSON-able."""
@@ -27,7 +29,7 @@ def digest() -> str:
     found = hashlib.blake2b(digest_size=8)
     for pattern in (*_SOURCES, *_DATA):
         for path in sorted(ROOT.glob(pattern)):
-            if not {"studio", "cli", "evaluation", "results"} & set(path.relative_to(ROOT).parts):
+            if not _APART & set(path.relative_to(ROOT).parts):
                 found.update(f"{path.relative_to(ROOT)} {path.stat().st_size} ".encode() + path.read_bytes())
     return found.hexdigest()
 

@@ -23,7 +23,8 @@ class Condition:
 
     labels: true ones, or those of the noisy labeller; questions: whether the tool's questions are answered; layers,
     repair: ablations of the tool; errs: the share of answers and confirmations that are wrong; advised: whether a
-    person who has several meshes in mind to begin with takes the one of them that the tool proposes.
+    person who has several meshes in mind to begin with takes the one of them that the tool proposes; guided: whether
+    the results that are looked at are those that the tool proposes, and what is right there is told to it.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Condition:
     repair: bool = True
     errs: float = 0.0
     advised: bool = True
+    guided: bool = True
 
     @property
     def options(self) -> Options:
@@ -46,8 +48,10 @@ CONDITIONS = {
     for condition in (
         FULL,
         Condition("true labels, own choice", advised=False),
+        Condition("true labels, random dozen", guided=False),
         Condition("true labels, no questions", questions=False),
         NOISY,
+        Condition("noisy labels, random dozen", "noisy", guided=False),
         Condition("noisy labels, no questions", "noisy", questions=False),
         Condition("noisy labels, no repair", "noisy", repair=False),
         Condition("noisy labels, errs in 5%", "noisy", errs=0.05),

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from benchmark.study.condition import SEEN, Condition
-from benchmark.study.desk import Desk
+from benchmark.study.desk import Desk, Selections
 from meshforge.language import Program
 from meshforge.synthesis import Answer, Correction, Demonstration, Question, Repair, Step
 
@@ -39,24 +39,33 @@ class Person:
         wanted = self._truth.reference[name]
         return bool(wanted and wanted[rule - 1])
 
-    def shows(self, desk: Desk, name: str, rule: int | None = None) -> Demonstration:
-        """What is wanted on a mesh, by the eye: all rules, or one of them."""
+    def shows(self, desk: Desk, name: str, rules: frozenset[int] | None = None) -> Demonstration:
+        """What is wanted on a mesh, by the eye: all rules, or some of them."""
         wanted = self._truth.reference[name]
         assert wanted is not None, f"the reference fails on {name}"
         rows = list(enumerate(zip(self._task.program.rules, wanted, strict=True), 1))
         steps = [
-            Step(number, select if rule in (None, number) else None, one.action, one.label)
+            Step(number, select if rules is None or number in rules else None, one.action, one.label)
             for number, (one, select) in rows
-            if rule is None or number <= rule
+            if rules is None or number <= max(rules)
         ]
         return Demonstration(desk.meshes[name], steps, name)
 
+    def looks_at(self, names: Sequence[str]) -> list[str]:
+        """A dozen meshes, drawn anew each time."""
+        return self._draw.sample(list(names), min(SEEN, len(names)))
+
+    def accepts(self, name: str, done: Selections | None) -> bool:
+        """Whether a result is as it should be, by the eye."""
+        return done is not None and done == self._truth.reference[name]
+
     def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, int] | None:
-        """A mesh on which the result is not as it should be, and the first rule that is wrong there; None: all well.
+        """The first mesh on which the result is not as it should be, and the first rule that is wrong there; None: all
+        well.
 
         What the reference would get wrong as well, as a label is wrong, is no failure of the program.
         """
-        for name in self._draw.sample(list(names), min(SEEN, len(names))):
+        for name in names:
             done, wanted = desk.selected(program, name), desk.reference[name]
             if wanted is not None and done != wanted:
                 pairs = enumerate(zip(done or ((),) * len(wanted), wanted, strict=True), 1)

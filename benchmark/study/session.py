@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from time import perf_counter
 from typing import Any
 
 from benchmark.study.condition import MOST, Condition
-from benchmark.study.desk import Bench
+from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, Outcome, Repair, synthesize
+from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, NoProgram, Outcome, Repair, synthesize
 
 _ANSWERS = 12  # that a person gives between two demonstrations at most
 
@@ -57,6 +58,7 @@ class Session:
     accepted: bool = False
     settled: bool = False
     right: bool = False
+    right_on_true: bool = False
     program: str | None = None
     f1: float = 0.0
     failures: dict[str, str] = field(default_factory=dict)
@@ -92,11 +94,15 @@ class _Teaching:
         self.person = Person(self.desk, seed, condition)
         self.log = Session(bench.task.name, condition.name, seed)
         self.able = [name for name, done in bench.truth.reference.items() if done is not None]
-        self.given: list[tuple[str, int | None]] = []
-        """Meshes with the rule that was shown on them, None for all."""
+        self.given: dict[str, frozenset[int] | None] = {}
+        """Meshes with the rules that were shown on them, None for all."""
         self.answers: list[Answer] = []
         self.rejected: set[Correction] = set()
         self.corrections: list[Correction] = []
+        self.accepted: dict[str, Selections] = {}
+        """Results that were found right when they were looked at."""
+        self.clean: Program | None = None
+        """The last program of which all results that were looked at were right."""
 
     def session(self) -> Session:
         self._begin()
@@ -108,7 +114,7 @@ class _Teaching:
                 if not self._another(outcome):
                     break
                 continue
-            if not self._looks_on(outcome.program):
+            if not self._looks_on(outcome, outcome.program):
                 break
         self._judge(outcome)
         return self.log
@@ -122,23 +128,25 @@ class _Teaching:
         return [name for name in self.able if name not in self.log.shown]
 
     def _show(self, name: str, rule: int | None) -> None:
-        self.given.append((name, rule))
+        """Show a rule on a mesh, besides those that were shown there before, or all rules."""
+        new = None if rule is None else frozenset([rule])
+        self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
-        steps = self.person.shows(self.desk, name, rule).steps
+        steps = self.person.shows(self.desk, name, new).steps
         self.log.hulls_shown += sum(len(step.select or ()) for step in steps)
 
     def _begin(self) -> None:
         """Show a mesh, and another one while there is a rule that had nothing to do on any."""
         self._show(self.person.begins_with(self.desk, self._showable()), None)
         for rule in range(1, len(self.bench.task.program.rules) + 1):
-            if not any(self.person.wants(name, rule) for name, _ in self.given) and len(self.log.shown) < MOST:
+            if not any(self.person.wants(name, rule) for name in self.given) and len(self.log.shown) < MOST:
                 busy = [name for name in self._showable() if self.person.wants(name, rule)]
                 if busy:
                     self._show(self.person.begins_with(self.desk, busy), None)
 
     def _learn(self) -> Outcome | MeshForgeError:
         """What the tool makes of it, or why it refuses the demonstrations."""
-        demos = [self.person.shows(self.desk, name, rule) for name, rule in self.given]
+        demos = [self.person.shows(self.desk, name, rules) for name, rules in self.given.items()]
         start = perf_counter()
         try:
             outcome: Outcome | MeshForgeError = self._outcome(demos)
@@ -161,8 +169,7 @@ class _Teaching:
 
     def _labelled(self, outcome: Outcome | MeshForgeError) -> bool:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
-        given = {name for name, _ in self.given}
-        if not isinstance(outcome, MeshForgeError) or outcome.where not in given:
+        if not isinstance(outcome, MeshForgeError) or outcome.where not in self.given:
             return False
         landmarks = Program(orient=self.bench.task.program.orient).used_labels
         mesh, true = self.desk.meshes[outcome.where], self.bench.truth.meshes[outcome.where]
@@ -173,6 +180,14 @@ class _Teaching:
         return bool(wrong)
 
     def _outcome(self, demos: list[Demonstration]) -> Outcome:
+        """What the tool learns; where no program keeps all that was accepted, that is forgotten, as a project does."""
+        found = self._synthesized(demos)
+        if isinstance(found, NoProgram) and self.accepted:
+            self.accepted.clear()
+            found = self._synthesized(demos)
+        return found
+
+    def _synthesized(self, demos: list[Demonstration]) -> Outcome:
         program = self.bench.task.program
         return synthesize(
             demos,
@@ -184,7 +199,7 @@ class _Teaching:
             extremity=program.extremity,
             options=self.condition.options,
             confirm=self._confirm,
-            answers=self.answers,
+            answers=[*self._verdicts(), *self.answers],
             rejected=self.rejected,
         )
 
@@ -225,21 +240,31 @@ class _Teaching:
         if len(self.log.shown) >= MOST:
             return False
         named = outcome.where if isinstance(outcome, MeshForgeError) else outcome.nearest and outcome.nearest.asset
-        hardest = named if named in {name for name, _ in self.given} else self.given[-1][0]
-        kept = [row for row in self.given if row[0] != hardest]
+        hardest = named if named in self.given else next(reversed(self.given))
+        kept = {name: rules for name, rules in self.given.items() if name != hardest}
         self.answers = [answer for answer in self.answers if answer.asset != hardest]
         self.log.set_aside += len(self.given) - len(kept)
         self.given = kept
         self._begin()
         return True
 
-    def _looks_on(self, program: Program) -> bool:
-        """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there."""
-        self.log.looked += 1
-        seen = self.person.sees(self.desk, program, self._showable())
-        self.log.accepted = seen is None
-        if seen is None:
+    def _looks_on(self, outcome: Outcome, program: Program) -> bool:
+        """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there.
+
+        Where all are right they are told to the tool; if it keeps the program then, it is accepted.
+        """
+        self.log.accepted = program == self.clean
+        if self.log.accepted:
             return False
+        self.log.looked += 1
+        guided = self.condition.guided
+        names = self._worth_a_look(outcome.sample) if guided else self.person.looks_at(self._showable())
+        seen = self.person.sees(self.desk, program, names)
+        if guided:
+            self._accept(program, names[: names.index(seen[0])] if seen else names)
+        if seen is None:
+            self.clean, self.log.accepted = program, not guided
+            return guided
         name, rule = seen
         wrong = self.person.takes_back(self.desk, self.answers, rule)
         if wrong:
@@ -251,11 +276,26 @@ class _Teaching:
         self._show(name, rule)
         return True
 
+    def _worth_a_look(self, sample: Sequence[str]) -> list[str]:
+        """Those of the proposed meshes on which a person knows what is wanted, and may still show it."""
+        return [n for n in sample if n in self.able and (n not in self.log.shown or self.given.get(n) is not None)]
+
+    def _accept(self, program: Program, names: Iterable[str]) -> None:
+        for name in names:
+            done = self.desk.selected(program, name)
+            if done is not None and self.person.accepts(name, done):
+                self.accepted[name] = done
+
+    def _verdicts(self) -> Iterator[Answer]:
+        for name, done in self.accepted.items():
+            yield from (Answer(rule, name, select) for rule, select in enumerate(done, 1))
+
     def _judge(self, outcome: Outcome | MeshForgeError) -> None:
         """How good the last program is on all meshes that were not demonstrated."""
         log, bench, rest = self.log, self.bench, self._rest()
         program = None if isinstance(outcome, MeshForgeError) else outcome.program
         log.program, log.right, log.settled = _text(program), log.rounds[-1].right, log.rounds[-1].settled
+        log.right_on_true = bool(program) and not bench.truth.differing(program, rest)
         log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
         log.f1 = self._f1(program, rest)
         for name in rest:

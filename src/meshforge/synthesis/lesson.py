@@ -22,6 +22,7 @@ from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, 
 from meshforge.synthesis.paper import Explained, paper_search
 from meshforge.synthesis.readings import Weighed, every
 from meshforge.synthesis.repairs import Repairs, inquiry
+from meshforge.synthesis.sample import sample
 from meshforge.synthesis.search import Hit, Miss, Search, Tried, Unfinished
 from meshforge.synthesis.search.miss import NearMiss
 from meshforge.synthesis.task import Task
@@ -160,11 +161,12 @@ class Lesson:
     def _found(self) -> Outcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
-        ahead = hint([(learned.weighed, learned.names) for learned in self._learned])
+        known = [(learned.weighed, learned.names) for learned in self._learned]
+        ahead, looks = hint(known), sample(known)
         if self._question:
-            return Ambiguous(program=program, question=self._question, hint=ahead, **self._shared())
+            return Ambiguous(program=program, question=self._question, hint=ahead, sample=looks, **self._shared())
         settled = bool(self._course.others) and all(learned.weighed.settled for learned in self._learned)
-        return Found(program=program, settled=settled, hint=ahead, **self._shared())
+        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._shared())
 
     def _repaired(self) -> Outcome:
         return NeedsRepair(repairs=self._repairs.found, proposed=self._program(), **self._shared())

@@ -49,6 +49,6 @@ class Options:
     eta: int = 2
     max_size: int = 13
     budget: float = 120.0
-    above: int = 3
+    above: int = 4
     effort: int = 100_000
     shortcuts: Shortcuts = Shortcuts()

@@ -53,7 +53,8 @@ class _Outcome:
     rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
-    their asset or hulls are gone; hint: what to demonstrate next. followed: what became of a program that was to be
+    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results tell best whether
+    the program is what is meant, most telling first. followed: what became of a program that was to be
     followed, a sentence each.
     """
 
@@ -64,6 +65,7 @@ class _Outcome:
     settled: bool = False
     stale: tuple[Answer, ...] = ()
     hint: Hint | None = None
+    sample: tuple[str, ...] = ()
     followed: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     question: Question | None = None

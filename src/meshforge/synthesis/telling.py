@@ -37,11 +37,11 @@ def most_telling(
         except MeshForgeError:
             continue
         if told > 1:
-            worth[name] = told - HULL * len(mesh.hulls) - DOUBTFUL * _doubtful(mesh)
+            worth[name] = told - HULL * len(mesh.hulls) - DOUBTFUL * doubtful(mesh)
     return max(worth, key=worth.__getitem__, default=None)
 
 
-def _doubtful(mesh: SymbolicMesh) -> float:
+def doubtful(mesh: SymbolicMesh) -> float:
     """How many labels are expected to be wrong or missing."""
     return sum(1 - (hull.annotation.confidence if hull.annotation else 0) for hull in mesh.hulls)
 

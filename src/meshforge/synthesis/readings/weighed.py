@@ -55,6 +55,11 @@ class Weighed:
         """Places of the readings that are to be reckoned with."""
         return range(1 + sum(belief >= BELIEVABLE for belief in self.beliefs[1:COMPARED]))
 
+    @property
+    def compared(self) -> Sequence[int]:
+        """Places of the readings that are compared with the one that is taken."""
+        return range(1, min(len(self.terms), COMPARED))
+
     @cached_property
     def doubt(self) -> Doubt:
         rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]

@@ -1,0 +1,80 @@
+"""Which results to look at before a program is kept: those that would show best that something else is meant."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from math import exp
+
+import numpy as np
+
+from meshforge.synthesis.readings import Weighed
+from meshforge.synthesis.telling import doubtful
+
+SAMPLE = 12
+"""So many results a person looks at before keeping a program (paper, protocol)."""
+
+_NOTHING = 1e-12  # belief that is none
+
+Known = tuple[Weighed, Sequence[str]]
+"""The readings of a rule, and the names of the meshes of their field."""
+
+
+def sample(learned: Sequence[Known]) -> tuple[str, ...]:
+    """The assets whose results to look at, the most telling first; none of which every rule is known.
+
+    First each time the asset on which most belief is in readings that none before it would refute, then the one that
+    stands for most hulls unlike any before. An asset whose labels are doubtful tells less: what is wrong there may be
+    a label.
+    """
+    trust = {
+        name: exp(-doubtful(mesh))
+        for weighed, names in learned
+        for name, mesh in zip(names, weighed.field.meshes, strict=True)
+    }
+    known = [set(names[: len(weighed.examples)]) for weighed, names in learned]
+    names = sorted(name for name in trust if not all(name in some for some in known))
+    chosen = [name for name, _ in zip(_differing(learned, names, trust), range(SAMPLE), strict=False)]
+    for name in _unlike(*learned[0], [name for name in names if name not in chosen], chosen, trust) if learned else ():
+        if len(chosen) == SAMPLE:
+            break
+        chosen.append(name)
+    return tuple(chosen)
+
+
+def _differing(learned: Sequence[Known], names: Sequence[str], trust: Mapping[str, float]) -> Iterator[str]:
+    """Assets one by one, each the one on which most belief is in readings that do as the program on all before it."""
+    if not learned or not names:
+        return
+    place = {name: k for k, name in enumerate(names)}
+    tables = []
+    for weighed, called in learned:
+        table = np.zeros((len(weighed.compared), len(names)))
+        for row, reading in enumerate(weighed.compared):
+            others = [place[called[k]] for k in weighed.differing(reading) if called[k] in place]
+            table[row, others] = weighed.beliefs[reading]
+        tables.append(table)
+    at_stake = np.concatenate(tables)
+    weights = np.array([trust[name] for name in names])
+    while True:
+        gains = at_stake.sum(axis=0)
+        best = int(np.argmax(np.round(gains * weights, 12)))
+        if gains[best] <= _NOTHING:
+            return
+        yield names[best]
+        at_stake = at_stake[at_stake[:, best] == 0]
+
+
+def _unlike(
+    weighed: Weighed, called: Sequence[str], names: Sequence[str], before: Sequence[str], trust: Mapping[str, float]
+) -> Iterator[str]:
+    """Assets one by one, each the one whose hulls stand for most hulls of the batch that are unlike any before."""
+    groups = {name: frozenset(some) for name, some in zip(called, weighed.field.groups, strict=True)}
+    many = Counter(group for some in groups.values() for group in some)
+    seen = {group for name in [*called[: len(weighed.examples)], *before] for group in groups.get(name, ())}
+    rest = [name for name in names if name in groups]
+    while rest:
+        best = max(rest, key=lambda name: trust[name] * sum(many[group] for group in groups[name] - seen))
+        yield best
+        rest.remove(best)
+        seen |= groups[best]
