@@ -104,7 +104,8 @@ def _level(level: str, groups: Groups) -> tuple[Cell, ...]:
 
 def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
     asked = ("confirmations", "of these right, %")
-    columns = ("condition", "SSR", "sessions right", "right if labels were", "k", *asked, "F1", "FPR", "settled, %", "settled but wrong")
+    right = ("SSR", "sessions right", "right if labels were")
+    columns = ("condition", *right, "k", *asked, "F1", "FPR", "settled, %", "settled but wrong")
     rows = []
     for name, found in groups.items():
         every = [row for sessions in found.values() for row in sessions]

@@ -620,7 +620,8 @@ export interface RuleView {
  * assets were looked at, of very many not all.
  *
  * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
- * where a rule has no extractor. stale: ids of answers that no longer fit.
+ * where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
+ * whether the program is what is meant, most telling first.
  */
 export interface LessonView {
   number: number;
@@ -638,6 +639,7 @@ export interface LessonView {
   advice: string[];
   suggested_orientation: string | null;
   stale: string[];
+  sample: string[];
   error: string | null;
   seconds: number;
 }

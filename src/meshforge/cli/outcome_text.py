@@ -58,7 +58,7 @@ def remarks(outcome: Outcome, about: About) -> str:
     """How far the result can be trusted, and what to do next."""
     from meshforge.synthesis import Ambiguous, Found
 
-    lines = [*_stale(outcome, about)]
+    lines = [*_stale(outcome, about), *_overruled(outcome)]
     if isinstance(outcome, Found | Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_used(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
@@ -76,6 +76,8 @@ def _used(about: About) -> str:
 
 
 def _settled(outcome: Found | Ambiguous, about: About) -> Iterator[str]:
+    from meshforge.words import listed
+
     if outcome.settled:
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
         part = "were looked at" if about.looked_at < about.assets else "can be read"
@@ -86,6 +88,8 @@ def _settled(outcome: Found | Ambiguous, about: About) -> Iterator[str]:
         yield f"not settled: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
     else:
         yield from _almost(outcome)
+        if outcome.sample:
+            yield f"After applying, look at {listed(outcome.sample)} first: these tell best whether it is right"
     if outcome.hint:
         yield f"To be surer, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
         yield f"  meshforge demonstrate {about.word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
@@ -115,6 +119,14 @@ def _stale(outcome: Outcome, about: About) -> Iterator[str]:
         said = f"{answer.rule}:{answer.asset}"
         yield f"the answer {said} no longer fits what is there, and is left out"
         yield f"  to take it back: meshforge synthesize {about.word} --forget {shlex.quote(said)}"
+
+
+def _overruled(outcome: Outcome) -> Iterator[str]:
+    from meshforge.words import listed
+
+    if outcome.overruled:
+        yield f"no program does what is demonstrated and keeps the accepted results of {listed(outcome.overruled)};"
+        yield "  it was learned without these: look at them again after applying"
 
 
 def _failure(outcome: NoProgram) -> Iterator[str]:

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
-from meshforge.language import Each
 from meshforge.project import labelling
 from meshforge.project.answers_file import (
     AnswerLine,
@@ -17,7 +16,7 @@ from meshforge.project.answers_file import (
     repair_id,
 )
 from meshforge.project.json_files import read_json, write_json
-from meshforge.project.steps import action_text
+from meshforge.project.steps import bare_text
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Correction, Question, Step
 
@@ -64,8 +63,7 @@ def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
     """What each rule does, as the first demonstration that shows it says, without `Each`."""
     found: dict[int, str] = {}
     for step in (step for steps in demonstrations for step in steps if step.shown):
-        action = step.action.action if isinstance(step.action, Each) else step.action
-        found.setdefault(step.rule, action_text(action, step.label))
+        found.setdefault(step.rule, bare_text(step.action, step.label))
     return dict(sorted(found.items()))
 
 

@@ -12,6 +12,7 @@ from meshforge.project import accepting
 from meshforge.project.answering import actions_of, answers, checked, confirm, reject
 from meshforge.project.answers_file import AnswerLine, AnswersFile
 from meshforge.project.family import Family
+from meshforge.project.reviewing import accepted_results
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -19,6 +20,7 @@ from meshforge.synthesis import (
     Correction,
     Demonstration,
     Found,
+    NoProgram,
     Options,
     Outcome,
     Repair,
@@ -51,28 +53,51 @@ def learn(project: Project, how: LessonPlan) -> Outcome:
     lesson = accepting.lesson_digest(project)
     said = answers(project)
     fitting, unfit = _answers(project, said, demos, how.answers)
+    looked = _accepted(project, demos, fitting)
     asked = _Asked(project, how.confirm) if how.accept and how.confirm else None
     settings = project.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
-    outcome = synthesize(
-        tuple(demos.values()),
-        batch=meshes,
-        orient=project.orientation,
-        templates=project.templates(names),
-        vocabulary=settings.vocabulary or None,
-        contact=settings.thresholds.contact,
-        extremity=settings.thresholds.extremity,
-        options=how.options or Options(),
-        confirm=asked or how.confirm,
-        answers=fitting,
-        rejected=_rejected(said),
-        follow=how.follow,
-        stop=how.stop,
-    )
-    outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *outcome.stale])))
+    confirm = _once(asked or how.confirm) if how.confirm else None
+    templates, rejected = project.templates(names), _rejected(said)
+
+    def learned(answers: Sequence[Answer]) -> Outcome:
+        return synthesize(
+            tuple(demos.values()),
+            batch=meshes,
+            orient=project.orientation,
+            templates=templates,
+            vocabulary=settings.vocabulary or None,
+            contact=settings.thresholds.contact,
+            extremity=settings.thresholds.extremity,
+            options=how.options or Options(),
+            confirm=confirm,
+            answers=answers,
+            rejected=rejected,
+            follow=how.follow,
+            stop=how.stop,
+        )
+
+    outcome = learned([*looked, *fitting])
+    if isinstance(outcome, NoProgram) and looked:
+        overruled = tuple(dict.fromkeys(answer.asset for answer in looked))
+        outcome = replace(learned(fitting), overruled=overruled)
+    stale = [answer for answer in outcome.stale if answer not in looked]
+    outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
     if how.accept and isinstance(outcome, Found | Ambiguous):
         accepting.keep(project, outcome, asked.lesson if asked and asked.lesson else lesson)
     return outcome
+
+
+def _once(confirm: Confirm) -> Confirm:
+    """Asks about each correction once, however often something is learned."""
+    said: dict[Correction, bool] = {}
+
+    def asked(repair: Repair) -> bool:
+        if repair.correction not in said:
+            said[repair.correction] = confirm(repair)
+        return said[repair.correction]
+
+    return asked
 
 
 class _Asked:
@@ -115,6 +140,18 @@ def _answers(
 
     fitting = [line.answer for line in lines.values() if fits(line)]
     return fitting, [line.answer for line in lines.values() if not fits(line)]
+
+
+def _accepted(project: Project, demos: Mapping[str, Demonstration], said: Sequence[Answer]) -> list[Answer]:
+    """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
+    actions = actions_of(demo.steps for demo in demos.values())
+    known = {(answer.rule, answer.asset) for answer in said}
+    return [
+        Answer(one.rule, asset, one.select)
+        for asset, seen in accepted_results(project).items()
+        for one in seen
+        if actions.get(one.rule) == one.action and (one.rule, asset) not in known
+    ]
 
 
 def _rejected(said: AnswersFile) -> list[Correction]:

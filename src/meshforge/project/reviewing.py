@@ -1,29 +1,48 @@
-"""review.json: which edited assets a person has accepted, and which are flagged for another look."""
+"""review.json: which edited assets a person has accepted, and which are flagged for another look.
+
+A result that is accepted by itself was looked at: what each rule selected there is what was meant, and learning keeps
+to it. Who accepts many at once says nothing of each.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from meshforge.batch import Stamp, read_stamp, text_digest
+from meshforge.batch import Stamp, program_digest, read_stamp, text_digest
 from meshforge.errors import ProjectError
 from meshforge.project.json_files import JsonFile, read_json, write_json
+from meshforge.project.steps import bare_text
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 Verdict = Literal["accepted", "flagged"]
+MOST = 100
+"""Of more accepted results so many are learned from: each is one more mesh on which every rule must be right."""
+
+
+class Seen(JsonFile):
+    """What a rule selected on an accepted asset; action: what the rule does, in the language's text without `Each`."""
+
+    rule: Annotated[int, Field(ge=1)]
+    action: str
+    select: tuple[str, ...]
 
 
 class Review(JsonFile):
-    """What a person said about one edited asset; output: the digest of the files that were looked at."""
+    """What a person said about one edited asset; output: the digest of the files that were looked at.
+
+    seen: of a result that was accepted by itself, what the program did there.
+    """
 
     verdict: Verdict
     note: str | None = None
     output: str | None = None
+    seen: tuple[Seen, ...] = ()
 
 
 class ReviewFile(JsonFile):
@@ -42,7 +61,10 @@ def review(project: Project, assets: Iterable[str], verdict: Verdict | None, not
 
     Raises ProjectError, with nothing written, where one of them has no output that a verdict could be about.
     """
+    assets = tuple(assets)
     own = {asset: _said(project, asset, verdict, note) for asset in assets}
+    if verdict == "accepted" and len(assets) == 1 and (said := own[assets[0]]):
+        own = {assets[0]: said.model_copy(update={"seen": _seen(project, assets[0])})}
     with project.lock():
         kept = read_json(project.layout.review, ReviewFile) or ReviewFile()
         now = {asset: said for asset, said in (kept.assets | own).items() if said}
@@ -60,6 +82,29 @@ def _said(project: Project, asset: str, verdict: Verdict | None, note: str | Non
             remedy=f"Make it: meshforge apply {project.folder}",
         )
     return Review(verdict=verdict, note=note, output=output) if verdict else None
+
+
+def accepted_results(project: Project) -> dict[str, tuple[Seen, ...]]:
+    """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
+    rows = sorted(
+        (asset, said) for asset, said in project.reviews().items() if said.seen and asset in project.found.ids
+    )
+    if len(rows) > MOST:
+        rows = [rows[k * len(rows) // MOST] for k in range(MOST)]
+    present = {asset: output_digest(read_stamp(project.layout.edited, asset)) for asset, _ in rows}
+    return {asset: said.seen for asset, said in rows if said.output == present[asset]}
+
+
+def _seen(project: Project, asset: str) -> tuple[Seen, ...]:
+    """What the rules selected on an asset; nothing where another program did that, or it was mended by hand."""
+    stamp, program = read_stamp(project.layout.edited, asset), project.program()
+    made = stamp and stamp.inputs
+    if not stamp or not made or not program or made.corrections or made.program != program_digest(program):
+        return ()
+    actions = {number: bare_text(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)}
+    return tuple(
+        Seen(rule=line.rule, action=actions[line.rule], select=tuple(sorted(line.selected))) for line in stamp.rules
+    )
 
 
 def output_digest(stamp: Stamp | None) -> str | None:

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from meshforge.batch import Correction
 from meshforge.errors import MeshForgeError, ProjectError
-from meshforge.language import Action, Program, show_label
+from meshforge.language import Action, Each, Program, show_label
 from meshforge.project.json_files import JsonFile
 from meshforge.synthesis import Step
 
@@ -74,6 +74,11 @@ def corrections_of(lines: Sequence[CorrectionLine], path: Path) -> tuple[Correct
 def action_text(action: Action, label: str | None) -> str:
     """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
     return f"{action} as {show_label(label)}" if label else str(action)
+
+
+def bare_text(action: Action, label: str | None) -> str:
+    """The same without `Each`: what a rule does, whether to all hulls together or to each."""
+    return action_text(action.action if isinstance(action, Each) else action, label)
 
 
 def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]:

@@ -54,8 +54,8 @@ class _Outcome:
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
     their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results tell best whether
-    the program is what is meant, most telling first. followed: what became of a program that was to be
-    followed, a sentence each.
+    the program is what is meant, most telling first; overruled: assets whose result was accepted, which no program
+    keeps. followed: what became of a program that was to be followed, a sentence each.
     """
 
     rules: tuple[Rule, ...]
@@ -66,6 +66,7 @@ class _Outcome:
     stale: tuple[Answer, ...] = ()
     hint: Hint | None = None
     sample: tuple[str, ...] = ()
+    overruled: tuple[str, ...] = ()
     followed: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     question: Question | None = None

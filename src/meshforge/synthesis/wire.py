@@ -20,6 +20,8 @@ def outcome_json(outcome: Outcome) -> dict[str, Any]:
         "question": _question(outcome.question) if outcome.question else None,
         "nearest": _nearest(outcome.nearest) if outcome.nearest else None,
         "demonstrate_next": {"asset": outcome.hint.asset, "why": outcome.hint.why} if outcome.hint else None,
+        "look_at": list(outcome.sample),
+        "overruled": list(outcome.overruled),
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
         "followed": list(outcome.followed),
         **_failure(outcome),

@@ -74,7 +74,7 @@ def test_answers_come_from_a_file_by_the_choice(run: Run, tmp_path: Path) -> Non
         timeless(told.err)
         == """
 learned in TIME with 1 answer, kept as racks/program.mf
-settled: all believable readings agree on your 12 assets
+settled: all believable readings agree on your 30 assets
 Next: meshforge apply racks
 """
     )
@@ -102,7 +102,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
     assert timeless(told.err).splitlines()[1:] == [
         "learned in TIME with 1 answer",
-        "settled: all believable readings agree on your 12 assets",
+        "settled: all believable readings agree on your 30 assets",
     ]
     assert project.program() is None and not project.answers().ids
 

@@ -47,9 +47,9 @@ def racks(folder: Path, count: int = 7, **wrong: str) -> Project:
 def ambiguous(folder: Path) -> Project:
     """Demonstrated on racks without a shelf: is it all boards that are deleted, or the highest?
 
-    Only two of twelve have a shelf, so that a wrong program would likely not be seen.
+    Only two of thirty have a shelf, so that a wrong program would likely not be seen.
     """
-    project = racks(folder, 12)
+    project = racks(folder, 30)
     for asset in (PLAIN, OTHER):
         project.demonstrate(asset, [Step(1, {"top"}, Delete())])
     return project

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from meshforge.studio.showing.next_step import next_step
-from meshforge.studio.wire.family import Card
+from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.lesson import LessonView, NearestView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
@@ -53,6 +53,32 @@ def test_the_asset_that_tells_most_is_shown_first_and_without_one_the_first_with
     assert (step.asset, step.say) == ("b", "Show the first step of the edit on one asset, best on b.")
     step = next_step([LABELLED], ("leg",), False, None, None, last)
     assert (step.asset, step.say) == ("a", "Show the first step of the edit on one asset.")
+
+
+def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewed_them() -> None:
+    cards = {asset: DONE.model_copy(update={"asset": asset}) for asset in "abcd"}
+    lesson = FOUND.model_copy(update={"sample": ("d", "gone", "b", "c")})
+
+    def step_with(*accepted: str) -> Next:
+        seen = [c.model_copy(update={"review": "accepted"}) if c.asset in accepted else c for c in cards.values()]
+        return next_step(seen, ("leg",), True, lesson, None, last)
+
+    step = step_with()
+    assert (step.stage, step.asset) == ("review", "d")
+    assert step.say == "Look at 3 results that tell best whether the program is right, first d."
+    step = step_with("d")
+    assert (step.asset, step.say) == ("b", "Look at 2 results that tell best whether the program is right, first b.")
+    step = step_with("d", "b")
+    assert (step.asset, step.say) == ("c", "Look at 1 result that tells best whether the program is right: c.")
+    step = step_with("d", "b", "c")
+    assert (step.asset, step.say) == ("a", "Look through the results: 1 asset to accept or flag.")
+    assert "export" in step_with(*cards).say
+
+
+def test_a_flagged_result_comes_before_those_that_tell_most() -> None:
+    flagged = DONE.model_copy(update={"asset": "b", "review": "flagged"})
+    telling = FOUND.model_copy(update={"sample": ("a", "b")})
+    assert next_step([DONE, flagged], ("leg",), True, telling, None, last).asset == "b"
 
 
 def test_at_the_end_there_is_only_the_export() -> None:

@@ -72,8 +72,10 @@ export const correct = (asset: string, select: readonly string[], action: string
 
 export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-corrections", asset });
 
+const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().lesson?.sample ?? []);
+
 function nextOf(asset: string | null): string | null {
-  return after(reviewQueue(cardsInOrder()), useProject.getState().order, asset);
+  return after(queue(), useProject.getState().order, asset);
 }
 
 /** Opens the next asset that failed, is flagged, or was not reviewed yet. */
@@ -81,7 +83,7 @@ export function nextToReview(): void {
   const { asset } = useDesk.getState();
   const next = nextOf(asset);
   if (next) return openAsset(next);
-  const last = asset !== null && reviewQueue(cardsInOrder()).includes(asset);
+  const last = asset !== null && queue().includes(asset);
   told(last ? "No other result wants a look." : "Nothing wants a look: every output is reviewed.");
 }
 

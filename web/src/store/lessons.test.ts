@@ -19,6 +19,7 @@ const lesson = (more: Partial<LessonView>): LessonView => ({
   advice: [],
   suggested_orientation: null,
   stale: [],
+  sample: [],
   error: null,
   seconds: 0.1,
   ...more,

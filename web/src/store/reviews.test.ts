@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditedHeader, HullView } from "../wire";
-import { acceptable, after, behind, exportable, grouped, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { acceptable, after, behind, exportable, type Group, grouped, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -36,10 +36,19 @@ describe("results in groups", () => {
       failed: ["c"],
       flagged: ["d", "e"],
       stale: ["f"],
+      telling: [],
       open: ["b"],
       accepted: ["a"],
       none: ["g", "h"],
     });
+  });
+
+  it("keeps those that tell most apart, the most telling first, and only where nobody reviewed them", () => {
+    const rows = grouped([...family, card("x"), card("y")], ["y", "gone", "a", "c", "e", "f", "g", "b"]);
+    const names = (group: Group) => rows[group].map((one) => one.asset);
+    expect([names("telling"), names("open")]).toEqual([["y", "b"], ["x"]]);
+    const rest = grouped(family);
+    for (const group of ["failed", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
   });
 
   it("takes an accepted result for accepted although something was left out", () => {
@@ -55,7 +64,13 @@ describe("the queue of what wants a look", () => {
   const order = family.map((one) => one.asset);
 
   it("has what failed first, then what is flagged, then what nobody reviewed", () => {
-    expect(reviewQueue(family)).toEqual(["c", "d", "e", "b"]);
+    expect(reviewQueue(family, [])).toEqual(["c", "d", "e", "b"]);
+  });
+
+  it("has those that tell most ahead of all others that nobody reviewed", () => {
+    const queue = reviewQueue([...family, card("x"), card("y")], ["y", "x"]);
+    expect(queue).toEqual(["c", "d", "e", "y", "x", "b"]);
+    expect([after(queue, [...order, "x", "y"], "y"), after(queue, [...order, "x", "y"], "x")]).toEqual(["x", "b"]);
   });
 
   it("goes round", () => {

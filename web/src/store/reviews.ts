@@ -1,31 +1,33 @@
 // The results of the family: what to look at, in which order, and numbers about one; knows neither DOM nor three.js.
 import type { Card, EditedHeader, HullView } from "../wire";
 
-export type Group = "failed" | "flagged" | "stale" | "open" | "accepted" | "none";
+export type Group = "failed" | "flagged" | "stale" | "telling" | "open" | "accepted" | "none";
 
 /** In the order in which they want a look. */
-export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "open", "accepted", "none"];
+export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "telling", "open", "accepted", "none"];
 
-/** Where the result of an asset belongs. */
-export function groupOf(card: Card): Group {
+/** Where the result of an asset belongs; sample: the assets whose results tell best whether the program is right. */
+export function groupOf(card: Card, sample: readonly string[] = []): Group {
   if (card.output === "failed") return card.stale.length ? "stale" : "failed";
   if (card.output === "none") return "none";
   if (card.review === "flagged" || (card.flags.length > 0 && card.review === null)) return "flagged";
   if (card.stale.length) return "stale";
-  return card.review === "accepted" ? "accepted" : "open";
+  if (card.review === "accepted") return "accepted";
+  return sample.includes(card.asset) ? "telling" : "open";
 }
 
-/** The cards by group, in the family's order. */
-export function grouped(cards: readonly Card[]): Readonly<Record<Group, readonly Card[]>> {
-  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], open: [], accepted: [], none: [] };
-  for (const card of cards) rows[groupOf(card)].push(card);
+/** The cards by group, in the family's order; those that tell most, in the order of the sample. */
+export function grouped(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
+  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], telling: [], open: [], accepted: [], none: [] };
+  for (const card of cards) rows[groupOf(card, sample)].push(card);
+  rows.telling.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
   return rows;
 }
 
-/** Assets that want a look: failed and flagged first, then those that nobody reviewed. */
-export function reviewQueue(cards: readonly Card[]): readonly string[] {
-  const { failed, flagged, open } = grouped(cards);
-  return [...failed, ...flagged, ...open].map((card) => card.asset);
+/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most telling ahead. */
+export function reviewQueue(cards: readonly Card[], sample: readonly string[]): readonly string[] {
+  const { failed, flagged, telling, open } = grouped(cards, sample);
+  return [...failed, ...flagged, ...telling, ...open].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */

@@ -40,6 +40,7 @@ def lesson_view(number: int, outcome: Outcome, looked_at: int, seconds: float) -
         advice=failure.advice if failure else (),
         suggested_orientation=show(suggested.orient).removeprefix("orient ") if suggested else None,
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
+        sample=() if outcome.settled else outcome.sample,
         seconds=seconds,
     )
 

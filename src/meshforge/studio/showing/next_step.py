@@ -28,7 +28,7 @@ def next_step(
         or _lesson(lesson, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
         or _outputs(cards)
-        or _reviews(cards)
+        or _reviews(cards, lesson.sample if lesson else ())
     )
 
 
@@ -97,12 +97,22 @@ def _outputs(cards: Sequence[Card]) -> Next | None:
     return None
 
 
-def _reviews(cards: Sequence[Card]) -> Next:
+def _reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
     flagged = [c for c in cards if c.review == "flagged"]
     if flagged:
         return Next(stage="review", say=f"{counted(len(flagged), 'asset')} flagged: mend it.", asset=flagged[0].asset)
     open_ = [c for c in cards if c.review is None]
+    waiting = {c.asset for c in open_}
+    telling = [asset for asset in sample if asset in waiting]
+    if telling:
+        return Next(stage="review", say=_look(telling), asset=telling[0])
     if open_:
         say = f"Look through the results: {counted(len(open_), 'asset')} to accept or flag."
         return Next(stage="review", say=say, asset=open_[0].asset)
     return Next(stage="review", say="All results are accepted: export them.")
+
+
+def _look(telling: Sequence[str]) -> str:
+    """To look at the results that tell most, before all others."""
+    what = counted(len(telling), "result that tells", "results that tell")
+    return f"Look at {what} best whether the program is right{', first' if len(telling) > 1 else ':'} {telling[0]}."

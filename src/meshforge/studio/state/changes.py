@@ -13,6 +13,7 @@ PROGRAM, PREVIOUS, LEARNED = "program.mf", "program.previous.mf", f"{STATE}/lear
 _STAMPS = f"edited/{STATE}/stamps/"
 _OF_ASSETS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
 _LESSONS = ("labels/", "demonstrations/", "prepared/", "templates/")
+_SAID = frozenset(("answers.json", "review.json", PROGRAM))
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,5 +47,5 @@ def changes_of(project: Project, names: Iterable[str]) -> Changes:
         settings=settings,
         program=bool(names & {PROGRAM, LEARNED}),
         reviews="review.json" in names,
-        lesson=settings or bool(shapes) or any(n.startswith(_LESSONS) or n in ("answers.json", PROGRAM) for n in names),
+        lesson=settings or bool(shapes) or any(n.startswith(_LESSONS) or n in _SAID for n in names),
     )

@@ -86,7 +86,8 @@ class LessonView(Wire):
     assets were looked at, of very many not all.
 
     error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
-    where a rule has no extractor. stale: ids of answers that no longer fit.
+    where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
+    whether the program is what is meant, most telling first.
     """
 
     number: int
@@ -104,6 +105,7 @@ class LessonView(Wire):
     advice: tuple[str, ...] = ()
     suggested_orientation: str | None = None
     stale: tuple[str, ...] = ()
+    sample: tuple[str, ...] = ()
     error: str | None = None
     seconds: float = 0.0
 

@@ -14,6 +14,7 @@ const HEADS: Readonly<Record<Group, string>> = {
   failed: "Failed",
   flagged: "Flagged",
   stale: "Not up to date",
+  telling: "Look at these first",
   open: "Not reviewed",
   accepted: "Accepted",
   none: "Not applied yet",
@@ -25,7 +26,8 @@ export function Results({ onOpen }: { onOpen: () => void }) {
   const cards = useProject((state) => state.cards);
   const order = useProject((state) => state.order);
   const inOrder = useMemo(() => order.flatMap((asset) => cards[asset] ?? []), [order, cards]);
-  const lines = useMemo(() => linesOf(inOrder), [inOrder]);
+  const sample = useProject((state) => state.lesson?.sample);
+  const lines = useMemo(() => linesOf(inOrder, sample ?? []), [inOrder, sample]);
   return (
     <div className={css.results}>
       <AcceptLegal count={acceptable(inOrder).length} />
@@ -86,8 +88,8 @@ function AcceptLegal({ count }: { count: number }) {
   );
 }
 
-function linesOf(cards: readonly Card[]): Line[] {
-  const groups = grouped(cards);
+function linesOf(cards: readonly Card[], sample: readonly string[]): Line[] {
+  const groups = grouped(cards, sample);
   return GROUPS.flatMap((group) => {
     const rows = groups[group];
     if (!rows.length) return [];

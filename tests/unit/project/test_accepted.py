@@ -1,0 +1,84 @@
+"""Results that a person accepts one by one are learned from."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from meshforge.language import Delete, Program
+from meshforge.project import Project
+from meshforge.synthesis import Ambiguous, Found, Options, Step
+from tests.unit.project.shelves import ambiguous
+
+SHELVED, ALSO = "rack2.obj", "rack3.obj"
+BOARDS = "Is(board) => Delete"
+
+
+def applied(folder: Path) -> Project:
+    """A project in which it is open whether boards or the highest boards are deleted; the program takes all."""
+    project = ambiguous(folder)
+    assert isinstance(project.synthesize(), Ambiguous)
+    assert BOARDS in str(project.program())
+    list(project.apply(workers=0))
+    return project
+
+
+def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review(SHELVED, "accepted")
+    (seen,) = json.loads((project.folder / "review.json").read_text())["assets"][SHELVED]["seen"]
+    assert seen == {"rule": 1, "action": "Delete", "select": ["shelf", "top"]}
+    outcome = project.synthesize()
+    assert isinstance(outcome, Found) and outcome.settled
+    assert BOARDS in str(outcome.program)
+    assert not outcome.stale and not outcome.overruled
+    project.review(SHELVED, None)
+    assert isinstance(project.synthesize(), Ambiguous)
+
+
+def test_who_accepts_many_at_once_or_flags_says_nothing_of_each(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review([SHELVED, ALSO], "accepted")
+    assert not any(said.seen for said in project.reviews().values())
+    assert isinstance(project.synthesize(), Ambiguous)
+    project.review(SHELVED, "flagged")
+    assert isinstance(project.synthesize(), Ambiguous)
+
+
+def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.correct(SHELVED, ["knob"], Delete())
+    list(project.apply(workers=0))
+    project.review(SHELVED, "accepted")
+    assert not project.reviews()[SHELVED].seen
+    assert isinstance(project.synthesize(), Ambiguous)
+
+
+def test_nor_is_what_another_program_did(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.accept(Program.parse("labels board, leg, knob\nIs(knob) => Delete\n"))
+    project.review(SHELVED, "accepted")
+    assert not project.reviews()[SHELVED].seen
+
+
+def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review(SHELVED, "accepted")
+    project.demonstrate(SHELVED, [Step(1, {"top"}, Delete())])
+    outcome = project.synthesize()
+    assert isinstance(outcome, Found)
+    assert "Geo(Is(board), +Z) => Delete" in str(outcome.program)
+
+
+def test_where_no_program_keeps_what_was_accepted_it_is_overruled_and_named(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.review(SHELVED, "accepted")
+    project.demonstrate(ALSO, [Step(1, {"top"}, Delete())])
+    outcome = project.synthesize(options=Options(repair=False))
+    assert isinstance(outcome, Found)
+    assert outcome.overruled == (SHELVED,)
+    assert "Geo(Is(board), +Z) => Delete" in str(outcome.program)
+    list(project.apply(workers=0))
+    assert all(asset.review is None for asset in project.status(workers=0).assets)
+    again = project.synthesize(options=Options(repair=False))
+    assert again.overruled == ()  # its output is another one now, which nobody accepted
