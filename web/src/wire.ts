@@ -621,7 +621,7 @@ export interface RuleView {
  *
  * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
  * where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
- * whether the program is what is meant, most telling first.
+ * whether the program is what is meant, most telling first; overruled: those whose accepted result no program keeps.
  */
 export interface LessonView {
   number: number;
@@ -640,6 +640,7 @@ export interface LessonView {
   suggested_orientation: string | null;
   stale: string[];
   sample: string[];
+  overruled: string[];
   error: string | null;
   seconds: number;
 }

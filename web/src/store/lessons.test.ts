@@ -20,6 +20,7 @@ const lesson = (more: Partial<LessonView>): LessonView => ({
   suggested_orientation: null,
   stale: [],
   sample: [],
+    overruled: [],
   error: null,
   seconds: 0.1,
   ...more,

@@ -41,6 +41,7 @@ def lesson_view(number: int, outcome: Outcome, looked_at: int, seconds: float) -
         suggested_orientation=show(suggested.orient).removeprefix("orient ") if suggested else None,
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
         sample=() if outcome.settled else outcome.sample,
+        overruled=outcome.overruled,
         seconds=seconds,
     )
 

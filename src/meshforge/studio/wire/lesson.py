@@ -87,7 +87,7 @@ class LessonView(Wire):
 
     error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
     where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
-    whether the program is what is meant, most telling first.
+    whether the program is what is meant, most telling first; overruled: those whose accepted result no program keeps.
     """
 
     number: int
@@ -106,6 +106,7 @@ class LessonView(Wire):
     suggested_orientation: str | None = None
     stale: tuple[str, ...] = ()
     sample: tuple[str, ...] = ()
+    overruled: tuple[str, ...] = ()
     error: str | None = None
     seconds: float = 0.0
 

@@ -17,9 +17,19 @@ export function ProgramNotes() {
       {problem && problem !== program.error && <Note mood="bad">{problem}</Note>}
       {program.by_hand && program.text !== "" && <ByHand />}
       {program.outdated && !program.by_hand && <Outdated />}
+      <Overruled />
       <Fails />
     </div>
   );
+}
+
+/** Which accepted results no program keeps. */
+function Overruled() {
+  const overruled = useProject((state) => state.lesson?.overruled);
+  const first = overruled?.[0];
+  if (!first) return null;
+  const some = overruled.length === 1 ? `the accepted result of ${shortName(first)}` : `${overruled.length} accepted results`;
+  return <Note mood="warn">No program does what is demonstrated and keeps {some}: it was learned without, look there again.</Note>;
 }
 
 function ByHand() {
