@@ -42,7 +42,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             "drawn blindly of the meshes where they select something; label repair off, as all labels are right.",
             "A person answers by the truth: the choice that is right, or *neither*; then the next question is asked, "
             "until none is worth it. *Settled*: all believable readings do the same on every mesh.",
-            "*Near*: the hidden extractor has at most three nodes more than the smallest that fits; only such readings "
+            "*Near*: the hidden extractor has at most four nodes more than the smallest that fits; only such readings "
             "are looked for.",
             "Programs: three to five rules, everything on; the first demonstration is drawn of the meshes on which "
             "every rule selects something, further ones of all. Proposals to repair a label are refused, as all are "

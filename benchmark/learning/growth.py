@@ -165,5 +165,5 @@ def _said() -> tuple[str, ...]:
         f"Boxes at random: {base.meshes} meshes of {base.hulls} hulls, {base.labels} labels, an extractor of "
         f"{base.nodes} nodes, demonstrated on {base.shown} meshes, where nothing else is said; contacts known.",
         "*Groups*: hulls of all meshes that some extractor tells apart; *all of them*: whether every reading up to "
-        "three nodes larger was found within the effort that is allowed.",
+        "four nodes larger was found within the effort that is allowed.",
     )

@@ -75,7 +75,7 @@ def _notes(rows: Sequence[Row]) -> Iterator[str]:
     yield "Meshes are given as the rule meets them, contacts known."
     yield (
         "*Search alone*: the smallest extractor on the demonstrated meshes, which is all that the paper's strategy and "
-        "cvc5 look for. *Search and readings*: every extractor up to three nodes larger, told apart on all meshes, "
+        "cvc5 look for. *Search and readings*: every extractor up to four nodes larger, told apart on all meshes, "
         "with beliefs. *Repair on*: wrong labels are looked for too."
     )
     yield (
