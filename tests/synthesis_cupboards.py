@@ -29,8 +29,8 @@ def cupboards(count: int = 8, every: int = 2) -> dict[str, SymbolicMesh]:
 
 
 def with_rare_doors() -> dict[str, SymbolicMesh]:
-    """Twelve cupboards of which two have a door: few enough that what differs on them is likely not seen."""
-    return cupboards(12, every=6)
+    """Thirty cupboards of which two have a door: few enough that what differs on them may well not be seen."""
+    return cupboards(30, every=15)
 
 
 def shown(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> list[Demonstration]:

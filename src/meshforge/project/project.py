@@ -410,6 +410,7 @@ class Project:
     def review(self, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:
         """Accept or flag the output of one or several assets, or take that back by None; it counts until that changes.
 
+        One that is accepted by itself was looked at: learning keeps to what the program selected there.
         Raises ProjectError, with nothing written, where there is no output that a verdict could be about.
         """
         reviewing.review(self, [assets] if isinstance(assets, str) else assets, verdict, note)

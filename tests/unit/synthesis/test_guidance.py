@@ -33,7 +33,6 @@ def test_readings_are_counted_from_one_within_their_rule() -> None:
         "Is(handle) => Delete",
         "Attach(Is(handle), Is(drawer)) => Delete",
         "Diff(All, Is(body)) => Delete",
-        "Diff(All, Is(foot)) => Delete",
         "Is(body) => Delete\nIs(handle) => Delete",
     ],
 )

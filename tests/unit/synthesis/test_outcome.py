@@ -17,6 +17,8 @@ KEYS = [
     "question",
     "nearest",
     "demonstrate_next",
+    "look_at",
+    "overruled",
     "stale_answers",
     "followed",
     "seconds",
@@ -44,6 +46,8 @@ def test_a_found_program_as_json() -> None:
         "question": None,
         "nearest": None,
         "demonstrate_next": None,
+        "look_at": [],
+        "overruled": [],
         "stale_answers": [],
         "followed": [],
     }
