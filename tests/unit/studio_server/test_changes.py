@@ -20,7 +20,7 @@ ONE = frozenset({FIRST})
         (f"prepared/{FIRST}/preparation.json", Changes(assets=ONE, shapes=ONE, lesson=True)),
         (f"../assets/{FIRST}", Changes(assets=ONE, shapes=ONE, lesson=True)),
         ("answers.json", Changes(lesson=True)),
-        ("review.json", Changes(reviews=True)),
+        ("review.json", Changes(reviews=True, lesson=True)),
         ("program.mf", Changes(program=True, lesson=True)),
         (".meshforge/learned.json", Changes(program=True)),
         ("labels/gone.obj.json", Changes(lesson=True)),
