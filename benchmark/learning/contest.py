@@ -82,7 +82,7 @@ class Contest:
 
     def _explained(self, exact: Extractor) -> Explanation | None:
         case = self.case
-        known, rest = {name_of(k): case.meshes[k] for k in case.shown}, [case.meshes[k] for k in case.rest()]
+        known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = Labels(known, rest, case.vocabulary)
         return explain(case.examples(), case.vocabulary, labels, Options(), Watch(self.limit), exact=exact)
 

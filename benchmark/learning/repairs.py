@@ -117,7 +117,7 @@ def _learn(case: Case, tally: Tally) -> None:
     truth = {(name, hull.name): hull.label for name, mesh in true.items() for hull in mesh.hulls}
     spoiled = any(hull.label != truth[one.name, hull.name] for one in examples for hull in one.mesh.hulls)
     needed = spoiled and (exact is None or size(exact) > size(best))
-    rest = [mesh for k, mesh in enumerate(case.noisy) if k not in case.chosen]
+    rest = {f"m{k}": mesh for k, mesh in enumerate(case.noisy) if k not in case.chosen}
     rejected, spent = set[Correction](), Counter[str]()
     for _ in range(ROUNDS):
         labels = Labels({one.name: one.mesh for one in examples}, rest, case.vocabulary)

@@ -98,9 +98,8 @@ class Desk:
 
     def proposed(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""
-        program = self.bench.task.program
-        meshes = {name: self.meshes[name] for name in names}
-        return most_telling(meshes, program.labels, program.orient, program.contact, program.extremity)
+        one, some = self.bench.task.program, frozenset(names)
+        return most_telling(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
 
     def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
         """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""

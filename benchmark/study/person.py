@@ -59,17 +59,22 @@ class Person:
         """Whether a result is as it should be, by the eye."""
         return done is not None and done == self._truth.reference[name]
 
-    def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, int] | None:
-        """The first mesh on which the result is not as it should be, and the first rule that is wrong there; None: all
+    def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, frozenset[int]] | None:
+        """The first mesh on which a rule does not do as it should, and what to show there: the first such rule, and
+        those before it that do something else than is wanted by the eye, as they may take its hulls away. None: all
         well.
 
-        What the reference would get wrong as well, as a label is wrong, is no failure of the program.
+        What is right by the eye is no failure, nor is what the reference gets wrong as well, since a label is wrong.
         """
         for name in names:
-            done, wanted = desk.selected(program, name), desk.reference[name]
-            if wanted is not None and done != wanted:
-                pairs = enumerate(zip(done or ((),) * len(wanted), wanted, strict=True), 1)
-                return name, next(number for number, (a, b) in pairs if a != b)
+            done, wanted, true = desk.selected(program, name), desk.reference[name], self._truth.reference[name]
+            if wanted is None or true is None:
+                continue
+            rows = list(zip(done or (None,) * len(wanted), wanted, true, strict=True))
+            wrong = next((place for place, (one, *right) in enumerate(rows) if one not in right), None)
+            if wrong is not None:
+                before = [place for place, (one, _, eye) in enumerate(rows[:wrong]) if one != eye]
+                return name, frozenset(place + 1 for place in [*before, wrong])
         return None
 
     def answers(self, desk: Desk, question: Question, program: Program) -> Answer:

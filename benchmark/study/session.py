@@ -127,9 +127,8 @@ class _Teaching:
         """Those of them on which the reference can run: a person could show what is wanted there."""
         return [name for name in self.able if name not in self.log.shown]
 
-    def _show(self, name: str, rule: int | None) -> None:
-        """Show a rule on a mesh, besides those that were shown there before, or all rules."""
-        new = None if rule is None else frozenset([rule])
+    def _show(self, name: str, new: frozenset[int] | None) -> None:
+        """Show some rules on a mesh, besides those that were shown there before, or all rules."""
         self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
         steps = self.person.shows(self.desk, name, new).steps
@@ -236,17 +235,32 @@ class _Teaching:
         return True
 
     def _another(self, outcome: Outcome | MeshForgeError) -> bool:
-        """No program fits: the demonstration that is hardest to fit is set aside, another mesh demonstrated."""
-        if len(self.log.shown) >= MOST:
-            return False
-        named = outcome.where if isinstance(outcome, MeshForgeError) else outcome.nearest and outcome.nearest.asset
+        """No program fits, and the tool names a mesh: an answer about it is taken back; a demonstration of some rules,
+        whose hulls are gone, shows the others, too; else it is set aside, and another mesh demonstrated.
+        """
+        nearest = None if isinstance(outcome, MeshForgeError) else outcome.nearest
+        if nearest and self._unsaid(nearest.rule, nearest.asset):
+            return True
+        named = outcome.where if isinstance(outcome, MeshForgeError) else nearest and nearest.asset
         hardest = named if named in self.given else next(reversed(self.given))
-        kept = {name: rules for name, rules in self.given.items() if name != hardest}
+        if isinstance(outcome, MeshForgeError) and self.given[hardest] is not None and len(self.log.shown) < MOST:
+            self._show(hardest, None)
+            return True
+        del self.given[hardest]
         self.answers = [answer for answer in self.answers if answer.asset != hardest]
-        self.log.set_aside += len(self.given) - len(kept)
-        self.given = kept
-        self._begin()
-        return True
+        self.log.set_aside += 1
+        if len(self.log.shown) < MOST:
+            self._begin()
+        return bool(self.given)
+
+    def _unsaid(self, rule: int, asset: str) -> bool:
+        """Take an answer back that nothing fits, if it is one: what is meant is none of the choices there."""
+        for place, answer in enumerate(self.answers):
+            if (answer.rule, answer.asset) == (rule, asset) and answer.select is not None and asset not in self.given:
+                self.answers[place] = Answer(rule, asset, None)
+                self.log.taken_back += 1
+                return True
+        return False
 
     def _looks_on(self, outcome: Outcome, program: Program) -> bool:
         """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there.
@@ -265,15 +279,15 @@ class _Teaching:
         if seen is None:
             self.clean, self.log.accepted = program, not guided
             return guided
-        name, rule = seen
-        wrong = self.person.takes_back(self.desk, self.answers, rule)
+        name, rules = seen
+        wrong = self.person.takes_back(self.desk, self.answers, max(rules))
         if wrong:
             self.answers.remove(wrong)
             self.log.taken_back += 1
             return True
         if len(self.log.shown) >= MOST:
             return False
-        self._show(name, rule)
+        self._show(name, rules)
         return True
 
     def _worth_a_look(self, sample: Sequence[str]) -> list[str]:

@@ -44,7 +44,8 @@ def spoilt(draw: st.DrawFn) -> Shown:
         labels = {hull.name: Label(to, 0.5, "vlm") if to else None for hull, to in zip(wrong, names, strict=True)}
         examples.append(Example(f"mesh {k}", mesh.labelled(labels), select_mask(hidden, mesh)))
     assume(any(example.selection for example in examples))
-    return examples, Labels({example.name: example.mesh for example in examples}, true, LABELS)
+    shown, rest = {one.name: one.mesh for one in examples}, {f"other {k}": mesh for k, mesh in enumerate(true)}
+    return examples, Labels(shown, rest, LABELS)
 
 
 def proposed(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from meshforge.symbolic import bits
 from meshforge.synthesis.asking import Choice, Hint, Question
@@ -20,15 +20,18 @@ BALKED = 4
 or too many labels are wrong."""
 
 
-def question(rule: int, weighed: Weighed, names: Sequence[str], declined: Collection[str]) -> Question | None:
+def question(
+    rule: int, weighed: Weighed, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
+) -> Question | None:
     """The question about one rule that is worth a person's time, None where there is none.
 
-    names: of the meshes of the field; declined: those for which a person said that neither choice is right.
+    names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
+    said that neither choice is right.
     """
     doubt = weighed.doubt
     if len(declined) >= BALKED:
         return None
-    split = weighed.split(k for k, name in enumerate(names) if name in declined)
+    split = weighed.split({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.worth_asking:
         return None
     choices = tuple(

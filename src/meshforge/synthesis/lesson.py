@@ -155,14 +155,14 @@ class Lesson:
         self._learned.append(Learned(rule, weighed, names))
         if not self._question:
             declined = {a.asset for a in self._task.answers if a.rule == agreed.number and a.select is None}
-            self._question = question(agreed.number, weighed, names, declined)
+            self._question = question(agreed.number, weighed, names, self._repairs.trust, declined)
         self._course.take(agreed.number, rule, last=agreed.number == len(self._task.rules))
 
     def _found(self) -> Outcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
         known = [(learned.weighed, learned.names) for learned in self._learned]
-        ahead, looks = hint(known), sample(known)
+        ahead, looks = hint(known), sample(known, self._repairs.trust)
         if self._question:
             return Ambiguous(program=program, question=self._question, hint=ahead, sample=looks, **self._shared())
         settled = bool(self._course.others) and all(learned.weighed.settled for learned in self._learned)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from math import exp
 
 from meshforge.language import show
 from meshforge.symbolic import SymbolicMesh
@@ -17,6 +18,11 @@ from meshforge.synthesis.repair import Labels, explain
 from meshforge.synthesis.search import Hit, Miss
 from meshforge.synthesis.task import Task
 from meshforge.synthesis.watch import Watch
+
+DISTRUST = 3.0
+"""How much less a mesh tells for each label that is expected to be wrong [nats]. Measured on the calibration set with
+noisy labels (`script/bench tuning`): of 120 sessions 99 end right within three demonstrations and answers; 90 at 1.0,
+74 where questions and looks go by confidence alone."""
 
 
 def inquiry(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[Correction], bool]:
@@ -42,6 +48,11 @@ class Repairs:
     def spent(self) -> Mapping[str, int]:
         """How many corrections there are on each mesh, those included that a person confirmed before."""
         return Counter(correction.asset for correction in [*self._found, *self._task.confirmed])
+
+    @cached_property
+    def trust(self) -> Mapping[str, float]:
+        """How much each mesh tells of the rules rather than of its labels, in 0..1: less for each that may be wrong."""
+        return {name: exp(-DISTRUST * errors) for name, errors in self._labels.errors.items()}
 
     def explaining(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
@@ -76,6 +87,6 @@ class Repairs:
         known = said.union(name for name, _ in named(self._task.demos))
         return Labels(
             {name: mesh for name, mesh in self._meshes.items() if name in known},
-            [mesh for name, mesh in self._meshes.items() if name not in known],
+            {name: mesh for name, mesh in self._meshes.items() if name not in known},
             self._task.frame.labels,
         )

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from math import exp
+from itertools import islice
 
 import numpy as np
 
 from meshforge.synthesis.readings import Weighed
-from meshforge.synthesis.telling import doubtful
 
 SAMPLE = 12
 """So many results a person looks at before keeping a program (paper, protocol)."""
@@ -20,21 +19,17 @@ Known = tuple[Weighed, Sequence[str]]
 """The readings of a rule, and the names of the meshes of their field."""
 
 
-def sample(learned: Sequence[Known]) -> tuple[str, ...]:
+def sample(learned: Sequence[Known], trust: Mapping[str, float]) -> tuple[str, ...]:
     """The assets whose results to look at, the most telling first; none of which every rule is known.
 
     First each time the asset on which most belief is in readings that none before it would refute, then the one that
-    stands for most hulls unlike any before. An asset whose labels are doubtful tells less: what is wrong there may be
-    a label.
+    stands for most hulls unlike any before. trust: how much each tells; where labels are doubtful less, since what is
+    wrong there may be a label.
     """
-    trust = {
-        name: exp(-doubtful(mesh))
-        for weighed, names in learned
-        for name, mesh in zip(names, weighed.field.meshes, strict=True)
-    }
     known = [set(names[: len(weighed.examples)]) for weighed, names in learned]
-    names = sorted(name for name in trust if not all(name in some for some in known))
-    chosen = [name for name, _ in zip(_differing(learned, names, trust), range(SAMPLE), strict=False)]
+    every = {name for _, names in learned for name in names}
+    names = sorted(name for name in every if not all(name in some for some in known))
+    chosen = list(islice(_differing(learned, names, trust), SAMPLE))
     for name in _unlike(*learned[0], [name for name in names if name not in chosen], chosen, trust) if learned else ():
         if len(chosen) == SAMPLE:
             break
@@ -58,7 +53,7 @@ def _differing(learned: Sequence[Known], names: Sequence[str], trust: Mapping[st
     weights = np.array([trust[name] for name in names])
     while True:
         gains = at_stake.sum(axis=0)
-        best = int(np.argmax(np.round(gains * weights, 12)))
+        best = int(np.argmax(np.round(gains, 12) * weights))
         if gains[best] <= _NOTHING:
             return
         yield names[best]

@@ -54,7 +54,7 @@ def explained(
     options: Options = OPTIONS,
     batch: Sequence[SymbolicMesh] = FAMILY,
 ) -> Explanation | None:
-    others = [labelled(mesh, {}) for mesh in batch]
+    others = {f"other {k}": labelled(mesh, {}) for k, mesh in enumerate(batch)}
     labels = Labels({example.name: example.mesh for example in examples}, others, VOCABULARY)
     exact = exact_of(examples)
     return explain(
@@ -173,6 +173,6 @@ def test_the_reason_names_similar_hulls_confidence_and_the_program() -> None:
 
 def test_the_time_is_kept() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
-    labels = Labels({example.name: example.mesh for example in examples}, [], VOCABULARY)
+    labels = Labels({example.name: example.mesh for example in examples}, {}, VOCABULARY)
     with pytest.raises(OutOfTime):
         explain(examples, VOCABULARY, labels, OPTIONS, Watch(0))

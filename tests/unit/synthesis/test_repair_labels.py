@@ -24,7 +24,7 @@ def said(name: str, label: Label | None) -> SymbolicMesh:
 
 def cost(label: Label | None, to: str, name: str = "leg0_low") -> float:
     mesh = said(name, label)
-    return Labels({"table": mesh}, [table(), table(legs=3)], VOCABULARY).cost("table", mesh.named(name), to)
+    return Labels({"table": mesh}, {"a": table(), "b": table(legs=3)}, VOCABULARY).cost("table", mesh.named(name), to)
 
 
 def test_a_label_that_similar_hulls_have_costs_less() -> None:
@@ -54,7 +54,7 @@ def test_every_correction_costs_something() -> None:
 
 def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
     mesh = table()
-    labels, hull = Labels({"table": mesh}, [], VOCABULARY), mesh.hulls[0]
+    labels, hull = Labels({"table": mesh}, {}, VOCABULARY), mesh.hulls[0]
     made = Hull("leg0_low~1", "body", Box.filling(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low")
     assert labels.cost("table", hull, "leg") < math.inf
     assert labels.cost("table", made, "panel") == math.inf
@@ -65,18 +65,18 @@ def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
 
 def test_a_demonstrated_mesh_in_the_batch_is_not_asked_about_itself() -> None:
     mesh = table()
-    alone, twice = Labels({"table": mesh}, [], VOCABULARY), Labels({"table": mesh}, [mesh], VOCABULARY)
+    alone, twice = Labels({"table": mesh}, {}, VOCABULARY), Labels({"table": mesh}, {"again": mesh}, VOCABULARY)
     for hull in mesh.hulls:
         assert alone.cost("table", hull, "misc") == twice.cost("table", hull, "misc")
 
 
 def test_a_label_outside_the_vocabulary_and_meshes_without_labels_do_no_harm() -> None:
     bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "other", (1, 0, 0), (1, 1, 1)))
-    labels = Labels({"bare": bare}, [replace(bare), boxes()], VOCABULARY)
+    labels = Labels({"bare": bare}, {"again": replace(bare), "none": boxes()}, VOCABULARY)
     for hull in bare.hulls:
         assert 0 < labels.cost("bare", hull, "leg") < math.inf
 
 
 def test_no_meshes_and_no_labels_are_no_trouble() -> None:
-    assert Labels({}, [], ()).cost("table", table().hulls[0], "leg") == math.inf
-    assert Labels({"none": boxes()}, [], VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf
+    assert Labels({}, {}, ()).cost("table", table().hulls[0], "leg") == math.inf
+    assert Labels({"none": boxes()}, {}, VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf

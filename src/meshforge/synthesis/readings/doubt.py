@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,10 +63,14 @@ class Doubt:
         """The expected share of assets that the program edits wrongly in this rule."""
         return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
 
-    def best(self, askable: Iterable[int]) -> Split | None:
-        """The question that spares most, of assets that can be asked about; of equals, the first."""
-        splits = (split for asset in askable if (split := self._split(asset)))
-        return min(splits, key=lambda split: (-round(split.spared, 12), split.asset), default=None)
+    def best(self, trust: Mapping[int, float]) -> Split | None:
+        """The question that spares most; of equals, the first.
+
+        trust: the assets that can be asked about, with how much an answer there is worth: where labels are wrong, what
+        is right to say is what no reading does.
+        """
+        splits = (split for asset in trust if (split := self._split(asset)))
+        return min(splits, key=lambda one: (-round(one.spared * trust[one.asset], 12), one.asset), default=None)
 
     def gains(self, first: int) -> dict[int, float]:
         """How much harm an answer about each asset from `first` on would spare, where there is any."""

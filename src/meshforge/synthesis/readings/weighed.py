@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from meshforge.language import Extractor
@@ -75,7 +75,9 @@ class Weighed:
         other = self.terms[reading].bits ^ self.terms[0].bits
         return tuple(k for k, present in enumerate(self.field.present) if other & present)
 
-    def split(self, unaskable: Iterable[int] = ()) -> Split | None:
-        """The best question about an asset of the batch; unaskable: places of meshes that it must not be about."""
-        away = {*range(len(self.examples)), *unaskable}
-        return self.doubt.best(k for k in range(len(self.field.meshes)) if k not in away)
+    def split(self, trust: Mapping[int, float]) -> Split | None:
+        """The best question about an asset of the batch.
+
+        trust: places of the meshes that it may be about, with how much an answer about each is worth.
+        """
+        return self.doubt.best({place: worth for place, worth in trust.items() if place >= len(self.examples)})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log
@@ -42,7 +42,7 @@ def explain(
     extremity: float = EXTREMITY,
     exact: Extractor | None = None,
     spent: Mapping[str, int] = _NOTHING,
-    rejected: Container[Correction] = (),
+    rejected: Collection[Correction] = (),
 ) -> Explanation | None:
     """The most believable extractor with corrections of labels, None where what is exact is as believable.
 
@@ -66,7 +66,7 @@ class _Case:
     extremity: float
     exact: Extractor | None
     spent: Mapping[str, int]
-    rejected: Container[Correction]
+    rejected: Collection[Correction]
 
     def explanation(self) -> Explanation | None:
         variants = self._variants()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp
 
@@ -32,13 +32,14 @@ def relabelings(
     vocabulary: Sequence[str],
     labels: Labels,
     allowed: int,
-    rejected: Container[Correction],
+    rejected: Collection[Correction],
     within: float,
     limit: int,
 ) -> list[Relabeling]:
     """The mesh as it is, and every single correction and the cheapest of more within a cost, by cost.
 
-    allowed: corrections at most; limit: relabelings of more than one correction stop there.
+    allowed: corrections at most; rejected: a label that a person did not want corrected stands, whatever else it might
+    be; limit: relabelings of more than one correction stop there.
     """
     single = _single(example, vocabulary, labels, rejected, within) if allowed > 0 else []
     every, latest = [Relabeling(), *single], single
@@ -71,13 +72,16 @@ def _label(hull: Hull, to: str) -> Label:
 
 
 def _single(
-    example: Example, vocabulary: Sequence[str], labels: Labels, rejected: Container[Correction], within: float
+    example: Example, vocabulary: Sequence[str], labels: Labels, rejected: Collection[Correction], within: float
 ) -> list[Relabeling]:
     found = []
+    standing = {(one.hull, one.was) for one in rejected if one.asset == example.name}
     for index, hull in enumerate(example.mesh.hulls):
+        if (hull.name, hull.label) in standing:
+            continue
         for to in vocabulary:
             cost = labels.cost(example.name, hull, to)
-            if cost <= within and correction(example, (index, to)) not in rejected:
+            if cost <= within:
                 chance = exp(-labels.odds(example.name, hull, to))
                 found.append(Relabeling(cost, chance, ((index, to),)))
     return _ordered(found)

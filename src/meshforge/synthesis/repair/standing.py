@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
 
 from meshforge.geometry import Floats, Ints
 from meshforge.symbolic import HUMAN_SOURCES, SOURCES, Hull, SymbolicMesh
@@ -35,17 +39,33 @@ class Labels:
     """
 
     def __init__(
-        self, demonstrated: Mapping[str, SymbolicMesh], batch: Iterable[SymbolicMesh], vocabulary: Sequence[str]
+        self, demonstrated: Mapping[str, SymbolicMesh], batch: Mapping[str, SymbolicMesh], vocabulary: Sequence[str]
     ) -> None:
         shown = list(demonstrated.values())
-        meshes = [*shown, *(mesh for mesh in batch if not any(_same(mesh, other) for other in shown))]
-        said = alike(meshes, vocabulary)
-        surest = _surest([hull for mesh in meshes for hull in mesh.hulls], said, vocabulary)
+        others = {name: mesh for name, mesh in batch.items() if not any(_same(mesh, other) for other in shown)}
+        self._names, meshes = [*demonstrated, *others], [*shown, *others.values()]
+        self._counts, self._vocabulary = [len(mesh.hulls) for mesh in meshes], vocabulary
+        self._hulls = [hull for mesh in meshes for hull in mesh.hulls]
+        self._said = said = alike(meshes, vocabulary)
+        self._surest = surest = _surest(self._hulls, said, vocabulary)
         places = [(name, hull) for name, mesh in demonstrated.items() for hull in mesh.hulls]
         self._standings = {
             (name, hull.name): _standing(hull, said.chances[row], said.nearest[row], surest, vocabulary)
             for row, (name, hull) in enumerate(places)
         }
+
+    @cached_property
+    def errors(self) -> Mapping[str, float]:
+        """How many labels of each mesh are wrong or missing, as far as can be expected."""
+        places = {label: place for place, label in enumerate(self._vocabulary)}
+        right = np.array([sureness(hull, self._surest) if hull.label in places else 0.0 for hull in self._hulls])
+        codes = np.array([places.get(hull.label or "", 0) for hull in self._hulls], dtype=np.int64)
+        own = self._said.chances[np.arange(len(codes)), codes] if places else np.zeros(len(codes))
+        wrong = (1 - own) * (1 - right) / max(1, len(places) - 1)
+        shares = np.where(right > 0, wrong / np.maximum(own * right + wrong, 1e-300), 1.0)
+        ends = np.cumsum([0, *self._counts])
+        sums = (float(shares[first:end].sum()) for first, end in pairwise(ends))
+        return dict(zip(self._names, sums, strict=True))
 
     def standing(self, asset: str, hull: Hull) -> Standing | None:
         """Of a hull as a rule meets it; None for one that was made, or relabelled, on the way."""
