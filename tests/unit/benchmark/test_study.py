@@ -13,7 +13,9 @@ from benchmark.study import CONDITIONS, FULL, NOISY, Bench, Session, taught
 from benchmark.study.instances import instance, mended
 from benchmark.study.keystrokes import modelled
 from benchmark.study.labels import ACCURACY, FEW, MOST, noisy, wrong
+from benchmark.study.person import Person
 from benchmark.tasks import task
+from meshforge.language import Is
 
 EASY = task("cup-easy")
 
@@ -50,6 +52,28 @@ def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> No
     rest = set(bench.samples) - set(session.shown)
     failing = {name for name in rest if bench.failure(name, bench.truth.edited(program, name))}
     assert set(session.failures) == failing
+
+
+def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_gets_wrong_too(bench: Bench) -> None:
+    desk, one = bench.desk("noisy", 1), bench.task.program
+    person, names = Person(desk, 1, NOISY), list(bench.samples)
+    assert person.sees(desk, one, names) is None
+    other = replace(one, rules=(one.rules[0], replace(one.rules[1], extractor=Is("handle"))))
+    unlike = 0
+    for name in names:
+        done, wanted, true = desk.selected(other, name), desk.reference[name], bench.truth.reference[name]
+        seen = person.sees(desk, other, [name])
+        if done is None or wanted is None or true is None:
+            continue
+        wrong = [place for place, row in enumerate(zip(done, wanted, true, strict=True)) if row[0] not in row[1:]]
+        unlike += sum(a == eye != b for a, b, eye in zip(done, wanted, true, strict=True))
+        if not wrong:
+            assert seen is None
+            continue
+        assert seen
+        assert max(seen[1]) == wrong[0] + 1
+        assert {place - 1 for place in seen[1]} == {k for k in range(wrong[0]) if done[k] != true[k]} | {wrong[0]}
+    assert unlike, "some result is right though the reference selects something else, as a label is wrong"
 
 
 def test_without_questions_nothing_is_answered(bench: Bench) -> None:

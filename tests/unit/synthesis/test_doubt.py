@@ -19,7 +19,7 @@ def test_one_reading_alone_does_no_harm() -> None:
 
 def test_without_assets_nothing_is_at_stake() -> None:
     doubt = Doubt([[], []], [0.5, 0.5])
-    assert (doubt.harm, doubt.best([]), doubt.gains(0)) == (0.0, None, {})
+    assert (doubt.harm, doubt.best({}), doubt.gains(0)) == (0.0, None, {})
 
 
 def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_program() -> None:

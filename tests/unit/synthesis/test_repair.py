@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -146,6 +147,18 @@ def test_a_rejected_correction_is_not_asked_again() -> None:
     assert first
     again = explained(examples, rejected=first.corrections)
     assert again is None or not set(again.corrections) & set(first.corrections)
+
+
+def test_a_label_that_is_not_to_be_corrected_stands_whatever_else_it_might_be() -> None:
+    examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
+    first = explained(examples)
+    assert first
+    (right,) = first.corrections
+    assert right.to == "leg"
+    other = replace(right, to="handle")
+    again = explained(examples, rejected=[other])
+    assert again is None or right.hull not in {correction.hull for correction in again.corrections}
+    assert explained(examples, rejected=[replace(other, was="misc")]) == first, "it had another label then"
 
 
 def test_corrections_for_earlier_rules_count() -> None:

@@ -77,6 +77,24 @@ def test_a_label_outside_the_vocabulary_and_meshes_without_labels_do_no_harm() -
         assert 0 < labels.cost("bare", hull, "leg") < math.inf
 
 
+def test_wrong_and_missing_labels_are_expected_where_look_alikes_disagree() -> None:
+    others = {f"table {k}": said("leg1_low", Label("leg", 0.9, "vlm")) for k in range(4)}
+    right, missing = said("leg0_low", Label("leg", 0.9, "vlm")), said("leg0_low", None)
+    wrong = said("leg0_low", Label("drawer", 0.6, "vlm"))
+    errors = Labels({"shown": right}, {"wrong": wrong, "missing": missing, **others}, VOCABULARY).errors
+    assert set(errors) == {"shown", "wrong", "missing", *others}
+    assert errors["shown"] < 0.5 < errors["wrong"] < 1.5
+    assert 1 < errors["missing"] < 1.5
+    persons = {name: mesh.labelled({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
+               for name, mesh in others.items()}  # fmt: skip
+    assert max(Labels({}, persons, VOCABULARY).errors.values()) < 0.05
+
+
 def test_no_meshes_and_no_labels_are_no_trouble() -> None:
+    assert Labels({}, {}, ()).errors == {}
+    assert Labels({}, {"bare": boxes(), "one": boxes(("a", "x", (0, 0, 0), (1, 1, 1)))}, ()).errors == {
+        "bare": 0,
+        "one": 1,
+    }
     assert Labels({}, {}, ()).cost("table", table().hulls[0], "leg") == math.inf
     assert Labels({"none": boxes()}, {}, VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf

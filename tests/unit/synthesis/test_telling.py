@@ -31,6 +31,14 @@ def test_labels_that_may_be_wrong_or_are_missing_count_against_a_mesh() -> None:
     assert most_telling({"sure": sure, "door": door.labelled({"knob": None, "door": None})}, WORDS) == "sure"
 
 
+def test_labels_are_judged_by_all_meshes_and_only_those_in_question_are_named() -> None:
+    meshes = {f"c{k}": cupboard(door=True) for k in range(6)}
+    meshes["wrong"] = meshes["c0"].labelled({"knob": Label("drawer", 1.0, "vlm")})
+    assert most_telling(meshes, WORDS, among={"wrong", "c3"}) == "c3"
+    assert most_telling(meshes, WORDS, among={"wrong"}) == "wrong"
+    assert most_telling(meshes, WORDS, among=()) is None
+
+
 def test_only_labels_of_the_vocabulary_count() -> None:
     assert most_telling({"plain": cupboard(), "door": cupboard(door=True)}, ("drawer",)) == "plain"
 
