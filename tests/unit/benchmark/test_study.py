@@ -55,8 +55,8 @@ def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> No
 
 
 def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_gets_wrong_too(bench: Bench) -> None:
-    desk, one = bench.desk("noisy", 1), bench.task.program
-    person, names = Person(desk, 1, NOISY), list(bench.samples)
+    desk, one = bench.desk("noisy", 5), bench.task.program
+    person, names = Person(desk, 5, NOISY), list(bench.samples)
     assert person.sees(desk, one, names) is None
     other = replace(one, rules=(one.rules[0], replace(one.rules[1], extractor=Is("handle"))))
     unlike = 0
