@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError
+from meshforge.project.evenly import evenly
 from meshforge.synthesis import most_telling
 
 if TYPE_CHECKING:
@@ -23,9 +24,8 @@ def first_to_show(project: Project, assets: Sequence[str]) -> str | None:
     """
     if len(assets) < 2:
         return next(iter(assets), None)
-    some = dict.fromkeys(assets[k * len(assets) // MOST] for k in range(MOST)) if len(assets) > MOST else assets
     meshes: dict[str, SymbolicMesh] = {}
-    for asset in some:
+    for asset in evenly(assets, MOST):
         try:
             meshes[asset] = project.mesh(asset)
         except MeshForgeError:  # the status names it, with the reason

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from meshforge.project.answering import answers
+from meshforge.project.evenly import evenly
 from meshforge.project.reviewing import accepted_results
 from meshforge.symbolic import SymbolicMesh, follow_labels
 
@@ -49,5 +50,5 @@ def looked_at(project: Project) -> tuple[str, ...]:
     said = {line.asset for line in answers(project).answers}
     said.update(accepted_results(project))
     said.update(asset for asset in every if project.layout.demonstration(asset).exists())
-    evenly = {every[k * len(every) // MOST] for k in range(MOST)}
-    return tuple(asset for asset in every if asset in said or asset in evenly)
+    said.update(evenly(every, MOST))
+    return tuple(asset for asset in every if asset in said)

@@ -14,6 +14,7 @@ from pydantic import Field
 
 from meshforge.batch import Stamp, program_digest, read_stamp, text_digest
 from meshforge.errors import ProjectError
+from meshforge.project.evenly import evenly
 from meshforge.project.json_files import JsonFile, read_json, write_json
 from meshforge.project.steps import bare_text
 
@@ -89,10 +90,9 @@ def accepted_results(project: Project) -> dict[str, tuple[Seen, ...]]:
     rows = sorted(
         (asset, said) for asset, said in project.reviews().items() if said.seen and asset in project.found.ids
     )
-    if len(rows) > MOST:
-        rows = [rows[k * len(rows) // MOST] for k in range(MOST)]
-    present = {asset: output_digest(read_stamp(project.layout.edited, asset)) for asset, _ in rows}
-    return {asset: said.seen for asset, said in rows if said.output == present[asset]}
+    some = evenly(rows, MOST)
+    present = {asset: output_digest(read_stamp(project.layout.edited, asset)) for asset, _ in some}
+    return {asset: said.seen for asset, said in some if said.output == present[asset]}
 
 
 def _seen(project: Project, asset: str) -> tuple[Seen, ...]:
