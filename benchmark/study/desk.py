@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -12,7 +12,16 @@ from benchmark.study.labels import noisy
 from benchmark.tasks import Edited, Task
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Correction, Demonstration, most_telling
+from meshforge.synthesis import (
+    Answer,
+    Correction,
+    Demonstration,
+    Options,
+    Outcome,
+    Repair,
+    most_telling,
+    synthesize,
+)
 from meshforge.synthesis.replay import Replay, advanced, begun
 
 Selections = tuple[frozenset[str], ...]
@@ -95,6 +104,30 @@ class Desk:
                 replay = advanced(before, place, rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
+
+    def learned(
+        self,
+        demos: Sequence[Demonstration],
+        options: Options,
+        confirm: Callable[[Repair], bool] | None = None,
+        answers: Sequence[Answer] = (),
+        rejected: Iterable[Correction] = (),
+    ) -> Outcome:
+        """What the tool learns from demonstrations on these meshes; raises as `synthesize` does."""
+        one, templates = self.bench.task.program, self.bench.task.templates
+        return synthesize(
+            demos,
+            self.meshes,
+            one.orient,
+            templates,
+            one.labels,
+            one.contact,
+            one.extremity,
+            options,
+            confirm,
+            answers,
+            rejected,
+        )
 
     def proposed(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""

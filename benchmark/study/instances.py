@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from time import perf_counter
@@ -16,7 +16,7 @@ from benchmark.study.person import Person
 from benchmark.tasks import task
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import Correction, Options, Outcome, Repair, synthesize
+from meshforge.synthesis import Correction, Options, Repair
 
 Way = Literal["no correction", "all labels inspected (Standard PBE)", "ABI"]
 _SEED, _DRAWS = 300, 12
@@ -110,19 +110,19 @@ def mended(one: Instance, way: Way) -> Mended:
     return log
 
 
-def _learned(one: Instance, desk: Desk, shown: Sequence[str], options: Options, confirm: Any = None,
-             rejected: Sequence[Correction] = ()) -> Program | None:  # fmt: skip
-    person, wanted = Person(one.desk, one.seed, NOISY), one.bench.task
-    demos = [person.shows(desk, name) for name in shown]
-    frame = wanted.program
+def _learned(
+    one: Instance,
+    desk: Desk,
+    shown: Sequence[str],
+    options: Options,
+    confirm: Callable[[Repair], bool] | None = None,
+    rejected: Sequence[Correction] = (),
+) -> Program | None:
+    person = Person(one.desk, one.seed, NOISY)
     try:
-        outcome: Outcome = synthesize(
-            demos, desk.meshes, frame.orient, wanted.templates, frame.labels, frame.contact, frame.extremity,
-            options, confirm, (), rejected,
-        )  # fmt: skip
+        return desk.learned([person.shows(desk, name) for name in shown], options, confirm, (), rejected).program
     except MeshForgeError:
         return None
-    return outcome.program
 
 
 def _right(one: Instance, program: Program | None, desk: Desk | None = None) -> bool:

@@ -12,7 +12,7 @@ from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, NoProgram, Outcome, Repair, synthesize
+from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, NoProgram, Outcome, Repair
 
 _ANSWERS = 12  # that a person gives between two demonstrations at most
 
@@ -187,20 +187,8 @@ class _Teaching:
         return found
 
     def _synthesized(self, demos: list[Demonstration]) -> Outcome:
-        program = self.bench.task.program
-        return synthesize(
-            demos,
-            self.desk.meshes,
-            orient=program.orient,
-            templates=self.bench.task.templates,
-            vocabulary=program.labels,
-            contact=program.contact,
-            extremity=program.extremity,
-            options=self.condition.options,
-            confirm=self._confirm,
-            answers=[*self._verdicts(), *self.answers],
-            rejected=self.rejected,
-        )
+        said = [*self._verdicts(), *self.answers]
+        return self.desk.learned(demos, self.condition.options, self._confirm, said, self.rejected)
 
     def _known_among(self, outcome: Outcome) -> list[bool]:
         """For each rule, whether one of its readings behaves as the reference does on every mesh."""
@@ -251,7 +239,7 @@ class _Teaching:
         self.log.set_aside += 1
         if len(self.log.shown) < MOST:
             self._begin()
-        return bool(self.given)
+        return any(rules is None for rules in self.given.values())
 
     def _unsaid(self, rule: int, asset: str) -> bool:
         """Take an answer back that nothing fits, if it is one: what is meant is none of the choices there."""
