@@ -22,7 +22,7 @@ from meshforge.synthesis.watch import Watch
 DISTRUST = 3.0
 """How much less a mesh tells for each label that is expected to be wrong [nats]. Measured on the calibration set with
 noisy labels (`script/bench tuning`): of 120 sessions 99 end right within three demonstrations and answers; 90 at 1.0,
-74 where questions and looks go by confidence alone."""
+74 where looks go by confidence, and questions by nothing."""
 
 
 def inquiry(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[Correction], bool]:
@@ -52,7 +52,8 @@ class Repairs:
     @cached_property
     def trust(self) -> Mapping[str, float]:
         """How much each mesh tells of the rules rather than of its labels, in 0..1: less for each that may be wrong."""
-        return {name: exp(-DISTRUST * errors) for name, errors in self._labels.errors.items()}
+        errors = self._labels.errors  # of none that is demonstrated under another name
+        return {name: exp(-DISTRUST * errors.get(name, 0.0)) for name in self._meshes}
 
     def explaining(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""

@@ -28,8 +28,8 @@ def most_telling(
     """The id of the mesh on which the small selections that people mean come out in most different ways, for its hulls
     and the labels that may be wrong.
 
-    Of equals the first. None where no mesh can be turned as `orient` says, or none has
-    a label. orient, contact, extremity: as of `synthesize`; among: the ids of those in question, by default all.
+    Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
+    extremity: as of `synthesize`; among: the ids of those in question, by default all: labels are judged by all.
     """
     delta = EXTREMITY if extremity is None else extremity
     staged = {name: one for name, mesh in meshes.items() if (one := _staged(mesh, orient, contact))}

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Demonstration, Step, synthesize
 from meshforge.synthesis.sample import SAMPLE
@@ -66,3 +70,12 @@ def test_kinds_of_hulls_that_nobody_showed_come_before_more_of_the_same() -> Non
 def test_without_a_batch_there_is_nothing_to_look_at() -> None:
     meshes = cupboards(1)
     assert synthesize(shown(meshes, ["c0"], HANDLES)).sample == ()
+
+
+def test_an_asset_that_is_demonstrated_under_another_name_is_no_trouble() -> None:
+    meshes = with_rare_doors()
+    asset = SimpleNamespace(path=Path("c0.xml"))
+    demos = [replace(one, mesh=replace(one.mesh, asset=asset)) for one in shown(meshes, ["c0"], HANDLES)]
+    again = {**meshes, "once more": replace(meshes["c0"], asset=asset)}
+    del again["c0"]
+    assert synthesize(demos, again).sample
