@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
+from meshforge.asset import Asset, Body, Document, Geom
+from meshforge.geometry import Pose
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Demonstration, Step, synthesize
 from meshforge.synthesis.sample import SAMPLE
@@ -74,8 +75,10 @@ def test_without_a_batch_there_is_nothing_to_look_at() -> None:
 
 def test_an_asset_that_is_demonstrated_under_another_name_is_no_trouble() -> None:
     meshes = with_rare_doors()
-    asset = SimpleNamespace(path=Path("c0.xml"))
-    demos = [replace(one, mesh=replace(one.mesh, asset=asset)) for one in shown(meshes, ["c0"], HANDLES)]
-    again = {**meshes, "once more": replace(meshes["c0"], asset=asset)}
-    del again["c0"]
-    assert synthesize(demos, again).sample
+    one = shown(meshes, ["c0"], HANDLES)[0]
+    bodies = tuple(Body(name, Pose.identity()) for name in {hull.body for hull in one.mesh.hulls})
+    geoms = tuple(Geom(hull.name, hull.body, hull.shape) for hull in one.mesh.hulls)
+    file = Asset(Path("c0.urdf"), "urdf", bodies, geoms, Document())
+    others = {"once more": replace(meshes["c0"], asset=file), **{name: meshes[name] for name in meshes if name != "c0"}}
+    demo = Demonstration(replace(one.mesh, asset=file), one.steps, "shown")
+    assert synthesize([demo], others).sample
