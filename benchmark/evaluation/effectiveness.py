@@ -247,8 +247,9 @@ def _notes(true: Groups) -> Iterator[str]:
         "nothing is known of what is on other meshes only, which is looked at then."
     )
     yield (
-        "Under noisy labels most sessions that end otherwise end with rules that select the same wherever labels are "
-        "right (*right if labels were*): no demonstration tells them from the reference's, which selects others "
-        "where labels are wrong. The others met wrong labels that look right by their look-alikes (decision 0019)."
+        "Under noisy labels the sessions that end otherwise end with rules that do as the reference's on what was "
+        "shown and looked at. Some select the same wherever labels are right (*right if labels were*), so that only a "
+        "mesh with wrong labels tells them apart; the others differ on meshes that come late among those to look at, "
+        "since their labels seem wrong, or met wrong labels that look right by their look-alikes (decision 0019)."
     )
     yield "Reasons in the table of failing sessions are read off the size of the rules and how a session ended."
