@@ -43,7 +43,7 @@ def synthesize(
     batch: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
     all on the meshes. templates: by the paths that actions name; contact, extremity: thresholds the program is to set.
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
-    answers: what a person said to earlier questions; rejected: corrections of labels that a person refused.
+    answers: what a person said to earlier questions; rejected: corrections that a person refused, so the labels stand.
     follow: a program somebody had in mind; the outcome tells what became of each of its rules.
     stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
