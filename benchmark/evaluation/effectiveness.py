@@ -249,7 +249,8 @@ def _notes(true: Groups) -> Iterator[str]:
     yield (
         "Under noisy labels the sessions that end otherwise end with rules that do as the reference's on what was "
         "shown and looked at. Some select the same wherever labels are right (*right if labels were*), so that only a "
-        "mesh with wrong labels tells them apart; the others differ on meshes that come late among those to look at, "
-        "since their labels seem wrong, or met wrong labels that look right by their look-alikes (decision 0019)."
+        "mesh with wrong labels tells them apart; the others differ on meshes that were not among those looked at, or "
+        "were shown on meshes with wrong labels; they were not traced, as traces are for the calibration set (decision "
+        "0019)."
     )
     yield "Reasons in the table of failing sessions are read off the size of the rules and how a session ended."
