@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import blake2b
 
 from benchmark.assets import Sample
 from benchmark.study.condition import Labels
@@ -35,7 +36,7 @@ class Bench:
         self.task = task
         self.samples: dict[str, Sample] = {sample.name: sample for sample in task.samples(calibration)}
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
-        self._judged: dict[tuple[str, Selections | None], str | None] = {}
+        self._judged: dict[tuple[str, str | None, bytes], str | None] = {}
 
     @cached_property
     def pure(self) -> frozenset[str]:
@@ -56,9 +57,11 @@ class Bench:
         return Desk(self, {name: noisy(sample.mesh, seeds[name]) for name, sample in self.samples.items()})
 
     def failure(self, name: str, edited: Edited) -> str | None:
-        """Why an edit of a mesh does not do; the same selections are judged once, since they make the same edit."""
-        done = None if edited.mesh is None else tuple(frozenset(line.selected) for line in edited.trace)
-        key = (name, done)
+        """Why an edit of a mesh does not do; the same edit is judged once.
+
+        The same selections need not make the same edit: labels decide how a mesh is oriented, too.
+        """
+        key = (name, edited.error, _fingerprint(edited))
         if key not in self._judged:
             self._judged[key] = self.task.failure(self.samples[name], edited)
         return self._judged[key]
@@ -153,3 +156,12 @@ class Desk:
             meshes[one.asset] = meshes[one.asset].labelled({one.hull: Label(one.to, 1.0, "repair")})
         kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
         return Desk(self.bench, meshes, kept)
+
+
+def _fingerprint(edited: Edited) -> bytes:
+    """Equal where two edits have the same hulls, bit for bit, and called the same the ones that they made."""
+    found = blake2b(digest_size=16)
+    for hull in edited.mesh.hulls if edited.mesh else ():
+        said = hull.label if hull.name in edited.named else None
+        found.update(f"{hull.name} {said} {hull.shape.kind} {len(hull.vertices)} ".encode() + hull.vertices.tobytes())
+    return found.digest()

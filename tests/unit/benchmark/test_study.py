@@ -54,6 +54,15 @@ def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> No
     assert set(session.failures) == failing
 
 
+def test_edits_that_select_the_same_are_judged_apart_where_they_differ(bench: Bench) -> None:
+    name, sample = next((name, row) for name, row in bench.samples.items() if any(bench.truth.reference[name] or ()))
+    edited = bench.truth.edited(bench.task.program, name)
+    idle = replace(edited, mesh=sample.mesh, named=frozenset())
+    fresh = [bench.task.failure(sample, edit) for edit in (edited, idle)]
+    assert fresh[0] != fresh[1]
+    assert [bench.failure(name, edit) for edit in (edited, idle, edited)] == [*fresh, fresh[0]]
+
+
 def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_gets_wrong_too(bench: Bench) -> None:
     desk, one = bench.desk("noisy", 5), bench.task.program
     person, names = Person(desk, 5, NOISY), list(bench.samples)
