@@ -60,6 +60,12 @@ PAGES = (
         aside=("tuning",),
     ),
     Page(
+        "labels",
+        "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
+        ("propagation",),
+        ("numpy", "scipy"),
+    ),
+    Page(
         "studio",
         "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
         ("opening", "moving", "relearning", "scrolling"),

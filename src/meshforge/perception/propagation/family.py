@@ -1,0 +1,74 @@
+"""A family of meshes as propagation sees it: comparable rows, what touches what, and which labels are known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshforge.geometry import Floats, Ints
+from meshforge.perception.propagation.describe import WIDTH, described
+from meshforge.symbolic import SymbolicMesh
+
+UNTOLD = -1
+"""The code of a hull whose label nobody told."""
+_LEAST = 1e-3  # spread of a column below which it counts as constant
+_MOST = 3.0  # spreads from the median beyond which nothing is farther
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Hulls of all meshes, in order.
+
+    rows: (n, columns), described and brought to a common spread; owner: (n,) the mesh of each; codes: (n,) the place
+    of its label among `labels`, where that is told, else UNTOLD; touching: pairs (m, 2) of hulls of one mesh that are
+    in contact.
+    """
+
+    rows: Floats
+    owner: Ints
+    codes: Ints
+    labels: tuple[str, ...]
+    touching: Ints
+
+    @cached_property
+    def told(self) -> Ints:
+        """The hulls whose label is told."""
+        return np.flatnonzero(self.codes != UNTOLD)
+
+
+def family_of(meshes: Sequence[SymbolicMesh], told: Sequence[Sequence[str | None]]) -> Family:
+    """A family; told: the label of each hull of each mesh, None where that is not known."""
+    rows = np.concatenate([np.zeros((0, WIDTH)), *map(described, meshes)])
+    sizes = [len(mesh.hulls) for mesh in meshes]
+    starts = np.cumsum([0, *sizes])[:-1]
+    flat = [label for row in told for label in row]
+    labels = tuple(sorted({label for label in flat if label is not None}))
+    places = {label: place for place, label in enumerate(labels)}
+    pairs = [
+        (start + a, start + b)
+        for start, mesh in zip(starts.tolist(), meshes, strict=True)
+        for a, b in sorted(mesh.contacts)
+    ]
+    return Family(
+        standardised(rows),
+        np.repeat(np.arange(len(meshes)), sizes),
+        np.array([UNTOLD if label is None else places[label] for label in flat], dtype=np.int64),
+        labels,
+        np.array(pairs, dtype=np.int64).reshape(-1, 2),
+    )
+
+
+def standardised(rows: Floats) -> Floats:
+    """Columns about their medians in units of their spread, far values drawn in."""
+    if not len(rows):
+        return rows
+    scaled: Floats = (rows - np.median(rows, axis=0)) / np.maximum(rows.std(axis=0), _LEAST)
+    return np.clip(scaled, -_MOST, _MOST)
+
+
+def evenly(items: Ints, most: int) -> Ints:
+    """Of very many some, evenly."""
+    return items if len(items) <= most else items[np.arange(most) * len(items) // most]

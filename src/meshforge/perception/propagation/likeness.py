@@ -1,0 +1,58 @@
+"""Which label a hull has by the hulls that are most like it, among those whose label is told or nearly certain."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+from meshforge.geometry import Floats, Ints
+from meshforge.perception.propagation.family import UNTOLD, Family, evenly
+
+_ROUNDS = 2  # times that hulls which are nearly certain help with the others
+_CERTAIN = 0.8  # from which chance on they do
+_HELP = 0.5  # what such a hull counts beside one that is told
+_HELPERS = 3000  # such hulls at most, evenly chosen
+_AT_ONCE = 2000  # hulls that are compared at a time
+_FARTHEST = 1e6  # beyond any distance of two hulls
+
+
+def by_likeness(family: Family, metric: Floats) -> Floats:
+    """The chance of each label (hulls, labels); of a hull that is told, what its look-alikes say, too.
+
+    metric: the weight of each column (columns,).
+    """
+    rows = family.rows * metric
+    known = np.eye(len(family.labels))[family.codes[family.told]]
+    helpers = np.zeros(0, dtype=np.int64)
+    chances = np.zeros((len(rows), len(family.labels)))
+    for _ in range(1 + _ROUNDS):
+        voters = np.concatenate([family.told, helpers])
+        counts = np.repeat([1.0, _HELP], [len(family.told), len(helpers)])
+        chances = _voted(rows, family.owner, voters, counts, np.concatenate([known, chances[helpers]]))
+        helpers = _helpers(family, chances)
+    return chances
+
+
+def _helpers(family: Family, chances: Floats) -> Ints:
+    """Hulls that nobody told and that are nearly certain, of very many some, evenly."""
+    sure = (family.codes == UNTOLD) & (chances.max(axis=1, initial=0.0) > _CERTAIN)
+    return evenly(np.flatnonzero(sure), _HELPERS)
+
+
+def _voted(rows: Floats, owner: Ints, voters: Ints, counts: Floats, votes: Floats) -> Floats:
+    """The chances (n, labels) of all hulls by the votes (m, labels) of some, the nearer the more.
+
+    No hull votes on itself, and helpers, which count less than one, do not vote on hulls of their own mesh.
+    """
+    chances = np.empty((len(rows), votes.shape[1]))
+    for start in range(0, len(rows), _AT_ONCE):
+        some = np.arange(start, min(start + _AT_ONCE, len(rows)))
+        apart = cdist(rows[some], rows[voters], "cityblock")
+        kin = owner[some][:, None] == owner[voters][None]
+        apart[(some[:, None] == voters[None]) | (kin & (counts < 1)[None])] = np.inf
+        nearest = np.minimum(apart.min(axis=1, keepdims=True, initial=np.inf), _FARTHEST)
+        chances[some] = (np.exp(nearest - apart) * counts) @ votes
+    total = chances.sum(axis=1, keepdims=True)
+    even = np.full_like(chances, 1 / max(1, votes.shape[1]))
+    shares: Floats = np.divide(chances, total, out=even, where=total > 0)
+    return shares

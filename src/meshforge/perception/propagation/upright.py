@@ -1,0 +1,81 @@
+"""Which way is up in a mesh: files tilt their assets, and what a part is shows in how it lies and how high it is."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from meshforge.geometry import Floats
+from meshforge.symbolic import SymbolicMesh
+
+_ALIKE = np.cos(np.radians(4.0))  # faces of the whole that turn by less are one side of it
+_SIDES = 24  # sides of the whole that it may stand on, the largest first
+_SOFT = 3.0  # degrees by which a face may lean and still count as level or plumb
+_PLUMB = 0.3  # worth of a plumb face beside a level one
+_FAR = 40.0  # degrees from the file's own upright axis at which a direction is worth a third
+_STAYS = 0.05  # how much better another direction must be than the file's own
+
+
+def upright(mesh: SymbolicMesh) -> Floats:
+    """The direction (3,) that points up in a mesh, whatever small turn its file gave it.
+
+    Of the file's upright axis and the directions in which the whole could lie flat, the one in which most of the
+    hulls' faces are level or plumb, those near the file's axis before others.
+    """
+    axis = np.array([0.0, 1.0, 0.0] if mesh.asset and mesh.asset.up == "y" else [0.0, 0.0, 1.0])
+    sides = _sides(mesh)
+    normals, areas = _faces(mesh)
+    total = areas.sum()
+    if not len(sides) or not total > 0:
+        return axis
+    found = np.concatenate([axis[None], sides, -sides])
+    lean = np.degrees(np.arccos(np.clip(np.abs(found @ normals.T), 0.0, 1.0)))
+    level, plumb = ((np.exp(-((angle / _SOFT) ** 2)) @ areas) / total for angle in (lean, 90.0 - lean))
+    away = np.degrees(np.arccos(np.clip(found @ axis, -1.0, 1.0)))
+    worth = (level + _PLUMB * plumb) * np.exp(-((away / _FAR) ** 2))
+    worth[0] += _STAYS
+    best: Floats = found[int(np.argmax(np.round(worth, 9)))]
+    return best
+
+
+def standing(up: Floats) -> Floats:
+    """The rotation (3, 3) by the smallest angle that takes a direction to Z."""
+    cosine = float(up[2])
+    if cosine < -1 + 1e-12:
+        return np.diag([1.0, -1.0, -1.0])
+    x, y = float(up[0]), float(up[1])
+    cross = np.array([[0.0, 0.0, -x], [0.0, 0.0, -y], [x, y, 0.0]])
+    turn: Floats = np.eye(3) + cross + cross @ cross / (1 + cosine)
+    return turn
+
+
+def _sides(mesh: SymbolicMesh) -> Floats:
+    """Outward normals (k, 3) of the flat sides of the convex hull of all hulls, the largest first."""
+    if not mesh.hulls:
+        return np.zeros((0, 3))
+    points = np.concatenate([hull.vertices for hull in mesh.hulls])
+    try:
+        whole = ConvexHull(points - points.mean(axis=0))
+    except (QhullError, ValueError):  # flat, or all in one place
+        return np.zeros((0, 3))
+    a, b, c = (whole.points[whole.simplices[:, k]] for k in range(3))
+    areas, normals = np.linalg.norm(np.cross(b - a, c - a), axis=1), whole.equations[:, :3]
+    order = np.argsort(-areas, kind="stable")
+    free, found = np.ones(len(areas), dtype=bool), list[Floats]()
+    for face in order.tolist():
+        if free[face] and len(found) < _SIDES:
+            group = free & (normals @ normals[face] > _ALIKE)
+            free &= ~group
+            middle = areas[group] @ normals[group]
+            found.append(middle / np.linalg.norm(middle))
+    return np.array(found)
+
+
+def _faces(mesh: SymbolicMesh) -> tuple[Floats, Floats]:
+    """Unit normals (n, 3) and areas (n,) of all triangles of all hulls that have one."""
+    corners = [hull.vertices[hull.faces] for hull in mesh.hulls]
+    triangles = np.concatenate(corners) if corners else np.zeros((0, 3, 3))
+    across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    areas = np.linalg.norm(across, axis=1)
+    solid = areas > 1e-12 * areas.max(initial=0.0)
+    return across[solid] / areas[solid, None], areas[solid] / 2

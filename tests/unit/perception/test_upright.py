@@ -1,0 +1,42 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmark.assets import CATEGORIES, samples
+from meshforge.geometry import Floats, Pose
+from meshforge.perception.propagation.upright import standing, upright
+from meshforge.symbolic import SymbolicMesh
+from tests.synthesis_boxes import boxes, table
+
+
+def tilted(mesh: SymbolicMesh, roll: float, pitch: float, yaw: float) -> tuple[SymbolicMesh, Floats]:
+    """The mesh turned, and where its own upright axis points then."""
+    pose = Pose.from_rpy((0.0, 0.0, 0.0), (roll, pitch, yaw))
+    return SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls)), pose.rotation[:, 2]
+
+
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.4, 0.0, 1.0), (-0.3, 0.35, 2.0), (0.0, -0.5, -1.0)])
+def test_a_tilted_table_still_has_its_top_up(turn: tuple[float, float, float]) -> None:
+    mesh, up = tilted(table(), *turn)
+    assert upright(mesh) @ up > np.cos(np.radians(1.0))
+
+
+def test_what_has_no_hulls_or_stands_straight_keeps_the_axis_of_its_file() -> None:
+    assert upright(boxes()).tolist() == [0.0, 0.0, 1.0]
+    assert upright(table()).tolist() == [0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.6, 0.0, 0.8), (0.0, 0.6, -0.8)])
+def test_standing_takes_the_direction_to_z_by_a_proper_turn(up: tuple[float, float, float]) -> None:
+    turn = standing(np.array(up))
+    assert turn @ np.array(up) == pytest.approx([0.0, 0.0, 1.0])
+    assert turn @ turn.T == pytest.approx(np.eye(3))
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_of_generated_assets_a_third_of_which_are_tilted_nearly_all_are_set_upright(category: str) -> None:
+    rows = samples(category, calibration=True)[::3]
+    right = [upright(row.mesh) @ row.asset.pose.rotation[:, 2] > np.cos(np.radians(6.0)) for row in rows]
+    assert np.mean(right) > 0.85
