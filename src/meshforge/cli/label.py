@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -11,13 +12,18 @@ import typer
 from meshforge.cli.options import Json
 
 if TYPE_CHECKING:
-    from meshforge.project import Labelled
+    from meshforge.project import Labelled, Project
 
 
 def label(
     project: Annotated[Path, typer.Argument(help="A project folder.")],
     source: Annotated[
-        Literal["file"], typer.Option("--with", help="Where labels come from: file takes over labels files.")
+        Literal["file", "names", "propagate"],
+        typer.Option(
+            "--with",
+            help="Where labels come from: file takes over labels files, names reads them off the names of hulls and "
+            "bodies, propagate carries those of a few assets to all others.",
+        ),
     ] = "file",
     labels: Annotated[
         Path | None,
@@ -31,13 +37,15 @@ def label(
     Exit code 1 when some labels could not be taken (each named).
     """
     from meshforge.cli.output import print_json
+    from meshforge.errors import UsageError
     from meshforge.project import Project
-    from meshforge.words import counted
 
+    if labels and source != "file":
+        raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
     opened = Project.open(project)
     if vocabulary:
         opened.set_vocabulary([word.strip() for word in vocabulary.split(",") if word.strip()])
-    reports = opened.label_from_files(labels)
+    reports, closing = _labelled(opened, source, labels)
     for report in reports:
         if json:
             print_json(asdict(report), compact=True)
@@ -45,10 +53,28 @@ def label(
         typer.echo(f"{report.asset}: {_told(report)}")
         for problem in report.problems:
             typer.echo(f"    left out: {problem}")
-    bare = len(opened.assets()) - len(reports)
-    if bare and not json:
-        typer.echo(f"{counted(bare, 'asset')} without a labels file")
+    if closing and not json:
+        typer.echo(closing)
     raise typer.Exit(int(any(report.problems for report in reports)))
+
+
+def _labelled(project: Project, source: str, labels: Path | None) -> tuple[Sequence[Labelled], str]:
+    """What became of the labels of each asset, and a closing sentence."""
+    from meshforge.cli.output import progress
+    from meshforge.words import counted
+
+    match source:
+        case "names":
+            return project.label_from_names(), ""
+        case "propagate":
+            with progress(len(project.assets()), "reading") as advance:
+                carried = project.propagate_labels(progress=advance)
+            helpful = f"If some are wrong, label or correct this one next: {carried.next}" if carried.next else ""
+            return carried.reports, helpful
+        case _:
+            reports = project.label_from_files(labels)
+            bare = len(project.assets()) - len(reports)
+            return reports, f"{counted(bare, 'asset')} without a labels file" if bare else ""
 
 
 def _told(report: Labelled) -> str:
@@ -57,5 +83,6 @@ def _told(report: Labelled) -> str:
     parts = [f"{counted(report.taken, 'label')} taken"]
     parts += [f"{report.same} there already"] if report.same else []
     parts += [f"{report.kept} kept as a person gave them"] if report.kept else []
+    parts += [f"{report.unsure} unsure"] if report.unsure else []
     parts += [f"{counted(report.unlabelled, 'hull')} without a label"] if report.unlabelled else []
     return ", ".join(parts)

@@ -10,6 +10,7 @@ from meshforge.project.layout import Layout
 from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
 from meshforge.project.project import Project
+from meshforge.project.propagating import Carried
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings
 from meshforge.project.status import AssetStatus, Status
@@ -21,6 +22,7 @@ __all__ = [
     "AnswerLine",
     "AnswersFile",
     "AssetStatus",
+    "Carried",
     "ConfirmedLine",
     "Family",
     "Labelled",

@@ -42,6 +42,7 @@ def advice(
     return (
         _hulls(folder, assets)
         or _labels(folder, paths, assets, vocabulary, rules)
+        or _propagation(folder, assets, rules)
         or _demonstrations(folder, paths, assets, rules, first)
         or _program(folder, rules, stands.outdated)
         or _question(folder, assets, stands.question)
@@ -76,6 +77,18 @@ def _labels(
     if any(labels_beside(path).is_file() for path in paths.values()):
         return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
     return Advice("No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}")
+
+
+def _propagation(folder: Path, assets: Sequence[AssetStatus], rules: int | None) -> Advice | None:
+    bare = [asset for asset in assets if asset.hulls and not asset.labelled]
+    whole = [asset for asset in assets if asset.hulls and asset.labelled == asset.hulls]
+    if rules is not None or not bare or not whole:
+        return None
+    who = f"{bare[0].id} has" if len(bare) == 1 else f"{len(bare)} assets, first {bare[0].id}, have"
+    return Advice(
+        f"{who} no label: carry over those of the labelled assets.",
+        f"meshforge label {_word(folder)} --with propagate",
+    )
 
 
 def _demonstrations(

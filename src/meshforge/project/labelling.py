@@ -21,6 +21,7 @@ from meshforge.symbolic import (
     read_labels,
     write_labels,
 )
+from meshforge.views import UNSURE
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -31,7 +32,8 @@ class Labelled:
     """What became of labels that were given to one asset; all but `asset` and `problems` are numbers of labels.
 
     taken: written; same: those the hulls have already; kept: not written, since a person's label stands there.
-    problems: a sentence for each label that was left out; unlabelled: hulls that still have none.
+    problems: a sentence for each label that was left out; unlabelled: hulls that still have none; unsure: those whose
+    label is less certain than not.
     """
 
     asset: str
@@ -39,6 +41,7 @@ class Labelled:
     same: int = 0
     kept: int = 0
     unlabelled: int = 0
+    unsure: int = 0
     problems: tuple[str, ...] = ()
 
 
@@ -134,7 +137,8 @@ def merged(
             taken[name] = label
     labelled = mesh.labelled(taken)
     bare = sum(hull.label is None for hull in labelled.hulls)
-    return labelled, Labelled(asset, len(taken), same, kept, bare, tuple(problems))
+    unsure = sum(hull.confidence is not None and hull.confidence < UNSURE for hull in labelled.hulls)
+    return labelled, Labelled(asset, len(taken), same, kept, bare, unsure, tuple(problems))
 
 
 def is_kept(current: Label | None, given: Label) -> bool:

@@ -27,6 +27,7 @@ from meshforge.project import (
     opening,
     overview,
     preparing,
+    propagating,
     reading,
     renaming,
     reviewing,
@@ -39,6 +40,7 @@ from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
 from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
+from meshforge.project.propagating import Carried
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
 from meshforge.project.status import AssetStatus, Status
@@ -243,6 +245,13 @@ class Project:
         In the plural too; of several labels in a name the longest counts. Raises ProjectError: no vocabulary.
         """
         return naming.label_from_names(self)
+
+    def propagate_labels(self, progress: Callable[[], None] | None = None) -> Carried:
+        """Carry the labels of a few assets to all others; what a person or a file says stays.
+
+        progress: called for each asset that was read. Raises ProjectError: no vocabulary, no label to begin with.
+        """
+        return propagating.propagate(self, progress)
 
     # Demonstrations
 

@@ -11,7 +11,7 @@ from meshforge.formats import load
 from meshforge.language import Delete, Program
 from meshforge.project import AssetStatus, Project, Standing, Status, first_to_show
 from meshforge.synthesis import Step
-from tests.unit.batch.families import PROGRAM, write_table
+from tests.unit.batch.families import PROGRAM, label_of, table_boxes, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
 
 
@@ -59,6 +59,20 @@ def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypa
     project = demonstrated(tmp_path)
     monkeypatch.chdir(tmp_path)
     assert of(project).next.command == "meshforge synthesize tables"
+
+
+def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_path: Path) -> None:
+    for name in ("a", "b", "c"):
+        write_table(tmp_path / f"assets/{name}.obj", labels=False)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["top", "leg", "misc"])
+    project.set_labels("a.obj", {"top": "top"})
+    assert "propagate" not in str(of(project).next.command)
+    project.set_labels("a.obj", {name: label_of(name) for name in table_boxes()})
+    advice = of(project).next
+    assert advice.say == "2 assets, first b.obj, have no label: carry over those of the labelled assets."
+    assert advice.command == f"meshforge label {project.folder} --with propagate"
+    project.propagate_labels()
+    assert "demonstrate" in str(of(project).next.command)
 
 
 def test_the_labels_of_an_output_are_in_the_order_of_its_file(tmp_path: Path) -> None:

@@ -1,0 +1,84 @@
+"""Labels of a few assets carried to all others of the project."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from meshforge.errors import MeshForgeError, ProjectError
+from meshforge.project.labelling import Labelled, merged, write_merged
+from meshforge.symbolic import HUMAN_SOURCES, Label, SymbolicMesh, follow_labels
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """What became of each asset, and which one would help most if it were labelled next; None: all are."""
+
+    reports: tuple[Labelled, ...]
+    next: str | None
+
+
+def propagate(project: Project, progress: Callable[[], None] | None = None) -> Carried:
+    """Carry labels to all hulls that have none, or one that a machine was less sure of.
+
+    Raises ProjectError: no vocabulary, or no label to begin with.
+    """
+    from meshforge.perception import propagate as carried  # scipy's search for neighbours takes a while to load
+
+    vocabulary = project.vocabulary
+    if not vocabulary:
+        remedy = "Say first what hulls can be: --vocabulary a,b,c."
+        raise ProjectError("the vocabulary is empty", where=str(project.folder), remedy=remedy)
+    meshes, broken = _read(project, vocabulary, progress)
+    found = carried(list(meshes.values()))
+    ids = list(meshes)
+    best = next((ids[place] for place in found.next_to_label()), None)
+    if not found.family.labels:
+        remedy = f"Label the hulls of one asset first, best {best}." if best else "Decompose the assets first."
+        raise ProjectError(
+            "there is no label that others could be taken from", where=str(project.folder), remedy=remedy
+        )
+    reports = {
+        asset: _written(project, asset, mesh, found.labels(place)) for place, (asset, mesh) in enumerate(meshes.items())
+    }
+    return Carried(tuple((reports | broken)[asset] for asset in project.assets()), best)
+
+
+def _read(
+    project: Project, vocabulary: Sequence[str], progress: Callable[[], None] | None
+) -> tuple[dict[str, SymbolicMesh], dict[str, Labelled]]:
+    """All assets with those of their labels that are in the vocabulary; a report on each that cannot be read."""
+    meshes, broken = dict[str, SymbolicMesh](), dict[str, Labelled]()
+    for asset in project.assets():
+        try:
+            mesh = project.mesh(asset)
+            odd = {name: None for name, label in mesh.labels.items() if label.name not in vocabulary}
+            meshes[asset] = mesh.labelled(odd)
+        except MeshForgeError as error:
+            broken[asset] = Labelled(asset, problems=(error.message,))
+        if progress:
+            progress()
+    return meshes, broken
+
+
+def _written(project: Project, asset: str, mesh: SymbolicMesh, found: Sequence[Label | None]) -> Labelled:
+    """Write what was found for one asset, beside what its labels are by now."""
+    with project.lock():
+        now = follow_labels(project.labels(asset), mesh.labelled(dict.fromkeys(mesh.index))).mesh
+        rows = zip(now.hulls, found, strict=True)
+        given = {hull.name: label for hull, label in rows if label and _gives_way(hull.annotation, label)}
+        labelled, report = merged(asset, now, given, project.vocabulary)
+        if report.taken:
+            write_merged(project, asset, labelled)
+    return report
+
+
+def _gives_way(current: Label | None, given: Label) -> bool:
+    """Whether a label may be replaced: an earlier one of ours, or one that another machine was less sure of."""
+    if current is None or current.source == given.source:
+        return True
+    return current.source not in HUMAN_SOURCES and current.confidence < given.confidence

@@ -1,0 +1,60 @@
+"""`meshforge label`: each source of labels, and what it says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.project import Project
+from tests.unit.batch.families import label_of, table_boxes, write_table
+from tests.unit.cli.in_process import Run, runner
+
+NAMES = tuple(table_boxes())
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line beside a project `p` of three tables without labels."""
+    monkeypatch.chdir(tmp_path)
+    for k in range(3):
+        write_table(tmp_path / f"assets/t{k}.obj", height=0.8 + 0.3 * k, labels=False)
+    Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=("top", "leg", "crumb"))
+    return runner(monkeypatch, capsys)
+
+
+def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_look_at(run: Run, tmp_path: Path) -> None:
+    first = run("label", "p", "--with", "propagate")
+    assert first.code == 2
+    assert "there is no label that others could be taken from" in first.err
+    asset = first.err.split("best ")[1].split()[0].rstrip(".")
+    project = Project.open(tmp_path / "p")
+    assert asset in project.assets()
+    project.set_labels(asset, {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
+    told = run("label", "p", "--with", "propagate")
+    assert told.code == 0
+    assert f"{asset}: 0 labels taken\n" in told.out
+    assert told.out.count("6 labels taken") == 2
+    assert told.out.splitlines()[-1].startswith("If some are wrong, label or correct this one next: t")
+
+
+def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> None:
+    Project.open(tmp_path / "p").set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
+    told = run("label", "p", "--with", "propagate", "--json").out.splitlines()
+    assert len(told) == 3
+    assert all('"unsure": ' in line for line in told)
+
+
+def test_names_label_what_is_called_like_a_label(run: Run, tmp_path: Path) -> None:
+    told = run("label", "p", "--with", "names")
+    assert told.code == 0
+    assert "t1.obj: 2 labels taken, 4 hulls without a label\n" in told.out
+    labels = Project.open(tmp_path / "p").labels("t1.obj").labels
+    assert {name: label.name for name, label in labels.items()} == {"top": "top", "crumb": "crumb"}
+
+
+@pytest.mark.parametrize("source", ["names", "propagate"])
+def test_a_folder_of_labels_files_is_for_files_only(run: Run, source: str) -> None:
+    told = run("label", "p", "--with", source, "--labels", "elsewhere")
+    assert told.code == 2
+    assert f"--labels names labels files, which --with {source} does not read" in told.err
