@@ -29,7 +29,7 @@ the edited meshes must meet, by physics in MuJoCo where it is physical. Written 
 
 - `script/bench effectiveness` (any part by name, `script/bench` all of them, `--quick` one category and one seed)
   measures again what this page says; what was interrupted goes on where it was. All of it, with the pages on speed,
-  learning and the studio, took 54 minutes on two cores; but for times it comes out the same, bit for bit.
+  learning, labels and the studio, took 57 minutes on two cores; but for times it comes out the same, bit for bit.
 - `script/make-benchmark` makes the 600 meshes and the calibration set again ([assets](assets)); the tasks are folders
   in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in [study](study).
 - [The gallery](gallery/index.html) shows each task before and after, rule by rule.
