@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmark.assets import samples
-from meshforge.geometry import Polytope, Pose
+from meshforge.geometry import Aabb, Box, Polytope, Pose
 from meshforge.perception.propagation.describe import WIDTH, described
 from meshforge.perception.propagation.metric import weights
 from meshforge.perception.propagation.points import inside, on_surface
@@ -45,6 +47,23 @@ def test_neither_place_nor_size_nor_yaw_changes_a_row(yaw: float, x: float, scal
 def test_the_order_of_hulls_does_not_matter() -> None:
     turned = SymbolicMesh(CHAIR.hulls[::-1])
     assert described(turned)[::-1] == pytest.approx(described(CHAIR), abs=1e-9)
+
+
+def test_very_many_hulls_are_described_in_bounded_memory() -> None:
+    rows = [
+        Hull(
+            f"h{k}",
+            "body",
+            Box.filling(Aabb(np.array([k % 50, k // 50, 0.0]), np.array([k % 50 + 0.5, k // 50 + 1.0, 1.0]))),
+        )
+        for k in range(1500)
+    ]
+    tracemalloc.start()
+    found = described(SymbolicMesh(tuple(rows)))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert np.isfinite(found).all()
+    assert most < 700e6  # all points at once would take 2 GB
 
 
 def test_points_are_where_they_should_be() -> None:

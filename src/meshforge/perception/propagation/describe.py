@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats
 from meshforge.perception.propagation import shape, surroundings
@@ -55,8 +56,7 @@ def _counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     """How many hulls look alike, touch, and are there; the share of the volume, of the largest, and the rank."""
     count = len(own)
     look = own[:, _LOOK]
-    apart = ((look[:, None] - look[None]) ** 2).sum(axis=2)
-    alike = np.exp(-apart / _ALIKE**2).sum(axis=1) - 1
+    alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
     rank = np.argsort(np.argsort(-volumes, kind="stable"), kind="stable") / max(1, count - 1)
     columns = [

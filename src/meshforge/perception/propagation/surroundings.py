@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,8 @@ from meshforge.perception.propagation.points import inside, on_surface
 SEEN_FROM = 8
 """Points of a hull from which its surroundings are looked at."""
 _SEEN = 600  # points on the whole that are looked at, a few more where there are many hulls
-_LEAST = 3  # of these on each hull
+_LEAST, _MANY = 3, 3000  # of these on each hull, and in all where that makes more
+_PAIRS = 2_000_000  # of points that are looked from and looked at, at a time
 _THIN = 1e-6  # of the size; what is less tall or wide counts as so much
 _RADII = (0.04, 0.1, 0.25)  # of the balls within which the whole is looked at, in sizes of the whole
 _BELOW = (-0.35, -0.12, -0.03, 0.03, 0.12, 0.35)  # bounds of heights in the picture of the whole
@@ -46,7 +48,8 @@ def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole
     areas = np.array([np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum() for t in triangles])
     areas = np.maximum(areas, 1e-9 * areas.max())
     shares = np.sqrt(areas) / np.sqrt(areas).sum()
-    counts = np.maximum(_LEAST, np.round(shares * _SEEN).astype(int))
+    least = min(_LEAST, max(1, _MANY // len(pieces)))
+    counts = np.maximum(least, np.round(shares * _SEEN).astype(int))
     seen = np.concatenate([on_surface(t, int(n)) for t, n in zip(triangles, counts, strict=True)])
     weights = np.repeat(areas / counts, counts) / areas.sum()
     corners = np.concatenate(pieces)
@@ -63,13 +66,19 @@ def surroundings(whole: Whole) -> Floats:
 
     Where the point is, how the whole is spread within balls about it, a picture of the whole in rings about it.
     """
-    points = np.concatenate([inside(piece, SEEN_FROM) for piece in whole.pieces])
+    at_once = max(1, _PAIRS // (SEEN_FROM * len(whole.seen)))
+    starts = range(0, len(whole.pieces), at_once)
+    return np.concatenate([_rows(whole, whole.pieces[start : start + at_once]) for start in starts])
+
+
+def _rows(whole: Whole, pieces: Sequence[Floats]) -> Floats:
+    """The rows of some of the hulls."""
+    points = np.concatenate([inside(piece, SEEN_FROM) for piece in pieces])
     offsets = (whole.seen[None] - points[:, None]) / whole.size
     squares = (offsets**2).sum(axis=2)
     near = [_spread(np.exp(-squares / (2 * radius**2)) * whole.weights, offsets) for radius in _RADII]
-    place = _place(whole, points)
-    rows = np.concatenate([place, *near, _rings(whole, offsets)], axis=1)
-    means: Floats = rows.reshape(len(whole.pieces), SEEN_FROM, -1).mean(axis=1)
+    rows = np.concatenate([_place(whole, points), *near, _rings(whole, offsets)], axis=1)
+    means: Floats = rows.reshape(len(pieces), SEEN_FROM, -1).mean(axis=1)
     return means
 
 
