@@ -46,9 +46,24 @@ class Terminal:
         """Type a line, and Enter."""
         os.write(self._ours, f"{line}\n".encode())
 
-    def interrupt(self) -> None:
-        """Ctrl-C."""
+    def interrupt(self, seconds: float = 60.0) -> None:
+        """Ctrl-C, as a person presses it: when the command waits, which it does not yet when its last words are here.
+
+        Between these words and the wait Python notes a signal and goes to sleep over it; a second one wakes it.
+        """
+        end = time.monotonic() + seconds
+        while not self._sleeps():
+            assert time.monotonic() < end, f"it does not wait for anything:\n{self.text}"
+            time.sleep(0.05)
         os.kill(self._process.pid, signal.SIGINT)
+
+    def _sleeps(self) -> bool:
+        """Whether its main thread waits for something; told by Linux, elsewhere guessed after a moment."""
+        stat = Path(f"/proc/{self._process.pid}/stat")
+        if not stat.exists():
+            time.sleep(0.5)
+            return True
+        return stat.read_text().rpartition(")")[2].split()[0] == "S"
 
     def end(self, seconds: float = 60.0) -> int:
         """Wait for its end; the exit code."""
