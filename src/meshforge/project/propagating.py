@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError
 from meshforge.project.labelling import Labelled, merged, write_merged
-from meshforge.symbolic import HUMAN_SOURCES, Label, SymbolicMesh, follow_labels
+from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh, follow_labels
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -81,4 +81,4 @@ def _gives_way(current: Label | None, given: Label) -> bool:
     """Whether a label may be replaced: an earlier one of ours, or one that another machine was less sure of."""
     if current is None or current.source == given.source:
         return True
-    return current.source not in HUMAN_SOURCES and current.confidence < given.confidence
+    return current.source not in GIVEN_SOURCES and current.confidence < given.confidence

@@ -8,6 +8,8 @@ from typing import Literal, get_args
 Source = Literal["vlm", "propagated", "name", "file", "user", "repair", "edit"]
 SOURCES: tuple[str, ...] = get_args(Source)
 HUMAN_SOURCES = frozenset({"user", "repair"})
+GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
+"""Sources of labels that are not guessed: a person, or a file that somebody made."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -59,6 +59,14 @@ def test_a_surer_label_of_another_machine_stays_and_a_less_sure_one_gives_way(tm
     assert labels["crumb"].source == "propagated"
 
 
+def test_what_a_file_says_stays_however_unsure_it_is(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    project.set_labels("t1.obj", {"top": "misc"}, source="file", confidence=0.01)
+    project.propagate_labels()
+    assert project.labels("t1.obj").labels["top"] == Label("misc", 0.01, "file")
+
+
 def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
     project = family(tmp_path)
     with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):

@@ -13,10 +13,8 @@ from meshforge.perception.propagation.agreement import agreeing
 from meshforge.perception.propagation.family import Family, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 
-TEACHING = frozenset({"user", "repair", "file"})
-"""Sources of labels that others are taken from: a person, or a file that somebody made."""
 _DIGITS = 3
 
 
@@ -54,4 +52,4 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
 
 
 def _told(label: Label | None) -> str | None:
-    return label.name if label and label.source in TEACHING else None
+    return label.name if label and label.source in GIVEN_SOURCES else None
