@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 from benchmark.assets import Sample
 from meshforge.geometry import Floats
 from meshforge.perception.propagation.describe import WIDTH, described
-from meshforge.perception.propagation.family import standardised
+from meshforge.perception.propagation.family import Scale
 
 PURE = 0.8
 """Hulls of a lower purity teach nothing, and are not counted."""
@@ -39,8 +39,9 @@ class Rows:
 def rows_of(samples: Sequence[Sample]) -> Rows:
     """The hulls of some samples."""
     sizes = [len(sample.mesh.hulls) for sample in samples]
+    rows = np.concatenate([described(sample.mesh) for sample in samples])
     return Rows(
-        standardised(np.concatenate([described(sample.mesh) for sample in samples])),
+        Scale.of(rows)(rows),
         np.array([hull.label for sample in samples for hull in sample.mesh.hulls]),
         np.array([purity >= PURE for sample in samples for purity in sample.purities]),
         np.repeat(np.arange(len(samples)), sizes),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from time import perf_counter
 
 import numpy as np
@@ -13,17 +13,21 @@ import numpy.typing as npt
 from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.labels.fitting import PURE, fitted, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, Pose
 from meshforge.perception.propagation.advice import chosen
 from meshforge.perception.propagation.agreement import agreeing
-from meshforge.perception.propagation.family import UNTOLD, Family, family_of, standardised
+from meshforge.perception.propagation.family import UNTOLD, Family, Scale, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
-from meshforge.symbolic import descriptors
+from meshforge.perception.propagation.righting import other_ways, righted
+from meshforge.symbolic import SymbolicMesh, descriptors
 
 COUNTS = (1, 2, 3, 5)
 _DRAWS = 5
 _BINS = 10
+_FALLEN = 0.2
+_SIDES = ((np.pi / 2, 0.0), (-np.pi / 2, 0.0), (0.0, np.pi / 2), (0.0, -np.pi / 2), (np.pi, 0.0))
+"""Roll and pitch of meshes that have fallen over."""
 Strings = npt.NDArray[np.str_]
 Bools = npt.NDArray[np.bool_]
 Guess = Callable[["Known", Family], tuple[Strings, Floats]]
@@ -35,6 +39,7 @@ class Known:
     """A category with all that is known of it. plain: rows of `descriptors`; asset: of each hull, by number."""
 
     name: str
+    meshes: tuple[SymbolicMesh, ...]
     family: Family
     plain: Floats
     truth: Strings
@@ -48,6 +53,11 @@ class Known:
         labels = tuple(sorted(set(self.truth[known].tolist())))
         codes = [labels.index(label) if told else UNTOLD for label, told in zip(self.truth, known, strict=True)]
         return replace(self.family, codes=np.array(codes, dtype=np.int64), labels=labels)
+
+    @cached_property
+    def ways(self) -> Callable[[int], Sequence[Floats]]:
+        """How hulls of a mesh are described if it lies on another side, found once."""
+        return cache(lambda mesh: other_ways(self.meshes[mesh]))
 
     @cached_property
     def advised(self) -> tuple[int, ...]:
@@ -80,7 +90,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         Table("As advised, category by category", ("", *(f"{count} labelled" for count in COUNTS), "s"), _each(known)),
     ]
     if not quick:
-        tables.append(_left_out(tell))
+        tables += [_lying(tell), _left_out(tell)]
     return Result("propagation", "Labels carried from a few meshes to all others", tuple(tables), goals, _NOTES)
 
 
@@ -99,19 +109,24 @@ _NOTES = (
 )
 
 
-def _known(name: str, rows: Sequence[Sample], tell: Tell) -> Known:
+def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) -> Known:
+    """turns: how each mesh is turned before."""
     tell(f"labels: describing {name}")
-    meshes = [sample.mesh for sample in rows]
+    meshes = tuple(sample.mesh for sample in rows)
+    if turns:
+        meshes = tuple(_turned(mesh, turn) for mesh, turn in zip(meshes, turns, strict=True))
     for mesh in meshes:
         assert mesh.contacts is not None
     started = perf_counter()
     family = family_of(meshes, [[None] * len(mesh.hulls) for mesh in meshes])
     seconds = perf_counter() - started
     places = {asset: place for place, asset in enumerate(dict.fromkeys(sample.asset.name for sample in rows))}
+    plain = descriptors(meshes)
     return Known(
         name,
+        meshes,
         family,
-        standardised(descriptors(meshes)),
+        Scale.of(plain)(plain),
         np.array([hull.label for mesh in meshes for hull in mesh.hulls]),
         np.array([purity >= PURE for sample in rows for purity in sample.purities]),
         np.array([places[sample.asset.name] for sample in rows], dtype=np.int64)[family.owner],
@@ -119,9 +134,12 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell) -> Known:
     )
 
 
-def _propagated(metric: Floats) -> Guess:
+def _propagated(metric: Floats, *, turning: bool = True) -> Guess:
+    """turning: whether meshes that lie on their side are set upright."""
+
     def guess(known: Known, family: Family) -> tuple[Strings, Floats]:
-        chances = agreeing(family, by_likeness(family, metric))
+        seen = righted(family, known.ways, metric) if turning else family
+        chances = agreeing(seen, by_likeness(seen, metric))
         return np.array(family.labels)[chances.argmax(axis=1)], chances.max(axis=1)
 
     return guess
@@ -139,7 +157,8 @@ def _majority(known: Known, family: Family) -> tuple[Strings, Floats]:
     return np.full(len(known.truth), names[counts.argmax()]), np.full(len(known.truth), counts.max() / counts.sum())
 
 
-_METHODS = ((_propagated(weights()), "propagation"), (_nearest, "nearest"), (_majority, "majority"))
+_OURS = _propagated(weights())
+_METHODS = ((_OURS, "propagation"), (_nearest, "nearest"), (_majority, "majority"))
 
 
 def _tried(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> tuple[Bools, Floats]:
@@ -168,18 +187,39 @@ def _share(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = 
 
 
 def _advised(known: Sequence[Known]) -> list[tuple[Bools, Floats]]:
-    return [_tried(row, row.advised[:count], _METHODS[0][0]) for row in known for count in (2, 3)]
+    return [_tried(row, row.advised[:count], _OURS) for row in known for count in (2, 3)]
 
 
 def _each(known: Sequence[Known]) -> tuple[tuple[Cell, ...], ...]:
     rows: list[tuple[Cell, ...]] = []
     for row in known:
-        shares = [_share(row, row.advised[:count], _METHODS[0][0]) for count in COUNTS]
+        shares = [_share(row, row.advised[:count], _OURS) for count in COUNTS]
         three = row.told(row.advised[:3])
         started = perf_counter()
-        _METHODS[0][0](row, three)
+        _OURS(row, three)
         rows.append((row.name, *shares, row.seconds + perf_counter() - started))
     return tuple(rows)
+
+
+def _lying(tell: Tell) -> Table:
+    """The same where every fifth mesh lies on another side than it should."""
+    rows: list[tuple[Cell, ...]] = []
+    known = list[Known]()
+    for place, name in enumerate(CATEGORIES):
+        every = samples(name)
+        draw = np.random.default_rng(place)
+        falls = [_SIDES[draw.integers(len(_SIDES))] if draw.random() < _FALLEN else (0.0, 0.0) for _ in every]
+        turns = [Pose.from_rpy((0.0, 0.0, 0.0), (roll, pitch, 0.0)) for roll, pitch in falls]
+        known.append(_known(name, every, tell, turns))
+    for turning, name in ((True, "set upright"), (False, "as they lie")):
+        guess = _propagated(weights(), turning=turning)
+        means = (np.mean([_share(row, row.advised[:count], guess) for row in known]) for count in COUNTS)
+        rows.append((name, *map(float, means)))
+    return Table("Every fifth mesh lies on another side", ("", *(f"{count} labelled" for count in COUNTS)), tuple(rows))
+
+
+def _turned(mesh: SymbolicMesh, turn: Pose) -> SymbolicMesh:
+    return SymbolicMesh(tuple(hull.moved(turn) for hull in mesh.hulls))
 
 
 def _left_out(tell: Tell) -> Table:

@@ -30,12 +30,21 @@ def label(
         typer.Option("--labels", help="A labels file, or a folder that mirrors the assets; default: beside each."),
     ] = None,
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = "",
+    sheets: Annotated[
+        Path | None,
+        typer.Option(
+            "--sheets",
+            help="A folder for contact sheets of all assets; without it, one of those with most that is in doubt is "
+            "written into the project's `pictures`.",
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Give labels to hulls; what a person labelled is never overwritten by a machine.
 
     Exit code 1 when some labels could not be taken (each named).
     """
+    from meshforge.cli.label_summary import summarise
     from meshforge.cli.output import print_json
     from meshforge.errors import UsageError
     from meshforge.project import Project
@@ -53,6 +62,7 @@ def label(
         typer.echo(f"{report.asset}: {_told(report)}")
         for problem in report.problems:
             typer.echo(f"    left out: {problem}")
+    summarise(opened, sheets, json=json)
     if closing and not json:
         typer.echo(closing)
     raise typer.Exit(int(any(report.problems for report in reports)))

@@ -16,8 +16,10 @@ from meshforge.project.settings import Settings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.project.steps import action_text, parse_action_text
 from meshforge.project.survey import geometry_digest
+from meshforge.project.tallying import SURE, Share, Tally
 
 __all__ = [
+    "SURE",
     "Advice",
     "AnswerLine",
     "AnswersFile",
@@ -34,8 +36,10 @@ __all__ = [
     "RepairLine",
     "Review",
     "Settings",
+    "Share",
     "Standing",
     "Status",
+    "Tally",
     "Verdict",
     "action_text",
     "first_to_show",

@@ -20,6 +20,7 @@ from meshforge.project import (
     correcting,
     decomposing,
     demonstrating,
+    label_sheets,
     labelling,
     learning,
     meeting,
@@ -32,6 +33,7 @@ from meshforge.project import (
     renaming,
     reviewing,
     rules,
+    tallying,
     templating,
 )
 from meshforge.project.accepting import Standing
@@ -44,6 +46,7 @@ from meshforge.project.propagating import Carried
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
 from meshforge.project.status import AssetStatus, Status
+from meshforge.project.tallying import Tally
 from meshforge.symbolic import LabelFile, Source, SymbolicMesh, read_labels
 from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
 from meshforge.synthesis import Correction as LabelCorrection
@@ -246,12 +249,32 @@ class Project:
         """
         return naming.label_from_names(self)
 
-    def propagate_labels(self, progress: Callable[[], None] | None = None) -> Carried:
+    def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
+        """How many hulls have which labels: from where, and how sure."""
+        return tallying.tally(self, progress)
+
+    def draw_labels(
+        self, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
+    ) -> tuple[Path, ...]:
+        """Write contact sheets of some assets, `labels-001.png` and so on, in which hulls have their labels' colours.
+
+        Sheets of an earlier time are replaced. Raises UsageError where one cannot be written.
+        """
+        return label_sheets.contact_sheets(self, folder, assets, progress)
+
+    def propagate_labels(
+        self,
+        progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        keeping: propagating.Keeping = nullcontext,
+    ) -> Carried:
         """Carry the labels of a few assets to all others; what a person or a file says stays.
 
-        progress: called for each asset that was read. Raises ProjectError: no vocabulary, no label to begin with.
+        progress: called for each asset that was read; stop: asked often whether to end with nothing written;
+        keeping: the block in which all is written, given the asset that would help most.
+        Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop.
         """
-        return propagating.propagate(self, progress)
+        return propagating.propagate(self, progress, stop, keeping)
 
     # Demonstrations
 

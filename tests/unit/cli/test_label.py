@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from meshforge.project import Project
 from tests.unit.batch.families import label_of, table_boxes, write_table
@@ -41,8 +43,33 @@ def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_loo
 def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> None:
     Project.open(tmp_path / "p").set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
     told = run("label", "p", "--with", "propagate", "--json").out.splitlines()
-    assert len(told) == 3
+    assert len(told) == 4
     assert all('"unsure": ' in line for line in told)
+    closing = json.loads(told[-1])
+    assert closing["labels"]["hulls"] == 3 * len(NAMES)
+    assert {share["source"] for share in closing["labels"]["shares"]} == {"user", "propagated"}
+    assert closing["sheets"] == [str(tmp_path / "p/pictures/labels-001.png")]
+
+
+def test_the_summary_counts_by_source_and_confidence_and_names_the_picture(run: Run, tmp_path: Path) -> None:
+    project = Project.open(tmp_path / "p")
+    project.set_labels("t0.obj", {"top": "top"})
+    project.set_labels("t1.obj", {"top": "top", "crumb": "leg"}, source="vlm", confidence=0.4)
+    told = run("label", "p", "--with", "names")
+    rows = [line.split() for line in told.out.splitlines()]
+    assert ["people", "1", "0", "0"] in rows
+    assert ["a", "model", "0", "0", "2"] in rows
+    assert ["names", "0", "3", "0"] in rows
+    assert ["no", "label", "12"] in rows
+    assert f"pictures: {tmp_path / 'p/pictures/labels-001.png'}" in told.out
+    with Image.open(tmp_path / "p/pictures/labels-001.png") as picture:
+        assert picture.width > 2 * 320
+
+
+def test_sheets_of_all_assets_go_where_one_wants_them(run: Run, tmp_path: Path) -> None:
+    run("label", "p", "--with", "names", "--sheets", "sheets")
+    assert [path.name for path in (tmp_path / "sheets").iterdir()] == ["labels-001.png"]
+    assert not (tmp_path / "p/pictures").exists()
 
 
 def test_names_label_what_is_called_like_a_label(run: Run, tmp_path: Path) -> None:

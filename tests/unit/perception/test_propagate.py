@@ -10,6 +10,7 @@ import pytest
 
 from benchmark.assets import Sample, samples
 from benchmark.labels.fitting import PURE
+from meshforge.geometry import Pose
 from meshforge.perception import Propagated, propagate
 from meshforge.symbolic import Label, SymbolicMesh
 from tests.synthesis_boxes import boxes
@@ -50,6 +51,27 @@ def outcome(category: str, count: int) -> tuple[list[bool], list[float]]:
 def test_two_labelled_meshes_label_the_family(category: str) -> None:
     right, _ = outcome(category, 2)
     assert np.mean(right) > 0.9
+
+
+@pytest.mark.parametrize("turn", [(np.pi / 2, 0.0, 0.3), (0.0, -np.pi / 2, 1.0), (np.pi, 0.0, 2.0)])
+def test_meshes_that_lie_on_another_side_get_the_labels_they_get_upright(turn: tuple[float, float, float]) -> None:
+    meshes = asking(samples("table", calibration=True)[::3], [0, 1])
+    pose = Pose.from_rpy((0.0, 0.0, 0.0), turn)
+    fallen = [
+        SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls)) if k % 3 == 2 else mesh
+        for k, mesh in enumerate(meshes)
+    ]
+    upright, lying = propagate(meshes), propagate(fallen)
+    same = [
+        one == other
+        for k in range(2, len(meshes), 3)
+        for one, other in zip(names_of(upright, k), names_of(lying, k), strict=True)
+    ]
+    assert np.mean(same) > 0.9
+
+
+def names_of(found: Propagated, mesh: int) -> list[str | None]:
+    return [label.name if label else None for label in found.labels(mesh)]
 
 
 def test_a_sure_label_is_right_more_often_than_an_unsure_one() -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from benchmark.assets import CATEGORIES, samples
 from meshforge.geometry import Floats, Pose
-from meshforge.perception.propagation.upright import standing, upright
+from meshforge.perception.propagation.upright import other_sides, standing, upright
 from meshforge.symbolic import SymbolicMesh
 from tests.synthesis_boxes import boxes, table
 
@@ -25,6 +25,20 @@ def test_a_tilted_table_still_has_its_top_up(turn: tuple[float, float, float]) -
 def test_what_has_no_hulls_or_stands_straight_keeps_the_axis_of_its_file() -> None:
     assert upright(boxes()).tolist() == [0.0, 0.0, 1.0]
     assert upright(table()).tolist() == [0.0, 0.0, 1.0]
+
+
+def test_the_other_sides_of_a_fallen_table_are_apart_and_its_true_one_is_among_them() -> None:
+    mesh, up = tilted(table(), np.pi / 2, 0.0, 0.4)
+    seems = upright(mesh)
+    sides = other_sides(mesh, seems, 5)
+    every = np.array([seems, *sides])
+    assert len(sides) == 5
+    assert (every @ every.T)[~np.eye(6, dtype=bool)].max() < np.cos(np.radians(30.0))
+    assert (every @ up).max() > np.cos(np.radians(1.0))
+
+
+def test_what_has_no_hulls_has_no_other_sides() -> None:
+    assert other_sides(boxes(), np.array([0.0, 0.0, 1.0]), 5) == []
 
 
 @pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.6, 0.0, 0.8), (0.0, 0.6, -0.8)])

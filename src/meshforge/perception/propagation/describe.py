@@ -19,8 +19,8 @@ WIDTH = surroundings.WIDTH + 3 * shape.WIDTH + COUNTED
 """Columns of `described`."""
 
 
-def described(mesh: SymbolicMesh) -> Floats:
-    """A row for each hull (n, WIDTH).
+def described(mesh: SymbolicMesh, up: Floats | None = None) -> Floats:
+    """A row for each hull (n, WIDTH). up: the direction that points up, None for what seems to.
 
     What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest), and
     how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
@@ -28,7 +28,7 @@ def described(mesh: SymbolicMesh) -> Floats:
     count = len(mesh.hulls)
     if not count:
         return np.zeros((0, WIDTH))
-    turn = standing(upright(mesh))
+    turn = standing(upright(mesh) if up is None else up)
     pieces = tuple(hull.vertices @ turn.T for hull in mesh.hulls)
     triangles = tuple(piece[hull.faces] for piece, hull in zip(pieces, mesh.hulls, strict=True))
     volumes = np.array([hull.volume for hull in mesh.hulls])

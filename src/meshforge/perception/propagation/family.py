@@ -18,16 +18,36 @@ _LEAST = 1e-3  # spread of a column below which it counts as constant
 _MOST = 3.0  # spreads from the median beyond which nothing is farther
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Scale:
+    """What brings columns to a common spread. middle, spread: (columns,)."""
+
+    middle: Floats
+    spread: Floats
+
+    @staticmethod
+    def of(rows: Floats) -> Scale:
+        """The medians and spreads of some rows (n, columns)."""
+        if not len(rows):
+            return Scale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
+        return Scale(np.median(rows, axis=0), np.maximum(rows.std(axis=0), _LEAST))
+
+    def __call__(self, rows: Floats) -> Floats:
+        """Rows about the middle in units of the spread, far values drawn in."""
+        return np.clip((rows - self.middle) / self.spread, -_MOST, _MOST)
+
+
 @dataclass(frozen=True, eq=False)
 class Family:
     """Hulls of all meshes, in order.
 
-    rows: (n, columns), described and brought to a common spread; owner: (n,) the mesh of each; codes: (n,) the place
-    of its label among `labels`, where that is told, else UNTOLD; touching: pairs (m, 2) of hulls of one mesh that are
-    in contact.
+    rows: (n, columns), described and brought to a common spread by `scale`; owner: (n,) the mesh of each; codes: (n,)
+    the place of its label among `labels`, where that is told, else UNTOLD; touching: pairs (m, 2) of hulls of one mesh
+    that are in contact.
     """
 
     rows: Floats
+    scale: Scale
     owner: Ints
     codes: Ints
     labels: tuple[str, ...]
@@ -52,21 +72,15 @@ def family_of(meshes: Sequence[SymbolicMesh], told: Sequence[Sequence[str | None
         for start, mesh in zip(starts.tolist(), meshes, strict=True)
         for a, b in sorted(mesh.contacts)
     ]
+    scale = Scale.of(rows)
     return Family(
-        standardised(rows),
+        scale(rows),
+        scale,
         np.repeat(np.arange(len(meshes)), sizes),
         np.array([UNTOLD if label is None else places[label] for label in flat], dtype=np.int64),
         labels,
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
     )
-
-
-def standardised(rows: Floats) -> Floats:
-    """Columns about their medians in units of their spread, far values drawn in."""
-    if not len(rows):
-        return rows
-    scaled: Floats = (rows - np.median(rows, axis=0)) / np.maximum(rows.std(axis=0), _LEAST)
-    return np.clip(scaled, -_MOST, _MOST)
 
 
 def evenly(items: Ints, most: int) -> Ints:

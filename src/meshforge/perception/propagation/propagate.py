@@ -13,6 +13,7 @@ from meshforge.perception.propagation.agreement import agreeing
 from meshforge.perception.propagation.family import Family, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
+from meshforge.perception.propagation.righting import other_ways, righted
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 
 _DIGITS = 3
@@ -44,11 +45,13 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
     """What the labels that people gave, or that came in files, say about all hulls of a family, these included.
 
     The same family in the same order gives the same, bit for bit. Meshes may lie anyhow about the upright axis of
-    their files, at any size and place, and tilted by up to some 40 degrees.
+    their files, at any size and place, tilted by up to some 40 degrees, or on their side.
     """
     family = family_of(meshes, [[_told(hull.annotation) for hull in mesh.hulls] for mesh in meshes])
-    chances = np.zeros((len(family.codes), 0))
-    return Propagated(family, agreeing(family, by_likeness(family, weights())) if family.labels else chances)
+    if not family.labels:
+        return Propagated(family, np.zeros((len(family.codes), 0)))
+    family = righted(family, lambda mesh: other_ways(meshes[mesh]), weights())
+    return Propagated(family, agreeing(family, by_likeness(family, weights())))
 
 
 def _told(label: Label | None) -> str | None:

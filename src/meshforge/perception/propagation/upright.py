@@ -14,6 +14,7 @@ _SOFT = 3.0  # degrees by which a face may lean and still count as level or plum
 _PLUMB = 0.3  # worth of a plumb face beside a level one
 _FAR = 40.0  # degrees from the file's own upright axis at which a direction is worth a third
 _STAYS = 0.05  # how much better another direction must be than the file's own
+_OTHER = np.cos(np.radians(30.0))  # directions that turn by less are one and the same way to lie
 
 
 def upright(mesh: SymbolicMesh) -> Floats:
@@ -23,19 +24,39 @@ def upright(mesh: SymbolicMesh) -> Floats:
     hulls' faces are level or plumb, those near the file's axis before others.
     """
     axis = np.array([0.0, 1.0, 0.0] if mesh.asset and mesh.asset.up == "y" else [0.0, 0.0, 1.0])
-    sides = _sides(mesh)
-    normals, areas = _faces(mesh)
-    total = areas.sum()
-    if not len(sides) or not total > 0:
-        return axis
-    found = np.concatenate([axis[None], sides, -sides])
-    lean = np.degrees(np.arccos(np.clip(np.abs(found @ normals.T), 0.0, 1.0)))
-    level, plumb = ((np.exp(-((angle / _SOFT) ** 2)) @ areas) / total for angle in (lean, 90.0 - lean))
-    away = np.degrees(np.arccos(np.clip(found @ axis, -1.0, 1.0)))
-    worth = (level + _PLUMB * plumb) * np.exp(-((away / _FAR) ** 2))
+    found = np.concatenate([axis[None], _sides(mesh)])
+    worth = _worth(mesh, found) * np.exp(-((_degrees(found @ axis) / _FAR) ** 2))
     worth[0] += _STAYS
     best: Floats = found[int(np.argmax(np.round(worth, 9)))]
     return best
+
+
+def other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
+    """Up to `most` directions (3,) that point up if the mesh lies on another side than it seems to.
+
+    Those under which most of the hulls' faces are level or plumb come first. up: what seems to be up.
+    """
+    sides = _sides(mesh)
+    found = [up]
+    for place in np.argsort(-np.round(_worth(mesh, sides), 9), kind="stable"):
+        if len(found) <= most and all(sides[place] @ other < _OTHER for other in found):
+            found.append(sides[place])
+    return found[1:]
+
+
+def _worth(mesh: SymbolicMesh, directions: Floats) -> Floats:
+    """How much of the hulls' faces is level or plumb (n,) if each of some directions (n, 3) points up."""
+    normals, areas = _faces(mesh)
+    shares = areas / (areas.sum() or 1.0)
+    lean = _degrees(np.abs(directions @ normals.T))
+    level, plumb = (np.exp(-((angle / _SOFT) ** 2)) @ shares for angle in (lean, 90.0 - lean))
+    worth: Floats = level + _PLUMB * plumb
+    return worth
+
+
+def _degrees(cosines: Floats) -> Floats:
+    angles: Floats = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
+    return angles
 
 
 def standing(up: Floats) -> Floats:
@@ -50,7 +71,7 @@ def standing(up: Floats) -> Floats:
 
 
 def _sides(mesh: SymbolicMesh) -> Floats:
-    """Outward normals (k, 3) of the flat sides of the convex hull of all hulls, the largest first."""
+    """Normals (k, 3) of the flat sides of the convex hull of all hulls, outward, the largest first, then inward."""
     if not mesh.hulls:
         return np.zeros((0, 3))
     points = np.concatenate([hull.vertices for hull in mesh.hulls])
@@ -68,7 +89,7 @@ def _sides(mesh: SymbolicMesh) -> Floats:
             free &= ~group
             middle = areas[group] @ normals[group]
             found.append(middle / np.linalg.norm(middle))
-    return np.array(found)
+    return np.array([*found, *(-side for side in found)]).reshape(-1, 3)
 
 
 def _faces(mesh: SymbolicMesh) -> tuple[Floats, Floats]:
