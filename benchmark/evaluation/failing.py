@@ -97,8 +97,11 @@ def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Ima
 
 def _shown(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:
     """The first mesh, of those that fail by the criterion before the others, that was edited otherwise."""
+    labels = CONDITIONS[row.condition].labels
+    if labels == "propagated":  # these changed on the way
+        return None
     bench = Bench(task(row.task))
-    desk = bench.desk(CONDITIONS[row.condition].labels, row.seed)
+    desk = bench.desk(labels, row.seed)
     program = Program.parse(row.program or "")
     for name in dict.fromkeys([*row.failures, *bench.samples]):
         done, wanted = desk.edited(program, name), desk.edited(bench.task.program, name)

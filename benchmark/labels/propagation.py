@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 
 import numpy as np
@@ -14,12 +14,12 @@ from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.labels.fitting import PURE, fitted, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
+from meshforge.perception import Propagated, Relatives
 from meshforge.perception.propagation.advice import chosen
 from meshforge.perception.propagation.agreement import agreeing
-from meshforge.perception.propagation.family import UNTOLD, Family, Scale, family_of
+from meshforge.perception.propagation.family import Family, Scale
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
-from meshforge.perception.propagation.righting import other_ways, righted
 from meshforge.symbolic import SymbolicMesh, descriptors
 
 COUNTS = (1, 2, 3, 5)
@@ -30,7 +30,9 @@ _SIDES = ((np.pi / 2, 0.0), (-np.pi / 2, 0.0), (0.0, np.pi / 2), (0.0, -np.pi / 
 """Roll and pitch of meshes that have fallen over."""
 Strings = npt.NDArray[np.str_]
 Bools = npt.NDArray[np.bool_]
-Guess = Callable[["Known", Family], tuple[Strings, Floats]]
+Told = Sequence[str | None]
+"""The label of each hull, None where it is not known."""
+Guess = Callable[["Known", Told], tuple[Strings, Floats]]
 """The label of each hull, and how sure it is."""
 
 
@@ -39,32 +41,28 @@ class Known:
     """A category with all that is known of it. plain: rows of `descriptors`; asset: of each hull, by number."""
 
     name: str
-    meshes: tuple[SymbolicMesh, ...]
-    family: Family
+    relatives: Relatives
     plain: Floats
     truth: Strings
     pure: Bools
     asset: npt.NDArray[np.int64]
     seconds: float
 
-    def told(self, meshes: Sequence[int]) -> Family:
-        """The family with all hulls of some meshes labelled."""
-        known = np.isin(self.family.owner, meshes)
-        labels = tuple(sorted(set(self.truth[known].tolist())))
-        codes = [labels.index(label) if told else UNTOLD for label, told in zip(self.truth, known, strict=True)]
-        return replace(self.family, codes=np.array(codes, dtype=np.int64), labels=labels)
+    @property
+    def family(self) -> Family:
+        return self.relatives.family
 
-    @cached_property
-    def ways(self) -> Callable[[int], Sequence[Floats]]:
-        """How hulls of a mesh are described if it lies on another side, found once."""
-        return cache(lambda mesh: other_ways(self.meshes[mesh]))
+    def told(self, meshes: Sequence[int]) -> list[str | None]:
+        """The labels of all hulls of some meshes, None for the others."""
+        known = np.isin(self.family.owner, meshes)
+        return [str(label) if told else None for label, told in zip(self.truth, known, strict=True)]
 
     @cached_property
     def advised(self) -> tuple[int, ...]:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += chosen(self.told(meshes), 1)
+            meshes += chosen(self.family.taught(self.told(meshes)), 1)
         return tuple(meshes)
 
     def drawn(self, count: int, seed: int) -> list[int]:
@@ -118,56 +116,67 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
     for mesh in meshes:
         assert mesh.contacts is not None
     started = perf_counter()
-    family = family_of(meshes, [[None] * len(mesh.hulls) for mesh in meshes])
+    relatives = Relatives(meshes)
     seconds = perf_counter() - started
     places = {asset: place for place, asset in enumerate(dict.fromkeys(sample.asset.name for sample in rows))}
     plain = descriptors(meshes)
     return Known(
         name,
-        meshes,
-        family,
+        relatives,
         Scale.of(plain)(plain),
         np.array([hull.label for mesh in meshes for hull in mesh.hulls]),
         np.array([purity >= PURE for sample in rows for purity in sample.purities]),
-        np.array([places[sample.asset.name] for sample in rows], dtype=np.int64)[family.owner],
+        np.array([places[sample.asset.name] for sample in rows], dtype=np.int64)[relatives.family.owner],
         seconds,
     )
 
 
-def _propagated(metric: Floats, *, turning: bool = True) -> Guess:
-    """turning: whether meshes that lie on their side are set upright."""
-
-    def guess(known: Known, family: Family) -> tuple[Strings, Floats]:
-        seen = righted(family, known.ways, metric) if turning else family
-        chances = agreeing(seen, by_likeness(seen, metric))
-        return np.array(family.labels)[chances.argmax(axis=1)], chances.max(axis=1)
+def _propagated(metric: Floats | None = None) -> Guess:
+    def guess(known: Known, told: Told) -> tuple[Strings, Floats]:
+        return _likeliest(known.relatives.propagated(told, metric))
 
     return guess
 
 
-def _nearest(known: Known, family: Family) -> tuple[Strings, Floats]:
+def _as_it_lies(known: Known, told: Told) -> tuple[Strings, Floats]:
+    """Propagation that takes each mesh to stand as it seems to."""
+    family = known.family.taught(told)
+    return _likeliest(Propagated(family, agreeing(family, by_likeness(family, weights()))))
+
+
+def _likeliest(found: Propagated) -> tuple[Strings, Floats]:
+    return np.array(found.family.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
+
+
+def _nearest(known: Known, told: Told) -> tuple[Strings, Floats]:
     from scipy.spatial.distance import cdist
 
-    near = family.told[cdist(known.plain, known.plain[family.told]).argmin(axis=1)]
+    some = _places(told)
+    near = some[cdist(known.plain, known.plain[some]).argmin(axis=1)]
     return known.truth[near], np.ones(len(near))
 
 
-def _majority(known: Known, family: Family) -> tuple[Strings, Floats]:
-    names, counts = np.unique(known.truth[family.told], return_counts=True)
+def _majority(known: Known, told: Told) -> tuple[Strings, Floats]:
+    names, counts = np.unique(known.truth[_places(told)], return_counts=True)
     return np.full(len(known.truth), names[counts.argmax()]), np.full(len(known.truth), counts.max() / counts.sum())
 
 
-_OURS = _propagated(weights())
+def _places(told: Told) -> npt.NDArray[np.int64]:
+    """The hulls whose label is told."""
+    return np.flatnonzero([label is not None for label in told])
+
+
+_OURS = _propagated()
 _METHODS = ((_OURS, "propagation"), (_nearest, "nearest"), (_majority, "majority"))
 
 
 def _tried(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> tuple[Bools, Floats]:
     """Which hulls of the rest are right, and how sure each was; others: only of assets no mesh of which is labelled."""
-    family = known.told(meshes)
-    found, sure = guess(known, family)
-    asked = known.pure & (family.codes == UNTOLD)
+    told = known.told(meshes)
+    found, sure = guess(known, told)
+    asked = known.pure & ~np.isin(known.family.owner, meshes)
     if others:
-        asked &= ~np.isin(known.asset, known.asset[family.told])
+        asked &= ~np.isin(known.asset, known.asset[_places(told)])
     return (found == known.truth)[asked], sure[asked]
 
 
@@ -211,8 +220,7 @@ def _lying(tell: Tell) -> Table:
         falls = [_SIDES[draw.integers(len(_SIDES))] if draw.random() < _FALLEN else (0.0, 0.0) for _ in every]
         turns = [Pose.from_rpy((0.0, 0.0, 0.0), (roll, pitch, 0.0)) for roll, pitch in falls]
         known.append(_known(name, every, tell, turns))
-    for turning, name in ((True, "set upright"), (False, "as they lie")):
-        guess = _propagated(weights(), turning=turning)
+    for guess, name in ((_OURS, "set upright"), (_as_it_lies, "as they lie")):
         means = (np.mean([_share(row, row.advised[:count], guess) for row in known]) for count in COUNTS)
         rows.append((name, *map(float, means)))
     return Table("Every fifth mesh lies on another side", ("", *(f"{count} labelled" for count in COUNTS)), tuple(rows))

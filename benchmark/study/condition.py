@@ -14,17 +14,19 @@ MOST = 5
 """Demonstrations that a person gives at most (paper, protocol)."""
 SEEN = 12
 """Meshes of which a person looks at the result before accepting it."""
-Labels = Literal["true", "noisy"]
+Labels = Literal["true", "noisy", "propagated"]
 
 
 @dataclass(frozen=True, slots=True)
 class Condition:
     """How a task is taught.
 
-    labels: true ones, or those of the noisy labeller; questions: whether the tool's questions are answered; layers,
-    repair: ablations of the tool; errs: the share of answers and confirmations that are wrong; advised: whether a
-    person who has several meshes in mind to begin with takes the one of them that the tool proposes; guided: whether
-    the results that are looked at are those that the tool proposes, and what is right there is told to it.
+    labels: true ones, those of the noisy labeller, or those that propagation carries over from demonstrated meshes and
+    from as many as `labelled` before, which a person labels as advised; questions: whether the tool's questions are
+    answered; layers, repair: ablations of the tool; errs: the share of answers and confirmations that are wrong;
+    advised: whether a person who has several meshes in mind to begin with takes the one of them that the tool proposes;
+    guided: whether the results that are looked at are those that the tool proposes, and what is right there is told to
+    it.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Condition:
     errs: float = 0.0
     advised: bool = True
     guided: bool = True
+    labelled: int = 0
 
     @property
     def options(self) -> Options:
@@ -55,6 +58,8 @@ CONDITIONS = {
         Condition("noisy labels, no questions", "noisy", questions=False),
         Condition("noisy labels, no repair", "noisy", repair=False),
         Condition("noisy labels, errs in 5%", "noisy", errs=0.05),
+        Condition("propagated labels, 1 labelled", "propagated", labelled=1),
+        Condition("propagated labels, 3 labelled", "propagated", labelled=3),
         Condition("S", layers="S"),
         Condition("S+T", layers="S+T"),
         Condition("S+G", layers="S+G"),

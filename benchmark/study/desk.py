@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import blake2b
+from typing import Literal
 
 from benchmark.assets import Sample
-from benchmark.study.condition import Labels
 from benchmark.study.labels import noisy
 from benchmark.tasks import Edited, Task
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
+from meshforge.perception import Relatives
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Answer,
@@ -48,8 +49,13 @@ class Bench:
         """The desk with true labels."""
         return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
 
-    def desk(self, labels: Labels, seed: int) -> Desk:
-        """The meshes as a demonstrator gets them."""
+    @cached_property
+    def relatives(self) -> Relatives:
+        """The meshes as propagation sees them."""
+        return Relatives([sample.mesh for sample in self.samples.values()])
+
+    def desk(self, labels: Literal["true", "noisy"], seed: int) -> Desk:
+        """The meshes as a demonstrator gets them who labels nothing."""
         if labels == "true":
             return self.truth
         rows = enumerate(self.samples.items())

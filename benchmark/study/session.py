@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from time import perf_counter
 from typing import Any
 
+from benchmark.study.carrying import begun_by_hand, labelled_by_hand
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
@@ -90,9 +91,14 @@ class _Teaching:
 
     def __init__(self, bench: Bench, condition: Condition, seed: int) -> None:
         self.bench, self.condition = bench, condition
-        self.desk = bench.desk(condition.labels, seed)
-        self.person = Person(self.desk, seed, condition)
         self.log = Session(bench.task.name, condition.name, seed)
+        self.by_hand = frozenset[str]()
+        """Meshes that were labelled before any was demonstrated; they are not judged."""
+        if condition.labels == "propagated":
+            self.desk, self.by_hand, self.log.typed = begun_by_hand(bench, condition.labelled)
+        else:
+            self.desk = bench.desk(condition.labels, seed)
+        self.person = Person(self.desk, seed, condition)
         self.able = [name for name, done in bench.truth.reference.items() if done is not None]
         self.given: dict[str, frozenset[int] | None] = {}
         """Meshes with the rules that were shown on them, None for all."""
@@ -131,6 +137,9 @@ class _Teaching:
         """Show some rules on a mesh, besides those that were shown there before, or all rules."""
         self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
+        if self.condition.labels == "propagated":
+            self.desk, wrong = labelled_by_hand(self.desk, name)
+            self.log.typed += wrong
         steps = self.person.shows(self.desk, name, new).steps
         self.log.hulls_shown += sum(len(step.select or ()) for step in steps)
 
@@ -294,7 +303,8 @@ class _Teaching:
 
     def _judge(self, outcome: Outcome | MeshForgeError) -> None:
         """How good the last program is on all meshes that were not demonstrated."""
-        log, bench, rest = self.log, self.bench, self._rest()
+        log, bench = self.log, self.bench
+        rest = [name for name in self._rest() if name not in self.by_hand]
         program = None if isinstance(outcome, MeshForgeError) else outcome.program
         log.program, log.right, log.settled = _text(program), log.rounds[-1].right, log.rounds[-1].settled
         log.right_on_true = bool(program) and not bench.truth.differing(program, rest)

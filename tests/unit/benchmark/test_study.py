@@ -10,6 +10,7 @@ import pytest
 
 from benchmark.assets import CATEGORIES, samples
 from benchmark.study import CONDITIONS, FULL, NOISY, Bench, Session, taught
+from benchmark.study.carrying import begun_by_hand, labelled_by_hand
 from benchmark.study.instances import instance, mended
 from benchmark.study.keystrokes import modelled
 from benchmark.study.labels import ACCURACY, FEW, MOST, noisy, wrong
@@ -36,6 +37,29 @@ def test_a_session_is_the_same_every_time_and_survives_json(bench: Bench, condit
     assert Session.of_json(json.loads(json.dumps(one.to_json()))) == one
     assert one.k == len(one.shown) + one.answers
     assert one.judged == len(bench.samples) - len(set(one.shown))
+
+
+CARRIED = CONDITIONS["propagated labels, 3 labelled"]
+
+
+def test_labels_that_are_carried_over_leave_what_was_labelled_by_hand_and_judge_the_rest(bench: Bench) -> None:
+    one, other = (taught(bench, CARRIED, 0) for _ in range(2))
+    assert without_times(one) == without_times(other)
+    begun, by_hand, given = begun_by_hand(bench, 3)
+    assert len(by_hand) == 3
+    assert sum(len(bench.samples[name].mesh.hulls) for name in by_hand) >= given > 0
+    assert one.judged == len(bench.samples) - len(by_hand | set(one.shown))
+    assert one.typed >= given
+    name = one.shown[0]
+    desk, wrong = labelled_by_hand(begun, name)
+    for known in (*by_hand, name):
+        true = bench.truth.meshes[known]
+        assert [hull.label for hull in desk.meshes[known].hulls] == [hull.label for hull in true.hulls]
+    assert wrong == sum(
+        a.label != b.label for a, b in zip(begun.meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
+    )
+    carried = [h for n, mesh in desk.meshes.items() if n not in by_hand | {name} for h in mesh.hulls]
+    assert {hull.source for hull in carried} == {"propagated"}
 
 
 def test_with_true_labels_nobody_confirms_anything_wrong_and_accepts_only_what_looks_right(bench: Bench) -> None:

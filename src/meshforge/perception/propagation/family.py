@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -58,15 +58,19 @@ class Family:
         """The hulls whose label is told."""
         return np.flatnonzero(self.codes != UNTOLD)
 
+    def taught(self, told: Sequence[str | None]) -> Family:
+        """The same with other labels told; told: that of each hull, None where it is not known."""
+        labels = tuple(sorted({label for label in told if label is not None}))
+        places = {label: place for place, label in enumerate(labels)}
+        codes = np.array([UNTOLD if label is None else places[label] for label in told], dtype=np.int64)
+        return replace(self, codes=codes, labels=labels)
 
-def family_of(meshes: Sequence[SymbolicMesh], told: Sequence[Sequence[str | None]]) -> Family:
-    """A family; told: the label of each hull of each mesh, None where that is not known."""
+
+def family_of(meshes: Sequence[SymbolicMesh]) -> Family:
+    """A family of which no label is told yet."""
     rows = np.concatenate([np.zeros((0, WIDTH)), *map(described, meshes)])
     sizes = [len(mesh.hulls) for mesh in meshes]
     starts = np.cumsum([0, *sizes])[:-1]
-    flat = [label for row in told for label in row]
-    labels = tuple(sorted({label for label in flat if label is not None}))
-    places = {label: place for place, label in enumerate(labels)}
     pairs = [
         (start + a, start + b)
         for start, mesh in zip(starts.tolist(), meshes, strict=True)
@@ -77,8 +81,8 @@ def family_of(meshes: Sequence[SymbolicMesh], told: Sequence[Sequence[str | None
         scale(rows),
         scale,
         np.repeat(np.arange(len(meshes)), sizes),
-        np.array([UNTOLD if label is None else places[label] for label in flat], dtype=np.int64),
-        labels,
+        np.full(len(rows), UNTOLD),
+        (),
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
     )
 

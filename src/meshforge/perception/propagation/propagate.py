@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from meshforge.perception.propagation.righting import other_ways, righted
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 
 _DIGITS = 3
+_REMEMBERED = 2000  # meshes whose other sides are not described again
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,18 +43,36 @@ class Propagated:
         return chosen(self.family, count)
 
 
+class Relatives:
+    """Meshes of one kind, described once; labels may then be told again and again."""
+
+    def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
+        self.family = family_of(meshes)
+        self._ways = lru_cache(_REMEMBERED)(lambda mesh: other_ways(meshes[mesh]))
+
+    def propagated(self, told: Sequence[str | None], metric: Floats | None = None) -> Propagated:
+        """What some labels say about all hulls, these included.
+
+        told: of each hull of all meshes, None where its label is not known; metric: the weight of each column of a
+        description, None for the one that ships.
+        """
+        metric = weights() if metric is None else metric
+        family = self.family.taught(told)
+        if not family.labels:
+            return Propagated(family, np.zeros((len(family.codes), 0)))
+        family = righted(family, self._ways, metric)
+        return Propagated(family, agreeing(family, by_likeness(family, metric)))
+
+
 def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
     """What the labels that people gave, or that came in files, say about all hulls of a family, these included.
 
     The same family in the same order gives the same, bit for bit. Meshes may lie anyhow about the upright axis of
     their files, at any size and place, tilted by up to some 40 degrees, or on their side.
     """
-    family = family_of(meshes, [[_told(hull.annotation) for hull in mesh.hulls] for mesh in meshes])
-    if not family.labels:
-        return Propagated(family, np.zeros((len(family.codes), 0)))
-    family = righted(family, lambda mesh: other_ways(meshes[mesh]), weights())
-    return Propagated(family, agreeing(family, by_likeness(family, weights())))
+    return Relatives(meshes).propagated([given_label(hull.annotation) for mesh in meshes for hull in mesh.hulls])
 
 
-def _told(label: Label | None) -> str | None:
+def given_label(label: Label | None) -> str | None:
+    """The label that others may be taken from: one that a person gave, or that came in a file."""
     return label.name if label and label.source in GIVEN_SOURCES else None
