@@ -6,11 +6,9 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats, Ints
+from meshforge.perception.propagation.describe import SHAPES
 from meshforge.perception.propagation.family import UNTOLD, Family, evenly
-from meshforge.perception.propagation.shape import WIDTH as SHAPE
-from meshforge.perception.propagation.surroundings import WIDTH as SURROUNDINGS
 
-_SHAPE = slice(SURROUNDINGS, SURROUNDINGS + SHAPE)
 _HULLS, _MESHES = 3000, 2000  # that are compared at most, evenly chosen of more
 _NEAR = 0.35  # of the median distance of hulls, within which they stand for each other
 
@@ -18,7 +16,7 @@ _NEAR = 0.35  # of the median distance of hulls, within which they stand for eac
 def chosen(family: Family, count: int) -> list[int]:
     """The meshes to label next, the best first; those without an untold hull are not among them."""
     open_meshes = evenly(np.unique(family.owner[family.codes == UNTOLD]), _MESHES)
-    rows = family.rows[:, _SHAPE]
+    rows = family.rows[:, SHAPES]
     some = rows[evenly(np.arange(len(rows)), _HULLS)]
     if not len(open_meshes):
         return []

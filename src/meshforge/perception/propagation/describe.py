@@ -17,31 +17,43 @@ _ALIKE = 0.4  # how far apart these are where two hulls look half alike
 COUNTED = 6
 WIDTH = surroundings.WIDTH + 3 * shape.WIDTH + COUNTED
 """Columns of `described`."""
+SHAPES = slice(surroundings.WIDTH, surroundings.WIDTH + shape.WIDTH)
+"""Those of them that tell what a hull is itself."""
 
 
-def described(mesh: SymbolicMesh, up: Floats | None = None) -> Floats:
-    """A row for each hull (n, WIDTH). up: the direction that points up, None for what seems to.
+def described(mesh: SymbolicMesh) -> Floats:
+    """A row for each hull (n, WIDTH), with up what seems to be up."""
+    return Describer(mesh).described(upright(mesh)) if mesh.hulls else np.zeros((0, WIDTH))
 
-    What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest), and
-    how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
-    """
-    count = len(mesh.hulls)
-    if not count:
-        return np.zeros((0, WIDTH))
-    turn = standing(upright(mesh) if up is None else up)
-    pieces = tuple(hull.vertices @ turn.T for hull in mesh.hulls)
-    triangles = tuple(piece[hull.faces] for piece, hull in zip(pieces, mesh.hulls, strict=True))
-    volumes = np.array([hull.volume for hull in mesh.hulls])
-    whole = whole_of(pieces, triangles)
-    own = shapes(whole, volumes)
-    touching = _touching(mesh)
-    around = touching * np.sqrt(np.maximum(volumes, 0.0))
-    total = around.sum(axis=1, keepdims=True)
-    mean = np.divide(around @ own, total, out=own.copy(), where=total > 0)
-    largest = own[np.where(total[:, 0] > 0, around.argmax(axis=1), np.arange(count))]
-    return np.concatenate(
-        [surroundings.surroundings(whole), own, mean - own, largest - own, _counts(own, touching, volumes)], axis=1
-    )
+
+class Describer:
+    """A mesh that has hulls, to be described with one direction or another as the one that points up."""
+
+    def __init__(self, mesh: SymbolicMesh) -> None:
+        self._volumes = np.array([hull.volume for hull in mesh.hulls])
+        triangles = tuple(hull.vertices[hull.faces] for hull in mesh.hulls)
+        self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
+        self._touching = _touching(mesh)
+
+    def shapes(self, up: Floats) -> Floats:
+        """What each hull is itself, and how it lies: `SHAPES` of its row, which is quick. up: (3,)."""
+        return shapes(self._whole.turned(standing(up)), self._volumes)
+
+    def described(self, up: Floats) -> Floats:
+        """A row for each hull (n, WIDTH). up: (3,).
+
+        What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest),
+        and how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
+        """
+        whole = self._whole.turned(standing(up))
+        own = shapes(whole, self._volumes)
+        touching = self._touching
+        around = touching * np.sqrt(np.maximum(self._volumes, 0.0))
+        total = around.sum(axis=1, keepdims=True)
+        mean = np.divide(around @ own, total, out=own.copy(), where=total > 0)
+        largest = own[np.where(total[:, 0] > 0, around.argmax(axis=1), np.arange(len(own)))]
+        counts = _counts(own, touching, self._volumes)
+        return np.concatenate([surroundings.surroundings(whole), own, mean - own, largest - own, counts], axis=1)
 
 
 def _touching(mesh: SymbolicMesh) -> Floats:

@@ -32,6 +32,10 @@ class Scale:
             return Scale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
         return Scale(np.median(rows, axis=0), np.maximum(rows.std(axis=0), _LEAST))
 
+    def of_columns(self, columns: slice) -> Scale:
+        """That of some columns."""
+        return Scale(self.middle[columns], self.spread[columns])
+
     def __call__(self, rows: Floats) -> Floats:
         """Rows about the middle in units of the spread, far values drawn in."""
         return np.clip((rows - self.middle) / self.spread, -_MOST, _MOST)

@@ -14,7 +14,7 @@ from meshforge.perception.propagation.agreement import agreeing
 from meshforge.perception.propagation.family import Family, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
-from meshforge.perception.propagation.righting import other_ways, righted
+from meshforge.perception.propagation.righting import OtherSides, righted
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 
 _DIGITS = 3
@@ -48,7 +48,7 @@ class Relatives:
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
         self.family = family_of(meshes)
-        self._ways = lru_cache(_REMEMBERED)(lambda mesh: other_ways(meshes[mesh]))
+        self._sides = lru_cache(_REMEMBERED)(lambda mesh: OtherSides(meshes[mesh]))
 
     def propagated(self, told: Sequence[str | None], metric: Floats | None = None) -> Propagated:
         """What some labels say about all hulls, these included.
@@ -60,7 +60,7 @@ class Relatives:
         family = self.family.taught(told)
         if not family.labels:
             return Propagated(family, np.zeros((len(family.codes), 0)))
-        family = righted(family, self._ways, metric)
+        family = righted(family, self._sides, metric)
         return Propagated(family, agreeing(family, by_likeness(family, metric)))
 
 

@@ -26,7 +26,7 @@ WIDTH = 4 + 8 * len(_RADII) + _CELLS
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Whole:
-    """All hulls of a mesh, standing upright.
+    """All hulls of a mesh, standing upright if it was turned so.
 
     pieces: vertices of each hull; seen: points (n, 3) on all of them, weights: (n,), their shares of the surface;
     foot: the lowest height, tall: how much higher the highest is; axis: where the upright axis stands (2,), wide: how
@@ -42,6 +42,21 @@ class Whole:
     wide: float
     size: float
 
+    @staticmethod
+    def of(pieces: tuple[Floats, ...], seen: Floats, weights: Floats) -> Whole:
+        """The same with foot, height, axis and size found."""
+        corners = np.concatenate(pieces)
+        foot, top = float(corners[:, 2].min()), float(corners[:, 2].max())
+        axis = weights @ seen[:, :2]
+        farthest = float(np.linalg.norm(corners[:, :2] - axis, axis=1).max())
+        size = float(np.hypot(top - foot, 2 * farthest)) or 1.0
+        most = float(np.quantile(np.linalg.norm(seen[:, :2] - axis, axis=1), 0.95))
+        return Whole(pieces, seen, weights, foot, max(top - foot, _THIN * size), axis, max(most, _THIN * size), size)
+
+    def turned(self, turn: Floats) -> Whole:
+        """The same after a rotation (3, 3)."""
+        return Whole.of(tuple(piece @ turn.T for piece in self.pieces), self.seen @ turn.T, self.weights)
+
 
 def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole:
     """All hulls together. pieces: vertices (v, 3) of each; triangles: (t, 3, 3) of each."""
@@ -52,13 +67,7 @@ def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole
     counts = np.maximum(least, np.round(shares * _SEEN).astype(int))
     seen = np.concatenate([on_surface(t, int(n)) for t, n in zip(triangles, counts, strict=True)])
     weights = np.repeat(areas / counts, counts) / areas.sum()
-    corners = np.concatenate(pieces)
-    foot, top = float(corners[:, 2].min()), float(corners[:, 2].max())
-    axis = weights @ seen[:, :2]
-    farthest = float(np.linalg.norm(corners[:, :2] - axis, axis=1).max())
-    size = float(np.hypot(top - foot, 2 * farthest)) or 1.0
-    most = float(np.quantile(np.linalg.norm(seen[:, :2] - axis, axis=1), 0.95))
-    return Whole(pieces, seen, weights, foot, max(top - foot, _THIN * size), axis, max(most, _THIN * size), size)
+    return Whole.of(pieces, seen, weights)
 
 
 def surroundings(whole: Whole) -> Floats:
