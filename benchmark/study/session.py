@@ -317,10 +317,12 @@ class _Teaching:
                 log.failed_pure += name in bench.pure
 
     def _f1(self, program: Program | None, names: list[str]) -> float:
-        """F1 of what the rules select, hull by hull, against the truth."""
+        """F1 of what the rules select, hull by hull, against the truth, where the reference runs."""
         hit = chosen = meant = 0
         for name in names:
-            wanted = self.bench.truth.reference[name] or ()
+            wanted = self.bench.truth.reference[name]
+            if wanted is None:
+                continue
             done = (self.desk.selected(program, name) if program else None) or ((frozenset(),) * len(wanted))
             hit += sum(len(a & b) for a, b in zip(done, wanted, strict=True))
             chosen, meant = chosen + sum(map(len, done)), meant + sum(map(len, wanted))
