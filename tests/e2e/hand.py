@@ -99,12 +99,6 @@ class Hand:
             arg=asset,
         )
 
-    def selected(self, count: int) -> None:
-        """Wait until so many hulls are selected."""
-        self.page.wait_for_function(
-            "count => document.querySelector('[data-testid=viewport]')?.dataset.selected === String(count)", arg=count
-        )
-
 
 @contextmanager
 def chromium() -> Iterator[Browser]:

@@ -24,12 +24,13 @@ export type Event =
   | CardsChanged
   | ProjectChanged
   | HistoryChanged
+  | RelabelledChanged
   | AssetsChanged
   | LessonChanged
   | ReachChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | ExportJob;
+export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob;
 
 export interface Everything {
   ActionForm: ActionForm;
@@ -41,6 +42,7 @@ export interface Everything {
   AssetsChanged: AssetsChanged;
   Card: Card;
   CardsChanged: CardsChanged;
+  CarriedOver: CarriedOver;
   CheckRequest: CheckRequest;
   ChoiceView: ChoiceView;
   CorrectByHand: CorrectByHand;
@@ -89,10 +91,14 @@ export interface Everything {
   ProgramView: ProgramView;
   ProjectChanged: ProjectChanged;
   ProjectView: ProjectView;
+  PropagateJob: PropagateJob;
   QuestionView: QuestionView;
   Reach: Reach;
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
+  Relabelled: Relabelled;
+  RelabelledAsset: RelabelledAsset;
+  RelabelledChanged: RelabelledChanged;
   RenameLabel: RenameLabel;
   RepairView: RepairView;
   ReviewAssets: ReviewAssets;
@@ -399,7 +405,8 @@ export interface AssetsChanged {
  * One asset in the gallery.
  *
  * hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
- * the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure.
+ * the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given:
+ * how many have one that a person or a file gave.
  * after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
  * changed since the output was made; corrections: edits by hand, a number.
  * sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
@@ -410,6 +417,7 @@ export interface Card {
   hulls: number | null;
   labels: number[];
   unsure: number[];
+  given: number;
   demonstrated: boolean;
   output: "none" | "edited" | "unchanged" | "failed";
   after: number | null;
@@ -432,6 +440,14 @@ export interface CardsChanged {
   kind: "cards";
   cards: Card[];
   gone: string[];
+}
+/**
+ * Labels were carried over. unused: how many labels people and files gave since; next: the asset that would help
+ * most if it were labelled, null where its hulls are, or where all are.
+ */
+export interface CarriedOver {
+  unused: number;
+  next: string | null;
 }
 /**
  * Is this text a program?
@@ -520,6 +536,7 @@ export interface Hello {
   project: ProjectView;
   cards: Card[];
   history: HistoryView;
+  relabelled: Relabelled | null;
   program: ProgramView;
   lesson: LessonView | null;
   learning: boolean;
@@ -530,8 +547,9 @@ export interface Hello {
 /**
  * The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
  *
- * rules: what is demonstrated, by rule; templates: hull templates that actions can name; problem: why the program
- * cannot be applied; lost: ids that something is kept for, though there is no such asset.
+ * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: how it stands with
+ * labels that were carried over, null where none were; problem: why the program cannot be applied; lost: ids that
+ * something is kept for, though there is no such asset.
  */
 export interface ProjectView {
   name: string;
@@ -544,6 +562,7 @@ export interface ProjectView {
   rules: RuleLine[];
   said: Said[];
   templates: string[];
+  carried: CarriedOver | null;
   next: Next;
   problem: string | null;
   lost: string[];
@@ -590,6 +609,27 @@ export interface HistoryView {
   redo: string | null;
   undoable: number;
   redoable: number;
+}
+/**
+ * What the last edit did, where that was one of all labels. entry: its number in the history; way: what it was.
+ *
+ * settled: how many labels are sure since, which were not before.
+ */
+export interface Relabelled {
+  entry: number;
+  way: "propagate" | "label-files" | "label-names";
+  assets: RelabelledAsset[];
+  settled: number;
+}
+/**
+ * Hulls of an asset that got another label, by their positions. new: those that had none; changed: those that had
+ * another one; was: the label that each of these had.
+ */
+export interface RelabelledAsset {
+  asset: string;
+  new: number[];
+  changed: number[];
+  was: string[];
 }
 /**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since.
@@ -716,7 +756,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "export" | "add";
+  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate";
   title: string;
   done: number;
   total: number;
@@ -750,6 +790,13 @@ export interface HistoryChanged {
   did: "edit" | "undo" | "redo";
   said: string;
   by: string | null;
+}
+/**
+ * What the last edit did to all labels, told after the cards; null as soon as another one was made.
+ */
+export interface RelabelledChanged {
+  kind: "relabelled";
+  relabelled: Relabelled | null;
 }
 /**
  * A lesson has begun (`learning`), or its outcome is there.
@@ -827,6 +874,12 @@ export interface Guesses {
  */
 export interface JobCancel {
   id: string;
+}
+/**
+ * Carry the labels that people and files gave over to all other hulls of the family.
+ */
+export interface PropagateJob {
+  kind: "propagate";
 }
 /**
  * Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls

@@ -1,6 +1,6 @@
 """What every file becomes: an asset of bodies and convex geoms, with its kept source document."""
 
-from meshforge.asset.asset import Asset, Body, Document, Geom, Opaque, Surface, unique_names
+from meshforge.asset.asset import Asset, Body, Document, Geom, Mentions, Opaque, Surface, unique_names
 from meshforge.asset.features import PRIMITIVES, Feature, What, features
 from meshforge.asset.mechanism import Inertial, Joint, JointKind, Mechanism, unit
 
@@ -15,6 +15,7 @@ __all__ = [
     "Joint",
     "JointKind",
     "Mechanism",
+    "Mentions",
     "Opaque",
     "Surface",
     "What",

@@ -10,6 +10,12 @@ from typing import Literal
 from meshforge.asset.mechanism import Mechanism
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
+Mentions = tuple[tuple[str, str], ...]
+"""What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
+
+Kinds: `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is what its body shows; `material`.
+"""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Body:
@@ -27,6 +33,7 @@ class Geom:
     parent: None for a geom of the file, which is written back as authored; for a made one, the source geom
     whose contact attributes it inherits.
     contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
+    mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
     """
 
     name: str
@@ -34,6 +41,7 @@ class Geom:
     shape: Shape
     parent: str | None = None
     contact: tuple[tuple[str, str], ...] = ()
+    mentions: Mentions = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,7 +62,7 @@ class Surface:
 class Opaque:
     """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
 
-    plane: root_T_plane of one that is an endless plane, whose normal is Z.
+    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions: as of `Geom`.
     """
 
     name: str
@@ -62,6 +70,7 @@ class Opaque:
     reason: str
     surface: Surface | None = None
     plane: Pose | None = None
+    mentions: Mentions = ()
 
 
 class Document:

@@ -9,6 +9,7 @@ from meshforge.formats.base import Format
 from meshforge.formats.gltf import GltfFormat
 from meshforge.formats.mjcf import MjcfFormat
 from meshforge.formats.plain import Folder, Obj, Ply, Stl, Wrl
+from meshforge.formats.segmented.places import is_segmented
 from meshforge.formats.urdf import UrdfFormat
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
@@ -44,9 +45,10 @@ def format_of(path: Path) -> Format:
 def is_asset(path: Path) -> bool:
     """Whether a file that a folder or a glob holds is an asset: of a known suffix, and no part of another one.
 
-    `package.xml` of ROS is none, nor an MJCF that other ones include; named outright, they say what they are.
+    `package.xml` of ROS is none, nor an MJCF that other ones include, nor segmented points of an asset,
+    `table.points.ply`; named outright, they say what they are.
     """
-    return path.is_file() and any(known.sniffs(_head(path)) for known in _of_suffix(path))
+    return path.is_file() and not is_segmented(path) and any(known.sniffs(_head(path)) for known in _of_suffix(path))
 
 
 def format_for(path: Path, own: str) -> Format:

@@ -93,11 +93,12 @@ def _with(asset: Asset, entry: Replaced, preparation: Preparation, authored: set
     if entry.kind == "hull":
         old = next(geom for geom in asset.geoms if geom.name == entry.what)
         parent = old.parent or (old.name if old.name in authored else None)
-        parts = [Geom(name, old.body, shape, parent) for name, shape in shapes.items()]
+        parts = [Geom(name, old.body, shape, parent, mentions=old.mentions) for name, shape in shapes.items()]
         return asset.with_geoms(_spliced(asset.geoms, old, parts))
     gone = next((piece for piece in asset.opaque if piece.name == entry.what), None) if entry.kind == "opaque" else None
     body, parent = (gone.body, gone.name) if gone else (entry.what, None)
-    made = (Geom(name, body, shape, parent) for name, shape in shapes.items())
+    said = gone.mentions if gone else ()
+    made = (Geom(name, body, shape, parent, mentions=said) for name, shape in shapes.items())
     return replace(
         asset, geoms=(*asset.geoms, *made), opaque=tuple(piece for piece in asset.opaque if piece is not gone)
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.formats import labels_beside
+from meshforge.project.label_files import beside
 
 if TYPE_CHECKING:
     from meshforge.project.accepting import Standing
@@ -74,7 +74,7 @@ def _labels(
         return None
     words = "" if vocabulary else " --vocabulary a,b,c"
     command = f"meshforge label {_word(folder)} --with file"
-    if any(labels_beside(path).is_file() for path in paths.values()):
+    if any(map(beside, paths.values())):
         return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
     return Advice("No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}")
 

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import labels_for
-from meshforge.errors import MeshForgeError, ProjectError, nearest
+from meshforge.errors import ProjectError, nearest
 from meshforge.files import write_atomically
 from meshforge.symbolic import (
     HUMAN_SOURCES,
     Label,
-    LabelFile,
     Source,
     SymbolicMesh,
     follow_labels,
-    read_labels,
     write_labels,
 )
 from meshforge.views import UNSURE
@@ -64,40 +60,6 @@ def give(project: Project, asset: str, labels: Mapping[str, str | None], source:
     return report
 
 
-def take_over(project: Project, source: Path | None) -> tuple[Labelled, ...]:
-    """Take over the labels file of each asset that has one; a problem with one asset is told in its report.
-
-    source: a file for a single asset, a folder that mirrors the assets; None for those beside them.
-
-    A project without a vocabulary takes that of the files, in the order of their mention.
-    """
-    given = {asset: labels_for(path, source, project.found.base) for asset, path in project.found.ids.items()}
-    files = {asset: read_labels(path) for asset, path in given.items() if path}
-    if not files:
-        raise ProjectError(
-            "there is no labels file for any asset",
-            where=str(project.folder),
-            remedy="Put a labels file beside each asset, or name a folder of them that mirrors the assets.",
-        )
-    if not project.vocabulary:
-        project.set_vocabulary(_vocabulary(files.values()))
-    with project.lock():
-        return tuple(_taken_over(project, asset, file) for asset, file in files.items())
-
-
-def _taken_over(project: Project, asset: str, file: LabelFile) -> Labelled:
-    try:
-        mesh = project.mesh(asset)
-    except MeshForgeError as error:
-        return Labelled(asset, problems=(error.message,))
-    followed = follow_labels(file, mesh.labelled(dict.fromkeys(mesh.index)))
-    missing = {name: file.labels[name] for name in followed.gone}
-    labelled, report = merged(asset, mesh, missing | followed.mesh.labels, project.vocabulary)
-    if report.taken:
-        write_merged(project, asset, labelled)
-    return report
-
-
 def write_merged(project: Project, asset: str, mesh: SymbolicMesh, away: Collection[str] = ()) -> None:
     """Write the labels of a mesh; those of hulls that are gone stay in the file, since hulls may come back.
 
@@ -112,11 +74,6 @@ def write_merged(project: Project, asset: str, mesh: SymbolicMesh, away: Collect
     new["hulls"] |= {name: old["hulls"][name] for name in gone}
     new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
     write_atomically(path, json.dumps(new, ensure_ascii=False, indent=2) + "\n")
-
-
-def _vocabulary(files: Iterable[LabelFile]) -> tuple[str, ...]:
-    names = [name for file in files for name in (*file.vocabulary, *(label.name for label in file.labels.values()))]
-    return tuple(dict.fromkeys(names))
 
 
 def merged(

@@ -74,6 +74,11 @@ class Layout:
         """What is known of the asset files, so that they are not read again for a status."""
         return self.folder / STATE / "survey.json"
 
+    @property
+    def vlm(self) -> Path:
+        """What was sent to models, and what came back."""
+        return self.folder / STATE / "vlm"
+
     def kept_for(self, kind: str) -> tuple[str, ...]:
         """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
         root = self.folder / kind

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from meshforge.batch import TIMEOUT, Correction, Found, Outcome, apply, locked, named_templates
 from meshforge.formats import Mass
@@ -20,6 +21,7 @@ from meshforge.project import (
     correcting,
     decomposing,
     demonstrating,
+    filing,
     label_sheets,
     labelling,
     learning,
@@ -29,28 +31,40 @@ from meshforge.project import (
     overview,
     preparing,
     propagating,
+    proposing,
     reading,
     renaming,
     reviewing,
     rules,
     tallying,
     templating,
+    vlm_forecast,
+    vlm_labelling,
 )
 from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
+from meshforge.project.filing import Filing
 from meshforge.project.labelling import Labelled
 from meshforge.project.layout import Layout
+from meshforge.project.name_patterns import Meanings
 from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
 from meshforge.project.propagating import Carried
+from meshforge.project.proposing import Proposals
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
 from meshforge.project.status import AssetStatus, Status
 from meshforge.project.tallying import Tally
+from meshforge.project.vlm_forecast import VlmForecast
+from meshforge.project.vlm_labelling import VlmLabelled
+from meshforge.project.vlm_settings import VlmSettings
 from meshforge.symbolic import LabelFile, Source, SymbolicMesh, read_labels
 from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
 from meshforge.synthesis import Correction as LabelCorrection
 from meshforge.synthesis import Outcome as Lesson
+
+if TYPE_CHECKING:
+    from meshforge.perception.vlm import Bill
 
 
 @dataclass(frozen=True)
@@ -234,20 +248,35 @@ class Project:
         """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
         return labelling.give(self, asset, labels, source, confidence)
 
-    def label_from_files(self, source: Path | None = None) -> tuple[Labelled, ...]:
-        """Take over labels files: a file for a single asset, a folder that mirrors the assets, or those beside them."""
-        return labelling.take_over(self, source)
+    def label_from_files(self, source: Path | None = None, how: Filing | None = None) -> tuple[Labelled, ...]:
+        """Take over what files say: labels files, segmented points and meshes, and PartNet's semantics of links.
+
+        source: a file for a single asset, a folder that mirrors the assets, or None for those beside them; how: the way
+        they are read. A project without a vocabulary takes that of the files.
+        """
+        return filing.take_over(self, source, how or Filing())
+
+    def propose_from_files(
+        self, source: Path | None = None, how: Filing | None = None, vocabulary: Sequence[str] | None = None
+    ) -> Proposals:
+        """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
+        return filing.from_files(self, source, how or Filing(), vocabulary)
 
     def offered_labels(self) -> Offered:
         """What `label_from_files` and `label_from_names` would give; see `Offers` for asking often."""
         return Offers().of(self)
 
-    def label_from_names(self) -> tuple[Labelled, ...]:
-        """Label hulls without a label by the words of the vocabulary in their own names, else in those of their bodies.
+    def label_from_names(self, meanings: Meanings = ()) -> tuple[Labelled, ...]:
+        """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
 
-        In the plural too; of several labels in a name the longest counts. Raises ProjectError: no vocabulary.
+        By patterns first: `meanings`, then those of the project's settings; then by the words of the vocabulary, and
+        words that are nearly those. Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
         """
-        return naming.label_from_names(self)
+        return naming.label_from_names(self, meanings)
+
+    def propose_from_names(self, meanings: Meanings = (), vocabulary: Sequence[str] | None = None) -> Proposals:
+        """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
+        return proposing.from_names(self, meanings, vocabulary)
 
     def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
         """How many hulls have which labels: from where, and how sure."""
@@ -275,6 +304,33 @@ class Project:
         Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop.
         """
         return propagating.propagate(self, progress, stop, keeping)
+
+    def label_with_vlm(
+        self,
+        settings: VlmSettings | None = None,
+        *,
+        progress: Callable[[Bill], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        keeping: Callable[[str], AbstractContextManager[object]] = nullcontext,
+    ) -> VlmLabelled:
+        """Ask a vision-language model for labels; what a person or a file says stays.
+
+        settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
+        says when to ask no more; keeping: gives what is entered while an asset's labels are written. Answers are kept,
+        so that none is paid for twice. Raises MeshForgeError where nothing could be asked at all.
+        """
+        return vlm_labelling.label_with_vlm(self, settings or self.settings.vlm, progress, stop, keeping)
+
+    def forecast_vlm(
+        self,
+        settings: VlmSettings | None = None,
+        *,
+        progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        vocabulary: Sequence[str] | None = None,
+    ) -> VlmForecast:
+        """What `label_with_vlm` would send and cost, with nothing sent; vocabulary: another one than the project's."""
+        return vlm_forecast.forecast(self, settings or self.settings.vlm, progress, stop, vocabulary)
 
     # Demonstrations
 

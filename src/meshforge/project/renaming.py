@@ -16,6 +16,7 @@ from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLin
 from meshforge.project.json_files import json_text, read_json
 from meshforge.project.settings import Settings, changed_settings, orientation, orientation_text
 from meshforge.project.steps import CorrectionsFile, DemonstrationFile, action_text, parse_action_text
+from meshforge.project.toml_edit import set_value
 from meshforge.symbolic import LabelFile, labels_text, read_labels
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ def rename(project: Project, old: str, new: str) -> None:
         program = project.program()
         after = _settings(project, settings, old, new)
         fresh = changed_settings(project.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
+        fresh = _patterns(project, fresh, settings, old, new)
         lesson = accepting.lesson_digest(project)
         for path, text in texts.items():
             write_atomically(path, text)
@@ -127,6 +129,16 @@ def _repair(line: RepairLine, old: str, new: str) -> RepairLine:
     if isinstance(line, ConfirmedLine) and line.before and line.before.label == old:
         values["before"] = line.before.model_copy(update={"label": new})
     return line.model_copy(update=values)
+
+
+def _patterns(project: Project, text: str, settings: Settings, old: str, new: str) -> str:
+    """The settings with the label's other name in the patterns that say what names mean."""
+    try:
+        for pattern in (pattern for pattern, label in settings.names.items() if label == old):
+            text = set_value(text, pattern, new, "names")
+    except ProjectError as error:
+        raise error.at(str(project.layout.settings)) from None
+    return text
 
 
 def _settings(project: Project, settings: Settings, old: str, new: str) -> Settings:

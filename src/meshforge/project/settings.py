@@ -16,6 +16,7 @@ from meshforge.files import write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.project.json_files import invalid
 from meshforge.project.toml_edit import Value, set_value, toml_value
+from meshforge.project.vlm_settings import VlmSettings
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
@@ -37,6 +38,7 @@ class Settings(BaseModel):
 
     assets: files, folders and globs, relative to the project; base: the folder that ids count from.
     orient: the directive as a program has it, without the word `orient`; empty for none.
+    names: the label that names mean, by patterns of names, in their order; empty for none.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -47,6 +49,8 @@ class Settings(BaseModel):
     vocabulary: tuple[str, ...] = ()
     orient: str = ""
     thresholds: Thresholds = Thresholds()
+    vlm: VlmSettings = VlmSettings()
+    names: dict[str, str] = {}
 
 
 def read_settings(folder: Path) -> Settings:

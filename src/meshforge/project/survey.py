@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from meshforge.asset import Mentions
 from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files, text_digest
 from meshforge.errors import told
 from meshforge.files import relative_name, write_atomically
@@ -24,9 +25,9 @@ TIMEOUT = 600.0
 class Facts(BaseModel):
     """What one asset holds. hulls: the digest of each by its name; files: the digest of each by its path from the base.
 
-    bodies: the name of the body of each hull, in order; sources: how many pieces and bodies have no hulls but could
-    be decomposed; preparation: the digest of what was done to the asset before; prepared: that in words; replaced: what
-    each hull that was split has become.
+    bodies, mentions: the name of the body of each hull, in order, and what else its file calls it; sources: how many
+    pieces and bodies have no hulls but could be decomposed; preparation: the digest of what was done to the asset
+    before; prepared: that in words; replaced: what each hull that was split has become.
     times: modification time [ns] and size of each file, by which a change is guessed without reading it; only the
     digests decide what is stale. error: why the asset cannot be read.
     """
@@ -35,6 +36,7 @@ class Facts(BaseModel):
 
     hulls: dict[str, str] = {}
     bodies: tuple[str, ...] = ()
+    mentions: tuple[Mentions, ...] = ()
     sources: int = 0
     preparation: str | None = None
     prepared: tuple[str, ...] = ()
@@ -47,7 +49,7 @@ class Facts(BaseModel):
 class _SurveyFile(BaseModel):
     """form: counts the forms that this file had, as facts were added."""
 
-    form: Literal[2]
+    form: Literal[3]
     software: str
     assets: dict[str, Facts]
 
@@ -77,7 +79,7 @@ def survey(
     every = known | fresh
     kept = {key: every[key] for key in ids if key in every and not every[key].error}
     if todo or kept.keys() != known.keys():
-        write_atomically(memory, _SurveyFile(form=2, software=software(), assets=kept).model_dump_json())
+        write_atomically(memory, _SurveyFile(form=3, software=software(), assets=kept).model_dump_json())
     return {key: fresh[key] for key in wanted}
 
 
@@ -126,6 +128,7 @@ def _facts(work: _Work) -> Facts:
         return Facts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
             bodies=tuple(geom.body for geom in asset.geoms),
+            mentions=tuple(geom.mentions for geom in asset.geoms),
             sources=sum(not source.is_hopeless for source in sources(asset)),
             preparation=record_digest(work.preparation),
             prepared=tuple(map(str, preparation.steps)),

@@ -11,6 +11,7 @@ from meshforge.errors import ProjectError
 
 Value = str | float | Sequence[str]
 
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
 _HEADER = re.compile(r"^\s*\[")
 
 
@@ -44,9 +45,9 @@ def set_value(text: str, key: str, value: Value | None, table: str | None = None
 def _edited(lines: list[str], key: str, value: Value | None, table: str | None) -> str:
     start, end = _table(lines, table)
     if start is None:
-        return "".join(lines) + ("" if value is None else f"\n[{table}]\n{key} = {toml_value(value)}\n")
+        return "".join(lines) + ("" if value is None else f"\n[{table}]\n{_key(key)} = {toml_value(value)}\n")
     first = next((k for k in range(start, end) if _is_key(lines[k], key)), None)
-    new = [] if value is None else [f"{key} = {toml_value(value)}"]
+    new = [] if value is None else [f"{_key(key)} = {toml_value(value)}"]
     if first is None:
         at = _after_last_content(lines, start, end)
         return "".join([*lines[:at], *(line + "\n" for line in new), *lines[at:]])
@@ -72,7 +73,13 @@ def _is_statement(lines: list[str], index: int) -> bool:
 
 
 def _is_key(line: str, key: str) -> bool:
-    return re.match(rf"""\s*(?:{re.escape(key)}|"{re.escape(key)}")\s*=""", line) is not None
+    ways = "|".join(map(re.escape, (key, f'"{key}"', toml_value(key), f"'{key}'")))
+    return re.match(rf"\s*(?:{ways})\s*=", line) is not None
+
+
+def _key(key: str) -> str:
+    """A key as TOML writes it, in quotes where it has other characters than letters, digits, `_` and `-`."""
+    return key if _BARE.fullmatch(key) else toml_value(key)
 
 
 def _statement_end(lines: list[str], first: int, end: int) -> int:

@@ -4,6 +4,7 @@ from meshforge.views.camera import VIEWS, Up, View
 from meshforge.views.coloring import COLOR_BY, UNSURE, ColorBy, label_colors
 from meshforge.views.compare import before_after, compare, difference, joint_bounds
 from meshforge.views.encode import png, webp, write_png
+from meshforge.views.labelling import Shot, numbers, shots
 from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, UNLABELLED, label_color
 from meshforge.views.picture import render
 from meshforge.views.roundness import Skin, skin
@@ -19,6 +20,7 @@ __all__ = [
     "UNSURE",
     "VIEWS",
     "ColorBy",
+    "Shot",
     "Skin",
     "Up",
     "View",
@@ -29,9 +31,11 @@ __all__ = [
     "joint_bounds",
     "label_color",
     "label_colors",
+    "numbers",
     "png",
     "render",
     "sheet",
+    "shots",
     "skin",
     "thumbnail",
     "visible_hulls",

@@ -10,7 +10,11 @@ import numpy.typing as npt
 
 from meshforge.geometry import Floats, Ints
 
-View = Literal["iso", "iso-back", "front", "back", "left", "right", "top", "bottom"]
+View = Literal[
+    "iso", "iso-back", "front", "back", "left", "right", "top", "bottom",
+    "front-left-above", "front-right-above", "back-left-above", "back-right-above",
+    "front-left-below", "front-right-below", "back-left-below", "back-right-below",
+]  # fmt: skip
 VIEWS: tuple[View, ...] = get_args(View)
 Up = Literal["Y", "Z"]
 Singles = npt.NDArray[np.float32]
@@ -26,8 +30,19 @@ _SEEN_FROM: dict[View, tuple[float, float, float]] = {
     "right": (1.0, 0.0, 0.0),
     "top": (0.0, 0.0, 1.0),
     "bottom": (0.0, 0.0, -1.0),
+    "front-left-above": (-0.75, -1.0, 0.7),
+    "front-right-above": (0.75, -1.0, 0.7),
+    "back-left-above": (-0.75, 1.0, 0.7),
+    "back-right-above": (0.75, 1.0, 0.7),
+    "front-left-below": (-0.75, -1.0, -0.7),
+    "front-right-below": (0.75, -1.0, -0.7),
+    "back-left-below": (-0.75, 1.0, -0.7),
+    "back-right-below": (0.75, 1.0, -0.7),
 }
-"""The side of a Z-up object on which the eye is; front is seen from -Y, as in Blender and CAD tools."""
+"""The side of a Z-up object on which the eye is; front is seen from -Y, as in Blender and CAD tools.
+
+The two called iso see in perspective, all others orthographically.
+"""
 _DISTANCE = 3.4  # of the eye in a perspective view, in diagonals: strong enough to read depth, too weak to distort
 _MARGIN = 0.06  # free border on every side, as a share of the picture
 
@@ -84,22 +99,24 @@ class Camera:
         return right, up
 
 
-def look(view: View, up: Up, size: tuple[int, int], points: Floats) -> Camera:
+def look(view: View, up: Up, size: tuple[int, int], points: Floats, margin: float = _MARGIN) -> Camera:
     """The camera of a named view that fills a picture of size (width, height) with points (n, 3).
 
-    The points are in a frame where their middle is near the origin and their diagonal near one.
+    The points are in a frame where their middle is near the origin and their diagonal near one. margin: the free border
+    on every side, as a share of the picture.
     """
-    axes = _axes(view, up)
+    axes = axes_of(view, up)
     eye = axes[2] * _DISTANCE if view.startswith("iso") else None
     loose = Camera(axes, eye, np.zeros(2), 1.0, size)
     plane = loose.plane(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
-    room = np.array(size) * (1 - 2 * _MARGIN)
+    room = np.array(size) * (1 - 2 * margin)
     scale = float(np.max((high - low) / room)) or 1.0 / min(size)
     return Camera(axes, eye, (low + high) / 2, scale, size)
 
 
-def _axes(view: View, up: Up) -> Floats:
+def axes_of(view: View, up: Up) -> Floats:
+    """The rows (3, 3) right, up and towards the eye of a named view."""
     towards = np.array(_SEEN_FROM[view])
     towards /= np.linalg.norm(towards)
     upright = np.array([0.0, 1.0, 0.0]) if view in ("top", "bottom") else np.array([0.0, 0.0, 1.0])

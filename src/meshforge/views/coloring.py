@@ -28,6 +28,7 @@ UNSURE = 0.5
 """Labels less certain than this are hatched."""
 _NEIGHBOUR = 2.0  # a hull in contact counts as this much nearer in colour: it must differ clearly
 _WORTH = 0.9  # a colour already used is this much less wanted for each use
+_DIMMER = 0.86  # and this much darker each time
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,8 @@ def color_hulls(
     """
     match color_by:
         case "hull":
-            return Coloring(_apart(mesh, known or {}))
+            settled = {mesh.index[name]: color for name, color in (known or {}).items() if name in mesh.index}
+            return Coloring(colors_apart(mesh, range(len(mesh.hulls)), settled))
         case "label":
             found = {h.label for h in mesh.hulls if h.label} - set(vocabulary)
             coloring = _grouped(mesh, [*vocabulary, *sorted(found)], lambda hull: hull.label)
@@ -108,21 +110,24 @@ def _confident(mesh: SymbolicMesh) -> Coloring:
     return Coloring(np.array(colors).reshape(-1, 3), legend, gradient=True)
 
 
-def _apart(mesh: SymbolicMesh, known: Mapping[str, Floats]) -> Floats:
-    """Colours (n, 3) far from each other, those of hulls in contact farthest; greedy, in the order of the hulls."""
+def colors_apart(mesh: SymbolicMesh, picked: Iterable[int], known: Mapping[int, Floats] | None = None) -> Floats:
+    """Colours (k, 3) of the picked hulls, far from each other, those of hulls in contact farthest; greedy, in order.
+
+    known: colours of hulls, by index, that are settled.
+    """
     pool, seen = candidates()
-    gap_to = np.full((len(mesh.hulls), len(pool)), np.inf)
+    gap_to: dict[int, Floats] = {}
     uses = np.zeros(len(pool))
-    chosen = np.zeros((len(mesh.hulls), 3))
     nearest = np.full(len(pool), 0.5)
-    for k, hull in sorted(enumerate(mesh.hulls), key=lambda row: row[1].name not in known):
-        if hull.name in known:
-            chosen[k] = known[hull.name]
-        else:
-            near = gap_to[sorted(mesh.neighbours(k))].min(axis=0, initial=0.5)
-            pick = int(np.argmax((np.minimum(near / _NEIGHBOUR, 0.06) + nearest) * _WORTH**uses))
-            chosen[k] = pool[pick]
+    settled = dict(known or {})
+    order = list(picked)
+    for k in sorted(order, key=lambda k: k not in settled):
+        if k not in settled:
+            near = np.array([gap_to[j] for j in sorted(mesh.neighbours(k) & gap_to.keys())])
+            wanted = np.minimum(near.min(axis=0, initial=0.5) / _NEIGHBOUR, 0.06) if len(near) else 0.06
+            pick = int(np.argmax((wanted + nearest) * _WORTH**uses))
+            settled[k] = pool[pick] * _DIMMER ** uses[pick]
             uses[pick] += 1
-        gap_to[k] = apart(seen, perceived(chosen[k : k + 1]))
+        gap_to[k] = apart(seen, perceived(settled[k][None]))
         nearest = np.minimum(nearest, gap_to[k])
-    return chosen
+    return np.array([settled[k] for k in order]).reshape(-1, 3)

@@ -36,14 +36,13 @@ def along(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, s
 
 
 def _steps(scene: Scene, here: Ints, there: Ints, mine: Ints, theirs: Ints) -> Lines:
-    differ = mine != theirs
     steps = np.zeros(here.shape, np.uint8)
-    steps[differ] = BORDER
-    steps[differ & ((mine < 0) | (theirs < 0))] = SILHOUETTE
-    within = np.nonzero((here != there) & ~differ)
-    cosine = np.einsum("ij,ij->i", scene.normals[here[within]], scene.normals[there[within]])
-    sharp = cosine < _SHARP
-    steps[within[0][sharp], within[1][sharp]] = CREASE
+    at = np.nonzero(here != there)
+    first, second = mine[at], theirs[at]
+    cosine = np.einsum("ij,ij->i", scene.normals[here[at]], scene.normals[there[at]])
+    within = np.where(cosine < _SHARP, CREASE, 0)
+    between = np.where((first < 0) | (second < 0), SILHOUETTE, BORDER)
+    steps[at] = np.where(first == second, within, between)
     return steps
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from meshforge.views.camera import Camera, Singles
 from meshforge.views.roundness import Skin
 
 _BIAS = 5e-6  # shift towards the eye, an item, so that of two faces in one plane one wins everywhere
+_SWELL = 2e-6  # the same for rays from all sides: things grow by so much of their size
 _BIAS_STEPS = 64
 
 
@@ -62,26 +63,47 @@ class Scene:
         return depth
 
 
-def build(skins: Sequence[Skin], center: Floats, unit: float, towards: Floats) -> Scene:
-    """The scene of some skins, moved so that `center` becomes the origin and `unit` [m] becomes one."""
-    from embreex.mesh_construction import TriangleMesh
-    from embreex.rtcore_scene import EmbreeScene
+def assembled(skins: Sequence[Skin], center: Floats, unit: float) -> Scene:
+    """The triangles of some skins, moved so that `center` becomes the origin and `unit` [m] becomes one.
 
-    parts = [_part(s, center, unit, towards * (_BIAS * (k % _BIAS_STEPS))) for k, s in enumerate(skins)]
+    No rays can meet them before `seen_from`.
+    """
+    parts = [_part(s, center, unit) for s in skins]
     item = np.repeat(np.arange(len(parts)), [len(p[0]) for p in parts])
     corners = np.concatenate([p[0] for p in parts]) if parts else np.zeros((0, 3, 3))
     bent = np.concatenate([p[1] for p in parts]) if parts else np.zeros((0, 3, 3))
     solid, normals = _normals(corners)
     corners, bent, item, normals = corners[solid], bent[solid], item[solid], normals[solid]
+    return Scene(corners, item, _facets(item, normals, bent), normals, bent, None)
+
+
+def seen_from(scene: Scene, towards: Floats | None) -> Scene:
+    """The scene, ready for rays from one side; towards: (3,), of unit length.
+
+    None makes it ready for all sides: things in one place then differ a little in size, not in depth.
+    """
+    from embreex.mesh_construction import TriangleMesh
+    from embreex.rtcore_scene import EmbreeScene
+
+    order = (scene.item % _BIAS_STEPS)[:, None, None]
+    away = _SWELL * (scene.corners - _middles(scene)[:, None]) if towards is None else _BIAS * towards
+    corners = scene.corners + order * away
     embree = EmbreeScene()
     if len(corners):
         TriangleMesh(embree, corners.astype(np.float32))
-    return Scene(corners, item, _facets(item, normals, bent), normals, bent, embree)
+    return replace(scene, corners=corners, embree=embree)
 
 
-def _part(skin: Skin, center: Floats, unit: float, bias: Floats) -> tuple[Floats, Floats]:
-    placed = (skin.vertices - center) / unit + bias
-    corners = placed[skin.faces]
+def _middles(scene: Scene) -> Floats:
+    """The middle (m, 3) of the thing that each triangle belongs to."""
+    count = np.maximum(np.bincount(scene.item), 1)
+    sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
+    middles: Floats = (np.stack(sums, axis=1) / count[:, None])[scene.item]
+    return middles
+
+
+def _part(skin: Skin, center: Floats, unit: float) -> tuple[Floats, Floats]:
+    corners = ((skin.vertices - center) / unit)[skin.faces]
     bent = np.full(corners.shape, np.nan) if skin.normals is None else skin.normals[skin.faces]
     return corners, bent
 

@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.views.camera import Camera, Up
 from meshforge.views.roundness import Skin
-from meshforge.views.scene import Scene, build, rays
+from meshforge.views.scene import Scene, assembled, rays, seen_from
 
 _BORDER = 8  # pixels about what can be seen, so that its outline has room
 
@@ -85,13 +85,19 @@ class Hits:
 
 def cast(layer: Layer, stage: Stage, camera: Camera) -> Hits:
     """The first thing of a layer behind each pixel."""
-    scene = build(layer.skins, stage.bounds.center, stage.unit, camera.axes[2])
+    return met(assembled(layer.skins, stage.bounds.center, stage.unit), camera)
+
+
+def met(whole: Scene, camera: Camera, window: tuple[slice, slice] | None = None) -> Hits:
+    """The first thing of an assembled scene behind each pixel; window: the columns and rows to look in, by default
+    those that it can be seen in."""
+    scene = seen_from(whole, camera.axes[2]) if whole.embree is None else whole
     width, height = camera.size
     triangle = np.full((height, width), -1, np.int64)
     if len(scene.corners) == 0:
         return Hits(scene, triangle, triangle.copy(), (slice(0, 0), slice(0, 0)))
-    start = float((scene.corners @ camera.axes[2]).max()) + 0.1
-    x, y = _window(scene, camera)
+    start = float((scene.corners.reshape(-1, 3) @ camera.axes[2]).max()) + 0.1
+    x, y = window or window_of(scene, camera)
     origins, directions = rays(camera, np.arange(x.start, x.stop), np.arange(y.start, y.stop), start)
     seen = scene.embree.run(origins, directions, query="INTERSECT")
     triangle[y, x] = seen.reshape(y.stop - y.start, x.stop - x.start)
@@ -100,9 +106,9 @@ def cast(layer: Layer, stage: Stage, camera: Camera) -> Hits:
     return Hits(scene, triangle, item, (y, x))
 
 
-def _window(scene: Scene, camera: Camera) -> tuple[slice, slice]:
+def window_of(scene: Scene, camera: Camera) -> tuple[slice, slice]:
     """The columns and rows that the scene can be seen in."""
-    points = camera.pixels(scene.corners.reshape(-1, 3))
-    low = np.clip(np.floor(points.min(axis=0)).astype(int) - _BORDER, 0, camera.size)
-    high = np.clip(np.ceil(points.max(axis=0)).astype(int) + 1 + _BORDER, low, camera.size)
+    places = np.ascontiguousarray(camera.pixels(scene.corners.reshape(-1, 3)).T)  # extremes of rows are found quickly
+    low = np.clip(np.floor(places.min(axis=1)).astype(int) - _BORDER, 0, camera.size)
+    high = np.clip(np.ceil(places.max(axis=1)).astype(int) + 1 + _BORDER, low, camera.size)
     return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError
-from meshforge.project import Labelled, Project
-from meshforge.project.naming import words_of
+from meshforge.errors import ProjectError, UsageError
+from meshforge.project import Labelled, Offers, Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import Corner, obj, tree, write_table
 
@@ -36,22 +35,6 @@ def found(project: Project) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("leftDoor_2", ("left", "door")),
-        ("left-door", ("left", "door")),
-        ("URDFLink12b", ("urdf", "link", "b")),
-        ("DRAWER", ("drawer",)),
-        ("großeTür", ("grosse", "tür")),
-        ("geom0", ("geom",)),
-        ("12", ()),
-    ],
-)
-def test_a_name_is_split_at_all_but_letters_and_at_capitals(name: str, words: tuple[str, ...]) -> None:
-    assert words_of(name) == words
-
-
-@pytest.mark.parametrize(
     ("name", "label"),
     [
         ("handle", "handle"),
@@ -59,11 +42,11 @@ def test_a_name_is_split_at_all_but_letters_and_at_capitals(name: str, words: tu
         ("boxes", "box"),
         ("leftShelfBoard", "shelf board"),
         ("shelf_2_boards", "shelf board"),
-        ("board_of_shelf", None),
+        ("board_of_shelf", "shelf board"),
         ("handlebar", None),
         ("drawer_front", "drawer front"),
-        ("drawer_handle", None),  # as long as each other
-        ("drawer_box", "drawer"),
+        ("drawer_handle", "handle"),  # the last thing is what it is
+        ("drawer_box", "box"),
         ("geom7", None),
     ],
 )
@@ -74,7 +57,7 @@ def test_a_hull_is_labelled_by_whole_words_of_its_name(tmp_path: Path, name: str
 
 def test_the_body_counts_where_the_own_name_says_nothing(tmp_path: Path) -> None:
     project = named(tmp_path, "door", "knob", base=("a",), left_door=("panel", "knobs", "door_knob"))
-    assert found(project) == {"left_door/panel": "door", "left_door/knobs": "knob"}
+    assert found(project) == {"left_door/panel": "door", "left_door/knobs": "knob", "left_door/door_knob": "knob"}
 
 
 def test_the_body_of_a_format_without_bodies_says_nothing(tmp_path: Path) -> None:
@@ -112,3 +95,69 @@ def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
     assert project.offered_labels().names == {}
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
         project.label_from_names()
+
+
+# Patterns
+
+
+def with_names(project: Project, table: str) -> Project:
+    """The project with a table of patterns in its settings."""
+    path = project.layout.settings
+    path.write_text(f"{path.read_text()}\n[names]\n{table}\n")
+    return project
+
+
+def test_patterns_of_the_settings_count_in_their_order_and_before_words(tmp_path: Path) -> None:
+    project = named(tmp_path, "door", "leg", base=("door1", "K_door2", "strut3", "strut4"))
+    with_names(project, '"k_*" = ""\n"/strut[0-3]$/" = "leg"\n"strut*" = "door"')
+    expected = {"base/door1": "door", "base/strut3": "leg", "base/strut4": "door"}
+    assert found(project) == expected
+    project.label_from_names()
+    labels = project.labels("robot.urdf").labels
+    assert {name: label.name for name, label in labels.items()} == expected
+    assert labels["base/strut3"] == Label("leg", 0.9, "name")
+
+
+def test_given_patterns_precede_those_of_the_settings(tmp_path: Path) -> None:
+    project = with_names(named(tmp_path, "door", "leg", base=("strut",)), '"strut" = "door"')
+    project.label_from_names([("s*", "leg")])
+    assert project.labels("robot.urdf").labels["base/strut"].name == "leg"
+
+
+def test_offers_follow_the_patterns(tmp_path: Path) -> None:
+    project, offers = named(tmp_path, "door", "leg", base=("strut",)), Offers()
+    assert offers.of(project).names == {}
+    with_names(project, '"strut" = "door"')
+    assert offers.of(project).names == {"robot.urdf": {"base/strut": "door"}}
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ('"strut" = "dor"', "the pattern strut means 'dor', which is not in the vocabulary\n  Did you mean 'door'?"),
+        (
+            '"/[/" = "door"',
+            "the pattern /[/ is no regular expression: unterminated character set at position 0\n  Mend it.",
+        ),
+    ],
+)
+def test_a_pattern_that_makes_no_sense_is_told_with_its_file(tmp_path: Path, table: str, message: str) -> None:
+    project = with_names(named(tmp_path, "door", base=("strut",)), table)
+    for ask in (project.label_from_names, project.propose_from_names, project.offered_labels):
+        with pytest.raises(UsageError) as told:
+            ask()
+        assert told.value.message == f"{project.layout.settings}: {message}"
+
+
+def test_a_label_that_is_renamed_is_renamed_in_the_patterns(tmp_path: Path) -> None:
+    project = with_names(named(tmp_path, "door", "leg", base=("strut",)), '"*strut*" = "door"  # as seen\n"a" = "leg"')
+    project.rename_label("door", "gate")
+    assert '"*strut*" = "gate"  # as seen\n"a" = "leg"\n' in project.layout.settings.read_text()
+    assert found(project) == {"base/strut": "gate"}
+
+
+def test_what_a_person_said_stays_whatever_the_patterns_say(tmp_path: Path) -> None:
+    project = with_names(named(tmp_path, "door", "leg", base=("a", "b")), '"*" = "door"')
+    project.set_labels("robot.urdf", {"base/a": "leg"})
+    assert project.label_from_names() == (Labelled("robot.urdf", taken=1),)
+    assert project.labels("robot.urdf").labels["base/a"] == Label("leg")

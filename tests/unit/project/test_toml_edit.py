@@ -34,6 +34,13 @@ def test_only_the_value_changes_and_comments_stay() -> None:
     assert set_value(TEXT, "contact", 0.01, "thresholds") == TEXT.replace("0.002", "0.01")
 
 
+def test_keys_of_other_characters_are_found_and_written_in_quotes() -> None:
+    text = '[names]\n"*leg*" = "leg" # all\n\'/a\\d/\' = "top"\n'
+    assert set_value(text, "*leg*", "foot", "names") == text.replace('"leg"', '"foot"')
+    assert tomllib.loads(set_value(text, "/a\\d/", "lid", "names"))["names"] == {"*leg*": "leg", "/a\\d/": "lid"}
+    assert set_value("", "a b", "c", "names") == '\n[names]\n"a b" = "c"\n'
+
+
 def test_an_array_of_several_lines_becomes_one_line_and_keeps_the_comment_behind_it() -> None:
     edited = set_value(TEXT, "vocabulary", ["top"])
     assert 'vocabulary = ["top"]  # closed list\norient' in edited

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from meshforge.studio.showing.next_step import next_step
 from meshforge.studio.wire.family import Card, Next
+from meshforge.studio.wire.labelling import CarriedOver
 from meshforge.studio.wire.lesson import LessonView, NearestView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
@@ -95,3 +96,41 @@ def test_a_lesson_without_a_program_leads_to_what_came_nearest_and_does_not_repe
     for status in ("none", "timeout", "error"):
         over = LessonView(number=1, status=status, why="a long reason", error="a long\n  message")
         assert "long" not in next_step([SHOWN], ("leg",), False, over, None, last).say
+
+
+WHOLE = Card(asset="w", hulls=2, labels=(0, 0), given=2)
+DOUBTFUL = Card(asset="d", hulls=5, labels=(0,) * 5, unsure=(1, 2, 3))
+
+
+def labelling(*cards: Card, carried: CarriedOver | None = None, program: bool = False) -> Next:
+    return next_step(cards, ("leg",), program, None, None, last, carried)
+
+
+def test_labels_of_a_labelled_asset_are_carried_over_to_those_that_have_none() -> None:
+    step = labelling(BARE, WHOLE)
+    assert (step.stage, step.say) == ("label", "a has no label: carry labels over.")
+    assert labelling(BARE, BARE.model_copy(update={"asset": "b"}), WHOLE).say.startswith("2 assets have no label")
+    assert labelling(BARE, LABELLED.model_copy(update={"asset": "b"})).stage == "demonstrate", "none is whole"
+    assert labelling(BARE, WHOLE.model_copy(update={"given": 1})).stage == "demonstrate", "a machine labelled it"
+
+
+def test_unsure_labels_are_looked_through_unless_something_else_is_less_work() -> None:
+    step = labelling(WHOLE, DOUBTFUL)
+    assert (step.stage, step.asset, step.say) == ("label", "d", "3 labels are unsure: press N.")
+    best = CarriedOver(unused=0, next="d")
+    assert labelling(WHOLE, DOUBTFUL, carried=best).say == step.say, "to label it is more work"
+    nearly = DOUBTFUL.model_copy(update={"asset": "n", "given": 4, "unsure": ()})
+    step = labelling(WHOLE, DOUBTFUL, nearly, carried=CarriedOver(unused=0, next="n"))
+    assert (step.asset, step.say) == ("n", "3 labels are unsure: label n next.")
+
+
+def test_what_was_said_is_used_when_it_outweighs_what_is_unsure() -> None:
+    step = labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=3))
+    assert step.say == "Carry labels over again: 3 labels of yours not used yet."
+    assert "press N" in labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=2)).say
+
+
+def test_who_has_begun_to_demonstrate_is_not_told_to_label() -> None:
+    assert labelling(BARE, WHOLE, DOUBTFUL, program=True).stage == "review"
+    shown = WHOLE.model_copy(update={"demonstrated": True})
+    assert labelling(BARE, shown, DOUBTFUL, carried=CarriedOver(unused=9)).stage != "label"

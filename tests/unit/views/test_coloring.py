@@ -6,7 +6,7 @@ import numpy as np
 from numpy.random import default_rng
 
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views.coloring import color_hulls, highlighted, label_colors
+from meshforge.views.coloring import color_hulls, colors_apart, highlighted, label_colors
 from meshforge.views.palette import LABEL_COLORS, UNLABELLED, apart, candidates, hexadecimal, perceived, rgb
 from tests.unit.views.scenes import box, hull, table
 
@@ -55,6 +55,18 @@ def test_touching_hulls_differ_clearly_even_in_a_long_row() -> None:
 def test_forty_hulls_have_forty_colours() -> None:
     colors = color_hulls(row(40), "hull").colors
     assert len({hexadecimal(c) for c in colors}) == 40
+
+
+def test_however_many_hulls_there_are_no_two_have_the_same_colour() -> None:
+    colors = color_hulls(row(200), "hull").colors
+    assert len({hexadecimal(c) for c in colors}) == 200
+    assert colors.min() >= 0
+    assert colors.max() <= 1
+
+
+def test_picked_hulls_have_colours_as_if_there_were_no_others() -> None:
+    picked = range(20, 30)
+    assert np.array_equal(colors_apart(row(60), picked), color_hulls(row(10), "hull").colors)
 
 
 def test_known_hulls_keep_their_colour() -> None:

@@ -45,6 +45,25 @@ def test_left_right_top_and_bottom_are_where_tools_have_them() -> None:
     assert [hulls[front[y, 45]].name for y in (10, 79)] == ["top", "bottom"]
 
 
+@pytest.mark.parametrize("view", [v for v in VIEWS if v.endswith(("above", "below"))])
+def test_a_corner_is_seen_from_its_own_side(view: View) -> None:
+    sides = {"left": (0, -1), "right": (0, 1), "front": (1, -1), "back": (1, 1), "below": (2, -1), "above": (2, 1)}
+    at, opposite = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+    for side in view.split("-"):
+        axis, sign = sides[side]
+        at[axis], opposite[axis] = sign, -sign
+    mesh = SymbolicMesh(
+        (
+            hull("far", box(opposite, (1, 1, 1))),
+            hull("all", box((0, 0, 0), (3, 3, 3))),
+            hull("near", box(at, (1.2, 1.2, 1.2))),
+        )
+    )
+    seen = visible_hulls(mesh, view=view)
+    assert seen["far"] == 0
+    assert seen["all"] > seen["near"] > 0
+
+
 @pytest.mark.parametrize(
     ("shape", "share"),
     [

@@ -1,8 +1,10 @@
-// Commands that label: the digits, the brush, and the queue of hulls whose label is not sure.
+// Commands that label: the digits, the brush, labels carried over, and the queue of hulls whose label is not sure.
 import { setBrush, useDesk } from "../store/desk";
-import { applyLabel, confirmLabels, goToUnsure } from "../store/labelling";
+import { carryOver, notCarriable } from "../store/jobs";
 import { useProject } from "../store/project";
+import { applyLabel, confirmLabels, goToUnsure } from "../store/queue";
 import { useScenes } from "../store/scenes";
+import { told } from "../store/toasts";
 import { isUnsure } from "../store/unsure";
 import type { Command } from "./command";
 
@@ -19,6 +21,15 @@ const digits: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit) => ({
   enabled: () => isLabelling() && labelAt(digit - 1) !== undefined,
   run: () => applyLabel(labelAt(digit - 1) ?? null),
 }));
+
+const isUnsureAny = (): boolean =>
+  isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0);
+
+/** Carries labels over, or says why not. */
+function tryCarryOver(): unknown {
+  const why = notCarriable();
+  return why === null ? carryOver() : told(why);
+}
 
 /** Whether a hull is selected whose label is not sure. */
 function isDoubtful(): boolean {
@@ -52,8 +63,24 @@ export const labelling: readonly Command[] = [
     title: "Next unsure hull",
     group: "Label",
     keys: ["N"],
-    enabled: () => isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0),
+    enabled: isUnsureAny,
     run: () => goToUnsure(),
+  },
+  {
+    id: "label-previous-unsure",
+    title: "Previous unsure hull",
+    group: "Label",
+    keys: ["Shift+N"],
+    enabled: isUnsureAny,
+    run: () => goToUnsure(-1),
+  },
+  {
+    id: "label-carry-over",
+    title: "Carry labels over to all assets",
+    group: "Label",
+    keys: ["P"],
+    enabled: isLabelling,
+    run: tryCarryOver,
   },
   {
     id: "label-brush-down",

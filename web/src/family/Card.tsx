@@ -1,14 +1,16 @@
 // One asset: its picture, name, number of hulls, and how it stands.
+import { ArrowLeftRight } from "lucide-react";
 import { memo, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
 import { openAsset, useDesk } from "../store/desk";
 import { setLayout } from "../store/layout";
 import { useProject } from "../store/project";
-import type { Card as CardData } from "../wire";
+import { useRelabelledAsset } from "../store/relabelled";
+import type { Card as CardData, RelabelledAsset } from "../wire";
 import { Badges } from "./Badges";
 import css from "./card.module.css";
 import { MakeHulls } from "./NeedHulls";
-import { hulls, middle, spoken } from "./words";
+import { hulls, middle, relabelledText, spoken } from "./words";
 
 interface CardProps {
   asset: string;
@@ -24,13 +26,15 @@ export const cardId = (asset: string): string => `card ${asset}`.replace(/\s/g, 
 export const Card = memo(function Card({ asset, width, place, of, large }: CardProps) {
   const card = useProject((state) => state.cards[asset]);
   const current = useDesk((desk) => desk.asset === asset);
+  const found = useRelabelledAsset(asset);
+  const relabelled = useDesk((desk) => desk.stage === "label") ? found : null;
   if (!card) return null;
   return (
     <div
       id={cardId(asset)}
       role="option"
       aria-selected={current}
-      aria-label={spoken(card)}
+      aria-label={[spoken(card), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}
@@ -41,7 +45,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
       onClick={() => openAsset(asset)}
       onDoubleClick={() => setLayout({ gallery: false })}
     >
-      {card.error === null ? <Face card={card} large={large} /> : <Broken error={card.error} />}
+      {card.error === null ? <Face card={card} large={large} relabelled={relabelled} /> : <Broken error={card.error} />}
       <div className={css.foot}>
         <span className={css.name}>{middle(asset, Math.floor((width - 16) / 6.3))}</span>
         <span className={css.line}>
@@ -62,8 +66,15 @@ function Broken({ error }: { error: string }) {
   );
 }
 
+interface FaceProps {
+  card: CardData;
+  large: boolean;
+  /** What became of its labels in the last edit of all labels. */
+  relabelled: RelabelledAsset | null;
+}
+
 /** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
-function Face({ card, large }: { card: CardData; large: boolean }) {
+function Face({ card, large, relabelled }: FaceProps) {
   const [over, setOver] = useState(false);
   const results = useDesk((desk) => desk.stage === "review" && desk.highlight === null);
   const marked = useDesk((desk) => (desk.highlight ? (desk.highlight.assets[card.asset] ?? NONE) : undefined));
@@ -82,6 +93,7 @@ function Face({ card, large }: { card: CardData; large: boolean }) {
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
       {marked && isKnown && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
+      {!marked && relabelled && <Relabelled found={relabelled} />}
       {card.hulls === 0 && card.sources > 0 && (
         <span className={css.over}>
           <MakeHulls asset={card.asset} />
@@ -89,6 +101,21 @@ function Face({ card, large }: { card: CardData; large: boolean }) {
       )}
       {large && edited && <span className={css.which}>{showing === "output" ? "after" : "before"}</span>}
     </div>
+  );
+}
+
+/** How many of its labels the last edit of all labels gave or changed. */
+function Relabelled({ found }: { found: RelabelledAsset }) {
+  return (
+    <span className={css.relabelled} title={relabelledText(found)}>
+      {found.new.length > 0 && `+${found.new.length}`}
+      {found.changed.length > 0 && (
+        <span className={css.swapped}>
+          <ArrowLeftRight size={10} aria-hidden />
+          {found.changed.length}
+        </span>
+      )}
+    </span>
   );
 }
 

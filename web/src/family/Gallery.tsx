@@ -1,4 +1,5 @@
 // The family in place of the view, with larger pictures.
+import { Outcome } from "../outcome/Outcome";
 import { Cards } from "./Cards";
 import css from "./family.module.css";
 import { FamilyHead } from "./FamilyHead";
@@ -13,6 +14,9 @@ export function Gallery() {
       <Reading />
       <NeedHulls />
       <Filters />
+      <div className={css.outcome}>
+        <Outcome />
+      </div>
       <Cards least={216} large />
     </div>
   );

@@ -1,12 +1,13 @@
 // Words on cards.
 import { expect, test } from "vitest";
 import type { Card } from "../wire";
-import { badges, fitting, middle, spoken } from "./words";
+import { badges, fitting, middle, relabelledText, spoken } from "./words";
 
 const card: Card = {
   asset: "a.urdf",
   hulls: 3,
   labels: [0, -1, 0],
+  given: 0,
   unsure: [0],
   demonstrated: true,
   output: "edited",
@@ -59,4 +60,10 @@ test("signs that do not fit are counted; what matters most stays", () => {
   expect(shown.map((badge) => badge.name)).toEqual(["stale", "demonstrated"]);
   expect(rest).toHaveLength(all.length - 2);
   expect(fitting(all, 0)).toEqual({ shown: [], rest: all });
+});
+
+test("what became of labels is told in words", () => {
+  const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
+  expect(relabelledText(found)).toBe("2 labels are new, 1 label is another");
+  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels are others");
 });

@@ -1,7 +1,7 @@
 // Words on cards: names that fit, and what a screen reader says.
 import type { FilterName } from "../store/desk";
 import { has, unlabelled } from "../store/family";
-import type { Card } from "../wire";
+import type { Card, RelabelledAsset } from "../wire";
 
 /** A text of at most so many letters, shortened in the middle, where ids differ least. */
 export function middle(text: string, most: number): string {
@@ -58,6 +58,15 @@ export function fitting(all: readonly Badge[], room: number): { shown: readonly 
 function flagged(card: Card): string {
   const reasons = [card.note, ...card.flags].filter(Boolean);
   return reasons.length ? `Flagged: ${reasons.join("; ")}` : "Flagged";
+}
+
+/** What became of the labels of an asset: `24 labels are new, 1 is another`. */
+export function relabelledText({ new: fresh, changed }: RelabelledAsset): string {
+  const parts = [
+    fresh.length && (fresh.length === 1 ? "1 label is new" : `${fresh.length} labels are new`),
+    changed.length && (changed.length === 1 ? "1 label is another" : `${changed.length} labels are others`),
+  ];
+  return parts.filter(Boolean).join(", ");
 }
 
 /** A card as a screen reader says it. */

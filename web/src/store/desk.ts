@@ -86,8 +86,9 @@ export interface DeskState {
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
   overlay: "none" | "help" | "palette";
-  /** Counts up when the camera is asked to move: to a standard view, to fit all, or to frame the selection. */
-  cameraOrder: { count: number; to: StandardView | "fit" | "frame" };
+  /** Counts up when the camera is asked to move: to a standard view, to fit all, to frame the selection, or to look at it from
+   * where the rest of the asset is seen, too. */
+  cameraOrder: { count: number; to: StandardView | "fit" | "frame" | "near" };
 }
 
 export const initialDesk: DeskState = {
@@ -189,7 +190,7 @@ export function setFilters(change: Partial<Filters>): void {
   set((state) => ({ filters: { ...state.filters, ...change } }));
 }
 
-export function lookFrom(to: StandardView | "fit" | "frame"): void {
+export function lookFrom(to: DeskState["cameraOrder"]["to"]): void {
   set((state) => ({ cameraOrder: { count: state.cameraOrder.count + 1, to } }));
 }
 

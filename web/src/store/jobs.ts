@@ -1,8 +1,9 @@
-// Long work that a person starts on results: applying the program, and exporting.
+// Long work that a person starts: carrying labels over, applying the program, exporting.
 import { api } from "../server/api";
 import type { JobRequest } from "../wire";
 import { useProject } from "./project";
 import { complainedOf } from "./toasts";
+import { givenLabels } from "./unsure";
 
 /** Why the program cannot be applied, null where it can. */
 export function notApplicable(): string | null {
@@ -12,6 +13,17 @@ export function notApplicable(): string | null {
   if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
   if (project.problem) return project.problem;
   return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
+}
+
+/** Why labels cannot be carried over, null where they can. */
+export function notCarriable(): string | null {
+  const { cards, project, order, jobs } = useProject.getState();
+  const { hulls, given } = givenLabels(cards);
+  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "It is being done now.";
+  if (!order.length) return "There are no assets yet.";
+  if (!project.vocabulary.length) return "Say first what the parts are called.";
+  if (!given) return "Label the hulls of one asset first.";
+  return given === hulls ? "Every hull is labelled by you or a file." : null;
 }
 
 async function start(request: JobRequest): Promise<boolean> {
@@ -27,6 +39,8 @@ async function start(request: JobRequest): Promise<boolean> {
 /** Applies the program to all assets, or to some. */
 export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
   start({ kind: "apply", assets: assets && [...assets] });
+
+export const carryOver = (): Promise<boolean> => start({ kind: "propagate" });
 
 export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
   start({ kind: "export", folder, accepted_only });

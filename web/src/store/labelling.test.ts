@@ -3,8 +3,9 @@ import { labelling, paint } from "../commands/labelling";
 import { api } from "../server/api";
 import type { AnyEdit } from "../wire";
 import { initialDesk, select, setBrush, useDesk } from "./desk";
-import { applyLabel, confirmLabels, goToUnsure, labelHulls } from "./labelling";
+import { labelHulls } from "./labelling";
 import { emptyProject, useProject } from "./project";
+import { applyLabel } from "./queue";
 import { useScenes } from "./scenes";
 
 const hull = (name: string, label: string | null) => ({ name, label, confidence: 0.3, source: "name" });
@@ -85,20 +86,5 @@ describe("painting", () => {
     paint(["x"]);
     await vi.runAllTimersAsync();
     expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]);
-  });
-});
-
-describe("the unsure queue", () => {
-  it("opens the asset of the next one and selects it", async () => {
-    select(["x"]);
-    await goToUnsure();
-    expect(useDesk.getState()).toMatchObject({ asset: "b", selection: new Set(["z"]) });
-  });
-
-  it("vouches for a label as it is, then goes on", async () => {
-    select(["x"]);
-    await confirmLabels();
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: "leg" }]);
-    expect(useDesk.getState().asset).toBe("b");
   });
 });

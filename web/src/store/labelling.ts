@@ -1,23 +1,10 @@
-// Labels given to hulls: of the selection, stroke by stroke, and along the queue of unsure ones.
-import { openAsset, openStage, select, setBrush, useDesk } from "./desk";
+// Labels given to hulls: at once in what is shown, one by one or stroke by stroke.
+import { select, useDesk } from "./desk";
 import { perform } from "./edits";
-import { useProject } from "./project";
-import { details, type Scene, useScenes } from "./scenes";
-import { complainedOf } from "./toasts";
-import { nextUnsure } from "./unsure";
+import { type Scene, useScenes } from "./scenes";
 
 /** How long a stroke may pause and still be one edit [ms]. */
 const PAUSE = 150;
-
-/** Labels the selected hulls, or, where none is, arms the label so that clicks paint it; null takes labels away. */
-export function applyLabel(label: string | null): void {
-  const { asset, selection, brush } = useDesk.getState();
-  const hulls = ownHulls(selection);
-  const paint = label ?? "";
-  if (asset === null || !hulls.length) return setBrush(brush === paint ? null : paint);
-  setBrush(null);
-  void labelHulls(asset, hulls, label);
-}
 
 /** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
 export async function labelHulls(
@@ -71,41 +58,6 @@ function lift(): void {
   stroke = null;
 }
 
-/** The labels of the selected hulls are right: the person vouches for them; then goes on to the next unsure one. */
-export async function confirmLabels(): Promise<void> {
-  const { asset, selection } = useDesk.getState();
-  const { scene } = useScenes.getState();
-  if (asset === null || scene?.asset !== asset) return;
-  const hulls = scene.hulls.filter((hull) => selection.has(hull.name) && hull.label !== null);
-  for (const label of new Set(hulls.map((hull) => hull.label))) {
-    await labelHulls(
-      asset,
-      hulls.filter((hull) => hull.label === label).map((hull) => hull.name),
-      label,
-    );
-  }
-  if (hulls.length) await goToUnsure();
-}
-
-/** Opens the asset of the next unsure hull, and selects the hull. */
-export async function goToUnsure(): Promise<void> {
-  const { asset, selection } = useDesk.getState();
-  const { cards, order } = useProject.getState();
-  const { scene } = useScenes.getState();
-  const at = scene?.asset === asset ? (scene?.view.hulls.findLastIndex((hull) => selection.has(hull.name)) ?? -1) : -1;
-  const next = nextUnsure(cards, order, asset === null ? null : { asset, position: at });
-  if (!next) return;
-  openStage("label");
-  openAsset(next.asset);
-  try {
-    const { view } = await details(next.asset);
-    const hull = view.hulls[next.position];
-    if (hull && useDesk.getState().asset === next.asset) select([hull.name]);
-  } catch (error) {
-    complainedOf(error);
-  }
-}
-
 /** Selects every hull of the asset with a label, or without one. */
 export function selectLabel(label: string | null): void {
   const { scene } = useScenes.getState();
@@ -113,7 +65,7 @@ export function selectLabel(label: string | null): void {
 }
 
 /** Hulls that the asset has as it comes; only those have labels of their own. */
-function ownHulls(names: ReadonlySet<string>): string[] {
+export function ownHulls(names: ReadonlySet<string>): string[] {
   const { scene } = useScenes.getState();
   return scene?.view.hulls.map((hull) => hull.name).filter((name) => names.has(name)) ?? [];
 }

@@ -10,7 +10,7 @@ export interface LayoutState {
   split: number;
 }
 
-export const initialLayout: LayoutState = { family: true, gallery: false, split: 0.62 };
+export const initialLayout: LayoutState = { family: true, gallery: false, split: 0.68 };
 
 export const useLayout = create<LayoutState>()(() => initialLayout);
 

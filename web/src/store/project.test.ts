@@ -11,6 +11,7 @@ const hello: Hello = {
   project: emptyProject.project,
   cards: [card("b"), card("a")],
   history: emptyProject.history,
+  relabelled: null,
   program: emptyProject.program,
   lesson: null,
   learning: false,
@@ -68,4 +69,11 @@ describe("what the server says", () => {
     expect(two.jobs).toHaveLength(1);
     expect(two.jobs[0]?.done).toBe(1);
   });
+});
+
+it("what the last edit of all labels did is there until it is told otherwise", () => {
+  const relabelled = { entry: 1, way: "propagate", assets: [], settled: 0 } as const;
+  const told = received(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
+  expect(told.relabelled?.entry).toBe(1);
+  expect(received(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
 });

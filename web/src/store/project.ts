@@ -1,7 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { Card, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach } from "../wire";
+import type { Card, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach, Relabelled } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -13,6 +13,8 @@ export interface ProjectState {
   /** Ids of all assets, in order. */
   order: readonly string[];
   history: HistoryView;
+  /** What the last edit did, where that was one of all labels. */
+  relabelled: Relabelled | null;
   program: ProgramView;
   lesson: LessonView | null;
   learning: boolean;
@@ -54,6 +56,7 @@ export const emptyProject: ProjectState = {
     rules: [],
     said: [],
     templates: [],
+    carried: null,
     next: { stage: "label", say: "", asset: null },
     problem: null,
     lost: [],
@@ -61,6 +64,7 @@ export const emptyProject: ProjectState = {
   cards: {},
   order: [],
   history: { undo: null, redo: null, undoable: 0, redoable: 0 },
+  relabelled: null,
   program: noProgram,
   lesson: null,
   learning: false,
@@ -87,6 +91,7 @@ export function received(state: ProjectState, event: Event): ProjectState {
         cards: byAsset(event.cards),
         order: event.cards.map((card) => card.asset),
         history: event.history,
+        relabelled: event.relabelled,
         program: event.program,
         lesson: event.lesson,
         learning: event.learning,
@@ -113,6 +118,8 @@ export function received(state: ProjectState, event: Event): ProjectState {
       return { ...state, project: event.project };
     case "history":
       return { ...state, history: event.history, own: state.own + Number(event.by === page) };
+    case "relabelled":
+      return { ...state, relabelled: event.relabelled };
     case "assets": {
       const shapes = event.shapes ? raised(state.shapeRevisions, event.assets) : state.shapeRevisions;
       return { ...state, revisions: raised(state.revisions, event.assets), shapeRevisions: shapes };

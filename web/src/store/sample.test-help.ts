@@ -6,6 +6,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   hulls: 4,
   labels: [],
   unsure: [],
+  given: 0,
   demonstrated: false,
   output: "none",
   after: null,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { labelProgress, nextUnsure } from "./unsure";
+import { givenLabels, labelProgress, nextUnsure } from "./unsure";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, labels: number[], unsure: number[]) =>
@@ -24,6 +24,22 @@ describe("the queue of unsure hulls", () => {
     expect(nextUnsure(cards, order, { asset: "c", position: -1 })).toEqual({ asset: "c", position: 0 });
   });
 
+  it("goes back, and round the other way", () => {
+    const walked = [{ asset: "c", position: 0 }, { asset: "b", position: 2 }, { asset: "b", position: 0 }, null].map(
+      (from) => nextUnsure(cards, order, from, -1),
+    );
+    expect(walked).toEqual([
+      { asset: "b", position: 2 },
+      { asset: "b", position: 0 },
+      { asset: "c", position: 0 },
+      { asset: "c", position: 0 },
+    ]);
+  });
+
+  it("goes back to the asset before where nothing is selected", () => {
+    expect(nextUnsure(cards, order, { asset: "c", position: -1 }, -1)).toEqual({ asset: "b", position: 2 });
+  });
+
   it("is empty where all are sure", () => {
     expect(nextUnsure({ a: cards.a }, ["a"], null)).toBeNull();
   });
@@ -31,4 +47,9 @@ describe("the queue of unsure hulls", () => {
 
 it("counts hulls with and without a label", () => {
   expect(labelProgress(cards)).toEqual({ hulls: 6, labelled: 5, unsure: 3, assets: 2 });
+});
+
+it("counts hulls that people and files labelled", () => {
+  const given = { a: { ...cards.a, given: 1 }, b: { ...cards.b, given: 3 }, c: cards.c };
+  expect(givenLabels(given)).toEqual({ hulls: 6, given: 4, assets: 2 });
 });

@@ -17,6 +17,21 @@ export function among(lookedAt: number, assets: number): string {
   return lookedAt < assets ? ` of the ${lookedAt.toLocaleString("en-GB")} looked at` : "";
 }
 
+/** Who gave a label: `by you`, `carried over`. */
+export function sourceText(source: string): string {
+  return SOURCES[source] ?? "by machine";
+}
+
+const SOURCES: Readonly<Record<string, string>> = {
+  file: "from a file",
+  name: "from its name",
+  user: "by you",
+  repair: "by you",
+  propagated: "carried over",
+  vlm: "by a model",
+  edit: "by an edit",
+};
+
 /** The name of an asset without the folders it lies in. */
 export function shortName(asset: string): string {
   return asset.slice(asset.lastIndexOf("/") + 1);

@@ -4,6 +4,7 @@ import { Search } from "lucide-react";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { useDesk } from "../store/desk";
 import { useProject } from "../store/project";
+import { useFormerLabels } from "../store/relabelled";
 import { type Scene, useScenes } from "../store/scenes";
 import { counted } from "../store/words";
 import { tones } from "./colors/palette";
@@ -51,6 +52,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const colorBy = useDesk((desk) => desk.view.colorBy);
   const tone = useMemo(() => tones(scene, colorBy, vocabulary), [scene, colorBy, vocabulary]);
   const rows = useMemo(() => rowsOf(scene.hulls, scene.contacts, search, order), [scene, search, order]);
+  const former = useFormerLabels(scene.asset, scene.view.hulls);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
   const opaque = scene.view.opaque.filter((piece) => isFound(search, piece.name, piece.reason, piece.body));
   const grid = useRef<HTMLDivElement>(null);
@@ -93,7 +95,8 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             const row = rows[index];
             if (row) {
               const { name } = row.hull;
-              return <HullRow key={name} row={row} tone={tone(row.hull)} active={index === at} index={index} top={start - HEAD} />;
+              const place = { index, top: start - HEAD, active: index === at };
+              return <HullRow key={name} row={row} tone={tone(row.hull)} was={former.get(name)} {...place} />;
             }
             const piece = opaque[index - rows.length];
             return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;

@@ -1,5 +1,6 @@
 // The view of an asset: a toolbar, the picture, and what lies over it.
 import { useEffect, useRef, useState } from "react";
+import { Outcome } from "../outcome/Outcome";
 import { useDesk } from "../store/desk";
 import { useScenes } from "../store/scenes";
 import { CutBar } from "./overlay/CutBar";
@@ -59,6 +60,9 @@ function Shown({ sheet }: { sheet: Paper }) {
       <Hud />
       <Legend />
       <CutBar />
+      <div className={css.outcome}>
+        <Outcome />
+      </div>
     </>
   );
 }

@@ -40,7 +40,16 @@ class ObjText:
     def soup(self, where: str) -> Soup:
         """All triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
         checked([RawSurface(None, self.vertices, self.faces)], where)
-        return Soup(self.vertices, self.faces, self.face_group, tuple(group_names(self.groups)))
+        named = tuple(group_names(self.groups))
+        within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
+        spoken = ("group", self.face_group, within), ("material", *self._materials())
+        return Soup(self.vertices, self.faces, self.face_group, named, spoken)
+
+    def _materials(self) -> tuple[Ints, tuple[str, ...]]:
+        """The material (m,) of each triangle, and the names of all; the first has none."""
+        marks = [k for k, statement in enumerate(self.statements) if statement.lstrip()[:6] == b"usemtl"]
+        names = [text_of(self.statements[k].strip()[6:].strip()) for k in marks]
+        return np.searchsorted(np.array(marks, dtype=np.int64), self.face_at), ("", *names)
 
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""

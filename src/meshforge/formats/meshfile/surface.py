@@ -79,12 +79,16 @@ def fans(polygons: Iterable[Sequence[int]]) -> Ints:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Soup:
-    """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`."""
+    """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`.
+
+    spoken: what else the file says of its triangles: of what kind (as of `Mentions`), (m,) into the names, the names.
+    """
 
     vertices: Floats
     faces: Ints
     group: Ints
     names: tuple[str | None, ...]
+    spoken: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
 
 
 def joined(surfaces: Sequence[RawSurface]) -> Soup:

@@ -6,8 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
-from meshforge.asset import Asset, Body, Document, What
+from meshforge.asset import Asset, Body, Document, Geom, Mentions, Opaque, What
 from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.plain.folder_tree import Member, Tree
@@ -21,6 +22,9 @@ class FolderDocument(Document):
     """The files of a folder, in natural order."""
 
     members: tuple[Member, ...]
+
+
+Kept = TypeVar("Kept", Geom, Opaque)
 
 
 class Folder(Format):
@@ -49,9 +53,9 @@ class Folder(Format):
             path=path,
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(replace(g, name=names[g.name]) for names, asset in pairs for g in asset.geoms),
+            geoms=tuple(_renamed(g, names[g.name]) for names, asset in pairs for g in asset.geoms),
             document=FolderDocument(tuple(members)),
-            opaque=tuple(replace(o, name=names[o.name]) for names, asset in pairs for o in asset.opaque),
+            opaque=tuple(_renamed(o, names[o.name]) for names, asset in pairs for o in asset.opaque),
             files=tuple(dict.fromkeys(f for asset in assets for f in (asset.path, *asset.files))),
         )
 
@@ -95,3 +99,9 @@ class Folder(Format):
         for part in all_parts(asset):
             tree.add(part, ".obj")
         return tree.output({g.name for g in asset.geoms})
+
+
+def _renamed(piece: Kept, name: str) -> Kept:
+    """A piece of a file with its name in the folder; a name that its file alone has is not forgotten."""
+    told: Mentions = () if piece.name in name or piece.name.startswith("geom") else (("group", piece.name),)
+    return replace(piece, name=name, mentions=(*told, *piece.mentions))

@@ -15,10 +15,11 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.asset import PRIMITIVES, Asset, Body, Geom, Opaque, Surface, What
+from meshforge.asset import PRIMITIVES, Asset, Body, Geom, Mentions, Opaque, Surface, What
 from meshforge.errors import AssetError, GeometryError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
+from meshforge.formats.mentioned import without_repeats
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.plain.parts import (
     Part,
@@ -87,17 +88,17 @@ class PlainFormat(Format):
         """The bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        document, found = self.taken_apart(contents(path), path)
-        named = list(zip(document.names, found, strict=True))
+        document, found, soup = self._read(contents(path), path)
+        named = [(name, piece, _mentions(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
         return Asset(
             path=path,
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(Geom(name, BODY, piece.shape) for name, piece in named if piece.shape),
+            geoms=tuple(Geom(name, BODY, piece.shape, mentions=said) for name, piece, said in named if piece.shape),
             document=document,
             opaque=tuple(
-                Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces))
-                for name, piece in named
+                Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces), mentions=said)
+                for name, piece, said in named
                 if not piece.shape
             ),
             files=tuple(dict.fromkeys(companions(path).values())),
@@ -105,6 +106,10 @@ class PlainFormat(Format):
 
     def taken_apart(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
         """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
+        document, found, _ = self._read(data, path)
+        return document, found
+
+    def _read(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
         soup = self.soup(data, path)
         try:
             found = pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
@@ -114,7 +119,7 @@ class PlainFormat(Format):
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
         groups = len(np.unique(soup.group))
-        return PlainDocument(data, tuple(piece_names(found, soup.names)), owner, groups), found
+        return PlainDocument(data, tuple(piece_names(found, soup.names)), owner, groups), found, soup
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
@@ -160,3 +165,10 @@ class PlainFormat(Format):
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
         document, found = self.taken_apart(data, path)
         return read_back(document, found, wanted, hulls, str(where))
+
+
+def _mentions(soup: Soup, piece: Piece) -> Mentions:
+    """What else the file says of the triangles of a piece."""
+    return without_repeats(
+        (kind, names[k]) for kind, owner, names in soup.spoken for k in np.unique(owner[piece.face_indices]).tolist()
+    )

@@ -21,6 +21,7 @@ class Meshes:
     def __init__(self, resolver: Resolver, where: str) -> None:
         self.resolver, self.where = resolver, where
         self._pieces: dict[Path, list[Piece]] = {}
+        self._groups: dict[Path, list[str | None]] = {}
 
     def refuse_missing(self, meshes: Iterable[tuple[str, Element]]) -> None:
         """Raise AssetError where files of labelled `<mesh>` elements are not there: the first, and how many more."""
@@ -49,11 +50,18 @@ class Meshes:
         assert path is not None  # `refuse_missing` saw it
         if path not in self._pieces:
             try:
-                self._pieces[path] = pieces_of(read_triangles(path), name=str(path))
+                surfaces = read_triangles(path)
+                self._pieces[path] = pieces_of(surfaces, name=str(path))
+                self._groups[path] = [surface.name for surface in surfaces]
             except MeshForgeError as error:
                 place = f"{self.where}:{mesh.line}"
                 raise AssetError(f"collision {label!r}: {error.message}", where=place) from error
         return self._pieces[path]
+
+    def groups(self, kind: Element | None) -> list[str | None]:
+        """The name of the group or node of each piece of a `<mesh>` that was read; none for other shapes."""
+        path = self.resolver.find(kind.attributes["filename"]) if kind and kind.tag == "mesh" else None
+        return [self._groups[path][piece.group] for piece in self._pieces[path]] if path in self._pieces else []
 
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Geom, Opaque
+from meshforge.asset import Asset, Body, Geom, Mentions, Opaque
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.companions import companions
@@ -15,6 +15,7 @@ from meshforge.formats.triangles import contents
 from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.mechanism import read_mechanism
+from meshforge.formats.urdf.mentions import element_mentions
 from meshforge.formats.urdf.meshes import Meshes
 from meshforge.formats.urdf.notes import notes
 from meshforge.formats.urdf.numbers import origin
@@ -39,14 +40,15 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     found = list(collisions(robot))
     parts = _parts(found, links, meshes, where)
     authored = _authored(found, [len(own) for own in parts])
+    told = _mentions(found, links, meshes, parts)
     files, missing = _files(robot, resolver)
     return Asset(
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=_geoms(authored, parts),
+        geoms=_geoms(authored, parts, told),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=_opaque(authored, parts),
+        opaque=_opaque(authored, parts, told),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
@@ -79,20 +81,36 @@ def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, w
     return parts
 
 
-def _geoms(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) -> tuple[Geom, ...]:
+def _mentions(
+    found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, parts: Sequence[Sequence[MeshPart]]
+) -> list[list[Mentions]]:
+    """What else is said of each piece of each collision element."""
+    told = []
+    for (link, collision), own in zip(found, parts, strict=True):
+        common = element_mentions(links.elements[link], collision)
+        groups = meshes.groups(geometry_of(collision)) or [None] * len(own)
+        told.append([(("group", group), *common) if group else common for group in groups])
+    return told
+
+
+def _geoms(
+    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
+) -> tuple[Geom, ...]:
     return tuple(
-        Geom(name, element.link, part.shape)
-        for element, own in zip(authored, parts, strict=True)
-        for name, part in zip(element.names, own, strict=True)
+        Geom(name, element.link, part.shape, mentions=said)
+        for element, own, words in zip(authored, parts, told, strict=True)
+        for name, part, said in zip(element.names, own, words, strict=True)
         if part.shape is not None
     )
 
 
-def _opaque(authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]]) -> tuple[Opaque, ...]:
+def _opaque(
+    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
+) -> tuple[Opaque, ...]:
     return tuple(
-        Opaque(name, element.link, part.reason, part.surface, part.plane)
-        for element, own in zip(authored, parts, strict=True)
-        for name, part in zip(element.names, own, strict=True)
+        Opaque(name, element.link, part.reason, part.surface, part.plane, said)
+        for element, own, words in zip(authored, parts, told, strict=True)
+        for name, part, said in zip(element.names, own, words, strict=True)
         if part.shape is None
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from meshforge.studio.edits.base import Edit
 from meshforge.studio.edits.learning import program_files
@@ -26,6 +26,27 @@ class Decompose(Edit):
 
     def said(self, project: Project) -> str:
         return f"{self.asset} decomposed"
+
+
+class Propagate(Edit):
+    """Labels were carried over to all other hulls; the job makes the change itself. next: the asset that would help
+    most if it were labelled; used: how many entries the history had when labels were read."""
+
+    kind: Literal["propagate"] = "propagate"
+    used: int
+    next: str | None
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("the job of carrying labels over makes this change")
+
+    def touches(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
+
+    def said(self, project: Project) -> str:
+        return "labels carried over"
+
+    def assets(self, project: Project) -> tuple[str, ...]:
+        return project.assets()
 
 
 class AddTemplate(Edit):

@@ -22,14 +22,14 @@ class Blobs:
     def keep(self, file: Path) -> str:
         """Keep what a file holds, and give its digest."""
         digest = file_digest(file)
-        place = self._place(digest)
+        place = self.place(digest)
         if not place.exists():
             _copy(file, place)
         return digest
 
     def put_back(self, digest: str, file: Path) -> None:
         """Let a file hold again what it held. Raises ProjectError where that is lost or damaged."""
-        place = self._place(digest)
+        place = self.place(digest)
         if not place.is_file() or file_digest(place) != digest:
             raise ProjectError(
                 "what this file held before is no longer kept",
@@ -44,7 +44,8 @@ class Blobs:
             if place.parent.name + place.name not in wanted:
                 place.unlink()
 
-    def _place(self, digest: str) -> Path:
+    def place(self, digest: str) -> Path:
+        """Where a content is kept."""
         return self.folder / digest[:2] / digest[2:]
 
 

@@ -52,6 +52,16 @@ class History:
             )
 
     @property
+    def done(self) -> tuple[Entry, ...]:
+        """Everything that was done and not undone, the first first."""
+        with self._mutex:
+            return tuple(self._files.entries[: self._files.position])
+
+    def held(self, digest: str) -> Path:
+        """A file that holds what one with that digest held. It is gone where the history was damaged from outside."""
+        return self._snapshots.blobs.place(digest)
+
+    @property
     def last(self) -> Entry:
         """What was done last."""
         with self._mutex:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, assert_never
 from meshforge.studio.jobs.apply import apply_job
 from meshforge.studio.jobs.decompose import decompose_job
 from meshforge.studio.jobs.export import export_job
-from meshforge.studio.wire.jobs import ApplyJob, DecomposeJob, ExportJob, Job, JobRequest
+from meshforge.studio.jobs.propagate import propagate_job
+from meshforge.studio.wire.jobs import ApplyJob, DecomposeJob, ExportJob, Job, JobRequest, PropagateJob
 
 if TYPE_CHECKING:
     from meshforge.studio.state import Desk
@@ -22,5 +23,7 @@ def begin(desk: Desk, request: JobRequest) -> Job:
             return decompose_job(desk, request)
         case ExportJob():
             return export_job(desk, request)
+        case PropagateJob():
+            return propagate_job(desk)
         case _:
             assert_never(request)

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from meshforge.project import AssetStatus
 from meshforge.studio.showing.pictures import edited_digest, picture_digest
 from meshforge.studio.wire.family import Card
-
-UNSURE = 0.5
-"""A label that is believed less than this is shown as unsure."""
+from meshforge.symbolic import GIVEN_SOURCES
+from meshforge.views import UNSURE
 
 
 def card(status: AssetStatus, vocabulary: Sequence[str], orient: str) -> Card:
@@ -22,6 +21,7 @@ def card(status: AssetStatus, vocabulary: Sequence[str], orient: str) -> Card:
         hulls=status.hulls,
         labels=labels,
         unsure=_unsure(status),
+        given=sum(label is not None and label.source in GIVEN_SOURCES for label in status.labels),
         demonstrated=status.demonstrated,
         output=status.output,
         after=status.after,

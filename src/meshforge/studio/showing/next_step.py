@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from meshforge.studio.wire.family import Card, Next
+from meshforge.studio.wire.labelling import CarriedOver
 from meshforge.studio.wire.lesson import LessonView
 from meshforge.words import counted
 
@@ -16,14 +17,16 @@ def next_step(
     lesson: LessonView | None,
     problem: str | None,
     first: Callable[[Sequence[str]], str | None],
+    carried: CarriedOver | None = None,
 ) -> Next:
     """The first thing that is missing on the way from assets to exported outputs.
 
-    first: which of some assets, by id, is to be demonstrated first.
+    first: which of some assets, by id, is to be demonstrated first; carried: labels that were carried over.
     """
     return (
         _hulls(cards)
         or _labels(cards, vocabulary, has_program)
+        or _carrying(cards, has_program, carried)
         or _demonstrations(cards, has_program, first)
         or _lesson(lesson, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
@@ -47,6 +50,28 @@ def _labels(cards: Sequence[Card], vocabulary: Sequence[str], has_program: bool)
         return None
     first = next((card.asset for card in cards if card.hulls), None)
     return Next(stage="label", say="No hull has a label yet: label those of one asset.", asset=first)
+
+
+def _carrying(cards: Sequence[Card], has_program: bool, carried: CarriedOver | None) -> Next | None:
+    """To come to sure labels with the least work; who has begun to demonstrate is no longer told so."""
+    if has_program or any(card.demonstrated for card in cards):
+        return None
+    bare = [card for card in cards if card.hulls and all(place < 0 for place in card.labels)]
+    if bare and any(card.hulls and card.given == card.hulls for card in cards):
+        who = f"{bare[0].asset} has" if len(bare) == 1 else f"{counted(len(bare), 'asset')} have"
+        return Next(stage="label", say=f"{who} no label: carry labels over.")
+    doubtful = [card for card in cards if card.unsure]
+    unsure = sum(len(card.unsure) for card in doubtful)
+    if not unsure:
+        return None
+    if carried and carried.unused >= unsure:
+        used = counted(carried.unused, "label")
+        return Next(stage="label", say=f"Carry labels over again: {used} of yours not used yet.")
+    are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
+    best = next((card for card in cards if carried and card.asset == carried.next), None)
+    if best and len(best.labels) - best.given < unsure:
+        return Next(stage="label", say=f"{are}: label {best.asset} next.", asset=best.asset)
+    return Next(stage="label", say=f"{are}: press N.", asset=doubtful[0].asset)
 
 
 def _demonstrations(

@@ -8,13 +8,19 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from meshforge.language import explain
 from meshforge.project import Project, action_text
 from meshforge.studio.wire.family import Card, Next, ProjectView, RuleLine, Said, VocabularyLabel
+from meshforge.studio.wire.labelling import CarriedOver
 from meshforge.synthesis import Step
 from meshforge.views import label_color
 from meshforge.words import counted
 
 
 def project_view(
-    project: Project, cards: Iterable[Card], following: Next, problem: str | None, lost: tuple[str, ...]
+    project: Project,
+    cards: Iterable[Card],
+    following: Next,
+    problem: str | None,
+    lost: tuple[str, ...],
+    carried: CarriedOver | None = None,
 ) -> ProjectView:
     """The project. following: the next sensible step; problem, lost: as of `meshforge.project.Status`."""
     settings, orient = project.settings, project.orientation
@@ -29,6 +35,7 @@ def project_view(
         rules=rule_lines(demonstrated(project)),
         said=tuple(_said(project)),
         templates=project.template_names(),
+        carried=carried,
         next=following,
         problem=problem,
         lost=lost,

@@ -13,6 +13,7 @@ from meshforge.studio.wire.jobs import Job, JobKind
 
 Work = Callable[[Running], str]
 """Does the work of a job, and gives its result in a sentence. Raises StoppedError where it was stopped."""
+STAYS = "what was done by then stays."
 
 
 class Jobs:
@@ -23,13 +24,18 @@ class Jobs:
         self._lock, self._numbers = Lock(), count(1)
         self._running: dict[str, tuple[Running, Thread]] = {}
 
-    def start(self, kind: JobKind, title: str, total: int, work: Work, out: str | None = None) -> Job:
-        """Begin a job; out: the folder that it writes. Raises UsageError where one of its kind is under way."""
+    def start(
+        self, kind: JobKind, title: str, total: int, work: Work, out: str | None = None, stays: str = STAYS
+    ) -> Job:
+        """Begin a job; out: the folder that it writes; stays: what is said where it was stopped.
+
+        Raises UsageError where one of its kind is under way.
+        """
         with self._lock:
             if any(running.job.kind == kind for running, _ in self._running.values()):
                 raise UsageError("this is being done already", remedy="Wait until it is over, or cancel it.")
             running = Running(Job(id=f"{kind}-{next(self._numbers)}", kind=kind, title=title, total=total), self._tell)
-            thread = Thread(target=self._run, args=(running, work, out), name=running.job.id, daemon=True)
+            thread = Thread(target=self._run, args=(running, work, out, stays), name=running.job.id, daemon=True)
             self._running[running.job.id] = running, thread
         thread.start()
         return running.job
@@ -52,18 +58,18 @@ class Jobs:
         for _, thread in rows:
             thread.join()
 
-    def _run(self, running: Running, work: Work, out: str | None) -> None:
-        end = _ended(running, work, out)
+    def _run(self, running: Running, work: Work, out: str | None, stays: str) -> None:
+        end = _ended(running, work, out, stays)
         with self._lock:  # before pages are told, which may ask for the next one at once
             del self._running[running.job.id]
         running.end(*end)
 
 
-def _ended(running: Running, work: Work, out: str | None) -> tuple[str, str, str | None]:
+def _ended(running: Running, work: Work, out: str | None, stays: str) -> tuple[str, str, str | None]:
     """How a job ended, what is said of that, and the folder that it wrote."""
     try:
         return "done", work(running), out
     except StoppedError:
-        return "cancelled", "Cancelled: what was done by then stays.", out
+        return "cancelled", f"Cancelled: {stays}", out
     except Exception as error:  # what a job does wrong is told as its outcome
         return "failed", told(error), None

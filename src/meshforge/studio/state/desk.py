@@ -29,6 +29,7 @@ from meshforge.studio.state.following import Following
 from meshforge.studio.state.hub import Hub
 from meshforge.studio.state.lessons import Lessons
 from meshforge.studio.state.refreshing import Refreshing, first_view
+from meshforge.studio.state.relabelling import Relabelling
 from meshforge.studio.state.shown import Shown
 from meshforge.studio.state.watch import Watch
 from meshforge.studio.wire.events import HistoryChanged
@@ -61,6 +62,7 @@ class Desk:
         self.readers, self._drawers = Workers(READERS), Workers()
         self.project = KeptProject.of(Project.open(opening.folder), Meshes(self.readers))
         self.history = History(self.project, _derived)
+        self.relabelling = Relabelling(self.history)
         self.hub = Hub()
         view = first_view(self.project)
         self.shown = Shown(self.hub, view, self.history.view, version("meshforge"), opening.tour)
@@ -155,6 +157,7 @@ class Desk:
         with self._mutex:
             entries = tuple(entries)
             said = entries[0].title
+            self.shown.set_relabelled(None)
             self.changed({name for entry in entries for name in entry.names})
             self.shown.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
 

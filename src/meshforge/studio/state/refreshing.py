@@ -31,6 +31,7 @@ class Refreshing:
 
     def __init__(self, desk: Desk) -> None:
         self._desk = desk
+        self._names: dict[str, tuple[str, ...]] = {}
         self._read = 0
         self._job: Job | None = None
 
@@ -54,9 +55,11 @@ class Refreshing:
         desk, project = self._desk, self._desk.project
         status = project.status(assets, progress=self._count, stop=desk.chores.is_closed)
         settings = project.settings
+        self._names |= {row.id: row.names for row in status.assets}
         desk.shown.set_cards([card(row, settings.vocabulary, settings.orient) for row in status.assets])
         self._tell()
         if desk.chores.left == 0 or len(assets) < self.portion():
+            desk.shown.set_relabelled(desk.relabelling.relabelled(self._names))
             desk.shown.set_project(self._view(status))
 
     def _view(self, status: Status) -> ProjectView:
@@ -64,8 +67,9 @@ class Refreshing:
         program = desk.shown.program
         has_program = bool(program.text) and not program.error
         first = partial(first_to_show, desk.project)
-        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem, first)
-        return project_view(desk.project, cards, following, status.problem, status.lost)
+        carried = desk.relabelling.carried(desk.project, cards)
+        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem, first, carried)
+        return project_view(desk.project, cards, following, status.problem, status.lost, carried)
 
     def _count(self) -> None:
         """One asset had to be read; called from another thread."""

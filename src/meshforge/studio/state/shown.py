@@ -9,6 +9,7 @@ from meshforge.studio.state.hub import Hub, Page
 from meshforge.studio.wire import events
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.jobs import Job
+from meshforge.studio.wire.labelling import Relabelled
 from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
 
 FINISHED = 20
@@ -22,6 +23,7 @@ class Shown:
         self._lock, self._hub = RLock(), hub
         self._version, self._tour = version, tour
         self._project, self._history = project, history
+        self._relabelled: Relabelled | None = None
         self._cards: dict[str, Card] = {}
         self._program = ProgramView()
         self._lesson: LessonView | None = None
@@ -57,6 +59,7 @@ class Shown:
                 project=self._project,
                 cards=self.cards,
                 history=self._history,
+                relabelled=self._relabelled,
                 program=self._program,
                 lesson=self._lesson,
                 learning=self._learning,
@@ -107,6 +110,13 @@ class Shown:
         with self._lock:
             self._history = event.history
             self._hub.tell(event)
+
+    def set_relabelled(self, relabelled: Relabelled | None) -> None:
+        """Show what the last edit did to all labels."""
+        with self._lock:
+            if relabelled != self._relabelled:
+                self._relabelled = relabelled
+                self._hub.tell(events.RelabelledChanged(relabelled=relabelled))
 
     def set_lesson(self, lesson: LessonView | None, learning: bool) -> None:
         """Show a lesson, or that one has begun."""

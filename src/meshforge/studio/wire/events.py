@@ -9,6 +9,7 @@ from pydantic import Field
 from meshforge.studio.wire.base import Wire
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
 from meshforge.studio.wire.jobs import Job
+from meshforge.studio.wire.labelling import Relabelled
 from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
 
 
@@ -32,6 +33,7 @@ class Hello(Wire):
     project: ProjectView
     cards: tuple[Card, ...]
     history: HistoryView
+    relabelled: Relabelled | None = None
     program: ProgramView
     lesson: LessonView | None = None
     learning: bool = False
@@ -64,6 +66,13 @@ class HistoryChanged(Wire):
     did: Literal["edit", "undo", "redo"]
     said: str
     by: str | None = None
+
+
+class RelabelledChanged(Wire):
+    """What the last edit did to all labels, told after the cards; null as soon as another one was made."""
+
+    kind: Literal["relabelled"] = "relabelled"
+    relabelled: Relabelled | None
 
 
 class AssetsChanged(Wire):
@@ -109,6 +118,7 @@ Event = Annotated[
     | CardsChanged
     | ProjectChanged
     | HistoryChanged
+    | RelabelledChanged
     | AssetsChanged
     | LessonChanged
     | ReachChanged

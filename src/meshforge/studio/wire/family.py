@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire.labelling import CarriedOver
 
 Output = Literal["none", "edited", "unchanged", "failed"]
 Verdict = Literal["accepted", "flagged"]
@@ -15,7 +16,8 @@ class Card(Wire):
     """One asset in the gallery.
 
     hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
-    the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure.
+    the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given:
+    how many have one that a person or a file gave.
     after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
     changed since the output was made; corrections: edits by hand, a number.
     sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
@@ -26,6 +28,7 @@ class Card(Wire):
     hulls: int | None = None
     labels: tuple[int, ...] = ()
     unsure: tuple[int, ...] = ()
+    given: int = 0
     demonstrated: bool = False
     output: Output = "none"
     after: int | None = None
@@ -79,8 +82,9 @@ class Next(Wire):
 class ProjectView(Wire):
     """The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
 
-    rules: what is demonstrated, by rule; templates: hull templates that actions can name; problem: why the program
-    cannot be applied; lost: ids that something is kept for, though there is no such asset.
+    rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: how it stands with
+    labels that were carried over, null where none were; problem: why the program cannot be applied; lost: ids that
+    something is kept for, though there is no such asset.
     """
 
     name: str
@@ -93,6 +97,7 @@ class ProjectView(Wire):
     rules: tuple[RuleLine, ...] = ()
     said: tuple[Said, ...] = ()
     templates: tuple[str, ...] = ()
+    carried: CarriedOver | None = None
     next: Next
     problem: str | None = None
     lost: tuple[str, ...] = ()

@@ -6,7 +6,7 @@ from typing import Literal
 
 from meshforge.studio.wire.base import Wire
 
-JobKind = Literal["read", "apply", "decompose", "export", "add"]
+JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate"]
 
 
 class JobLine(Wire):
@@ -57,4 +57,10 @@ class ExportJob(Wire):
     folder: str = "export"
 
 
-JobRequest = ApplyJob | DecomposeJob | ExportJob
+class PropagateJob(Wire):
+    """Carry the labels that people and files gave over to all other hulls of the family."""
+
+    kind: Literal["propagate"] = "propagate"
+
+
+JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob

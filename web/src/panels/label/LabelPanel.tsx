@@ -1,10 +1,10 @@
-// The stage in which hulls get labels: the vocabulary, what is not sure, and labels that are there already.
+// The stage in which hulls get labels: the vocabulary, what is not sure, and ways to get labels.
 import { setBrush, useDesk } from "../../store/desk";
 import { Button } from "../../ui/Button";
 import { Note } from "../../ui/Section";
-import { LabelSources } from "./LabelSources";
 import { Unsure } from "./Unsure";
 import { Vocabulary } from "./Vocabulary";
+import { Ways } from "./Ways";
 import css from "./label.module.css";
 
 export function LabelPanel() {
@@ -13,7 +13,7 @@ export function LabelPanel() {
       <Brush />
       <Vocabulary />
       <Unsure />
-      <LabelSources />
+      <Ways />
     </div>
   );
 }

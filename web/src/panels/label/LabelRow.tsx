@@ -3,7 +3,8 @@ import { Ellipsis } from "lucide-react";
 import { type KeyboardEvent, useState } from "react";
 import { useDesk } from "../../store/desk";
 import { perform } from "../../store/edits";
-import { applyLabel, selectLabel } from "../../store/labelling";
+import { selectLabel } from "../../store/labelling";
+import { applyLabel } from "../../store/queue";
 import { IconButton } from "../../ui/Button";
 import { Menu } from "../../ui/Menu";
 import { Swatch } from "../../ui/Section";
@@ -39,7 +40,7 @@ export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
         className={css.label}
         aria-pressed={armed}
         aria-keyshortcuts={place < 9 ? String(place + 1) : undefined}
-        onClick={(event) => (event.shiftKey ? selectLabel(name) : applyLabel(name))}
+        onClick={(event) => (event.shiftKey ? selectLabel(name) : void applyLabel(name))}
         onDoubleClick={() => setState("renamed")}
         onKeyDown={onKeyDown}
       >

@@ -1,11 +1,11 @@
 // Hulls whose label is not sure, one after the other, and the one that is selected.
 import { Check, ChevronRight } from "lucide-react";
 import { useDesk } from "../../store/desk";
-import { confirmLabels, goToUnsure } from "../../store/labelling";
 import { useProject } from "../../store/project";
+import { confirmLabels, goToUnsure } from "../../store/queue";
 import { type SceneHull, useScenes } from "../../store/scenes";
 import { isUnsure, labelProgress } from "../../store/unsure";
-import { counted } from "../../store/words";
+import { counted, sourceText } from "../../store/words";
 import { Button } from "../../ui/Button";
 import { Note, Section, Swatch } from "../../ui/Section";
 import css from "./label.module.css";
@@ -27,12 +27,6 @@ export function Unsure() {
   );
 }
 
-const FROM: Readonly<Record<string, string>> = {
-  file: "from a file",
-  name: "from its name",
-  user: "by you",
-};
-
 function Doubtful({ hull }: { hull: SceneHull }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === hull.label)?.color);
   const sure = hull.confidence === null ? null : `${Math.round(100 * hull.confidence)}% sure`;
@@ -43,7 +37,7 @@ function Doubtful({ hull }: { hull: SceneHull }) {
         <span>
           <strong>{hull.label}</strong>? {hull.name}
           <br />
-          {[sure, FROM[hull.source ?? ""] ?? "by machine"].filter(Boolean).join(", ")}
+          {[sure, sourceText(hull.source ?? "")].filter(Boolean).join(", ")}
         </span>
         <Button
           look="primary"
@@ -55,7 +49,7 @@ function Doubtful({ hull }: { hull: SceneHull }) {
           Right
         </Button>
       </div>
-      <p className={css.hint}>Not right? Press the number of the right label, or click it above.</p>
+      <p className={css.hint}>Not right? Press its number, or click the label.</p>
     </Note>
   );
 }

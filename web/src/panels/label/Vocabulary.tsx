@@ -1,8 +1,9 @@
 // The labels that hulls can have: clicked to label or to paint, renamed, put in order, added and removed.
 import { perform } from "../../store/edits";
 import { useDesk } from "../../store/desk";
-import { applyLabel, selectLabel } from "../../store/labelling";
+import { selectLabel } from "../../store/labelling";
 import { useProject } from "../../store/project";
+import { applyLabel } from "../../store/queue";
 import { moved } from "../../store/vocabulary";
 import { Note, Section } from "../../ui/Section";
 import { useReorder } from "../../ui/useReorder";
@@ -55,7 +56,7 @@ function NoLabel() {
         type="button"
         className={css.label}
         aria-pressed={armed}
-        onClick={(event) => (event.shiftKey ? selectLabel(null) : applyLabel(null))}
+        onClick={(event) => (event.shiftKey ? selectLabel(null) : void applyLabel(null))}
       >
         <kbd>0</kbd>
         <span className={css.none} aria-hidden />

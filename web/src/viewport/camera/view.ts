@@ -54,6 +54,11 @@ export class View {
     else this.go(pose, now);
   }
 
+  /** Moves to a pose, from now on. */
+  glideTo(pose: Pose, now: number): void {
+    this.go(pose, now);
+  }
+
   /** Of one pane; one that becomes narrower shows as much as before from side to side, and the other way round. */
   resize(width: number, height: number): void {
     const was = Math.min(this.aspect, 1.2);

@@ -1,6 +1,7 @@
 // One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
 import { memo } from "react";
 import { hover, useDesk } from "../../store/desk";
+import { sourceText } from "../../store/words";
 import { Swatch } from "../../ui/Section";
 import type { OpaqueView } from "../../wire";
 import type { Tone } from "../colors/palette";
@@ -18,9 +19,11 @@ interface HullRowProps extends Place {
   readonly tone: Tone;
   /** Whether the keys are at it. */
   readonly active: boolean;
+  /** The label that it had before the last edit of all labels, where that was another one. */
+  readonly was: string | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, active, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, active, was, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const selected = useDesk((desk) => desk.selection.has(hull.name));
   const pointed = useDesk((desk) => desk.hover === hull.name);
@@ -44,8 +47,9 @@ export const HullRow = memo(function HullRow({ row, tone, active, index, top }: 
         <Swatch color={tone.color ?? "var(--hull-unlabelled)"} hatched={tone.hatched} />
         <Shortened text={hull.name} />
       </span>
-      <span role="gridcell" title={labelTitle(row)}>
+      <span role="gridcell" title={labelTitle(row, was)}>
         {hull.label ?? <i aria-label="no label">–</i>}
+        {was !== undefined && <span className={css.changed} role="img" aria-label={`was ${was}`} />}
       </span>
       <span role="gridcell" className={css.number}>
         {volumeText(hull.volume)}
@@ -72,10 +76,11 @@ function Shortened({ text }: { text: string }) {
   );
 }
 
-function labelTitle({ hull }: Row): string {
+function labelTitle({ hull }: Row, was: string | undefined): string {
   if (hull.label === null) return "No label";
-  const share = hull.confidence === null ? "" : `, ${Math.round(100 * hull.confidence)} % sure`;
-  return `${hull.label}${share}${hull.source ? `, from ${hull.source}` : ""}`;
+  const share = hull.confidence === null ? "" : `${Math.round(100 * hull.confidence)} % sure`;
+  const parts = [hull.label, share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
+  return parts.filter(Boolean).join(", ");
 }
 
 /** Collision geometry that is no hull, with the reason. */

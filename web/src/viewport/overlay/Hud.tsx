@@ -1,6 +1,7 @@
 // What is pointed at, and how many hulls there are and are selected.
 import { useDesk } from "../../store/desk";
 import { useProject } from "../../store/project";
+import { useFormerLabels } from "../../store/relabelled";
 import { type Scene, useScenes } from "../../store/scenes";
 import { counted } from "../../store/words";
 import { Swatch } from "../../ui/Section";
@@ -40,6 +41,8 @@ function Pointed() {
 }
 
 function HullLine({ hull }: { hull: HullView }) {
+  const scene = useScenes((state) => state.scene);
+  const was = useFormerLabels(scene?.asset ?? "", scene?.view.hulls ?? NONE).get(hull.name);
   const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
   const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
   return (
@@ -51,6 +54,7 @@ function HullLine({ hull }: { hull: HullView }) {
         <span>
           <Swatch color={color ?? "var(--hull-unlabelled)"} hatched={isUnsure(hull)} /> {hull.label}
           {isUnsure(hull) ? `, unsure${share}` : share}
+          {was !== undefined && `, was ${was}`}
         </span>
       )}
       <span>{volumeText(hull.volume)}</span>
@@ -58,6 +62,8 @@ function HullLine({ hull }: { hull: HullView }) {
     </div>
   );
 }
+
+const NONE: readonly HullView[] = [];
 
 function Counts() {
   const scene = useScenes((state) => state.scene);

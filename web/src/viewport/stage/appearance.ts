@@ -2,6 +2,7 @@
 import { type Tool, useDesk } from "../../store/desk";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
+import { relabelledOn } from "../../store/relabelled";
 import type { Scene } from "../../store/scenes";
 import { tones } from "../colors/palette";
 import type { Ink } from "../drawing/ink";
@@ -24,11 +25,21 @@ export function appearances(scene: Scene, ink: Ink): { shown: Appearance; before
 /** Previews stand back while hulls are picked for something else. */
 export const showsPreview = (tool: Tool): boolean => tool !== "cut" && tool !== "landmark";
 
-/** What was changed, where before and after are beside each other. */
-function compared({ edit }: Scene): ReadonlySet<string> | null {
-  if (!edit || useDesk.getState().view.compare === "off") return null;
+/** What was changed: in its label by the last edit of all labels, or where before and after are beside each other. */
+function compared(scene: Scene): ReadonlySet<string> | null {
+  const { stage, view } = useDesk.getState();
+  const { edit } = scene;
+  if (!edit) return stage === "label" ? relabelled(scene) : null;
+  if (view.compare === "off") return null;
   const changed = new Set([...edit.made, ...edit.removed]);
   return changed.size ? changed : null;
+}
+
+/** The hulls that got another label; null where these are all, so that none stands out. */
+function relabelled({ asset, hulls }: Scene): ReadonlySet<string> | null {
+  const found = relabelledOn(asset);
+  const places = found ? [...found.new, ...found.changed] : [];
+  return places.length && places.length < hulls.length ? new Set(places.flatMap((k) => hulls[k]?.name ?? [])) : null;
 }
 
 /** The hulls that a rule or an extractor points out on this asset, and what was made of them. */

@@ -5,6 +5,7 @@ import { type DeskState, useDesk } from "../../store/desk";
 import { forgetGone } from "../../store/hiding";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
+import { watchRelabelled } from "../../store/relabelled";
 import { sceneOf, type Scene, useScenes } from "../../store/scenes";
 import { complainedOf } from "../../store/toasts";
 import { appearances } from "./appearance";
@@ -48,6 +49,7 @@ export function follow(stage: Stage): () => void {
     usePointing.subscribe((now, before) => {
       if (now.region !== before.region) repaint();
     }),
+    watchRelabelled(repaint),
     useCutting.subscribe(() => placeCut(stage)),
     watchTheme(() => {
       stage.change((contents) => contents.setInk(readInk()));
@@ -58,7 +60,7 @@ export function follow(stage: Stage): () => void {
   return () => stops.forEach((stop) => stop());
 }
 
-const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool"] as const;
+const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool", "stage"] as const;
 
 function paint(stage: Stage): void {
   const { shown } = stage;
@@ -72,10 +74,11 @@ function paint(stage: Stage): void {
   stage.change(({ graph }) => graph.set(nodes, lines));
 }
 
-function obey(stage: Stage, { cameraOrder, selection }: DeskState): void {
+function obey(stage: Stage, { asset, cameraOrder, selection }: DeskState): void {
   const now = performance.now() / 1000;
   if (cameraOrder.to === "fit") stage.frame(null, now);
   else if (cameraOrder.to === "frame") stage.frame(selection, now);
+  else if (cameraOrder.to === "near") stage.lookAt(asset ?? "", selection);
   else stage.view.lookFrom(cameraOrder.to, now);
   stage.invalidate();
 }

@@ -61,7 +61,7 @@ export function pixelOfHull(stage: Stage, name: string, isOpen: (x: number, y: n
 }
 
 /** The middle of a hull, and of each of its triangles. */
-function* spotsOf({ hulls }: Side, place: number, explode: number): Generator<Point> {
+export function* spotsOf({ hulls }: Side, place: number, explode: number): Generator<Point> {
   yield hulls.middle(place, explode);
   const { faces, index, positions } = hulls.shapes;
   const away = hulls.aways[place] ?? [0, 0, 0];

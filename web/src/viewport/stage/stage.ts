@@ -5,6 +5,7 @@ import { View } from "../camera/view";
 import { pointsOf, type Side } from "../drawing/side";
 import type { Point } from "../shapes/merged";
 import type { Eye } from "../shapes/silhouette";
+import { poseTowards } from "./approach";
 import { Contents } from "./contents";
 import { drawPanes, MANY_LINES } from "./draw";
 import type { Gap } from "./graph";
@@ -31,6 +32,8 @@ export class Stage {
   private screenPixel = 1;
   private readonly pace = new Pace(() => this.invalidate());
   private wantsFit = false;
+  /** Hulls to be looked at as soon as their asset is shown. */
+  private wanted: { asset: string; names: ReadonlySet<string> } | null = null;
   private readonly drawnSize = new Vector2();
   private readonly drawn = new Set<() => void>();
 
@@ -58,6 +61,7 @@ export class Stage {
     if (!isOther || !scene) return;
     this.pace.restart();
     this.wantsFit = true;
+    if (this.wanted?.asset !== scene.asset) this.wanted = null;
   }
 
   set(settings: Settings): void {
@@ -76,6 +80,12 @@ export class Stage {
   frame(names: ReadonlySet<string> | null, now: number | null): void {
     const points = this.shown ? pointsOf(this.shown, names?.size ? names : null, this.settings.explode) : [];
     if (points.length) this.view.fit(points, now);
+    this.invalidate();
+  }
+
+  /** Looks at some hulls of an asset, which may be on its way yet. */
+  lookAt(asset: string, names: ReadonlySet<string>): void {
+    this.wanted = { asset, names };
     this.invalidate();
   }
 
@@ -123,6 +133,7 @@ export class Stage {
       this.wantsFit = false;
       this.frame(null, null);
     }
+    this.approach(now);
     const moves = this.view.advance(now);
     drawPanes(gl, this, panes);
     this.frames++;
@@ -140,6 +151,13 @@ export class Stage {
   dispose(): void {
     this.pace.stop();
     this.contents.dispose();
+  }
+
+  private approach(now: number): void {
+    if (!this.wanted || this.wanted.asset !== this.shown?.scene.asset || this.height === 0) return;
+    const pose = poseTowards(this, this.wanted.names);
+    this.wanted = null;
+    if (pose) this.view.glideTo(pose, now);
   }
 
   /** Draws with a share of the pixels, and without thin lines where that is below 1. */

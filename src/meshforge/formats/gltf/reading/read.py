@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from urllib.parse import unquote
 
-from meshforge.asset import Asset, Body, Geom, Inertial, Mechanism, Opaque, unique_names
+from meshforge.asset import Asset, Body, Geom, Inertial, Mechanism, Mentions, Opaque, unique_names
 from meshforge.errors import AssetError
 from meshforge.formats.companions import companions
 from meshforge.formats.gltf.document import BODY, Authored, Convention, GltfDocument
 from meshforge.formats.gltf.reading.bodies import body_nodes, rigid
+from meshforge.formats.gltf.reading.mentions import source_mentions
 from meshforge.formats.gltf.reading.motions import inertial_of
 from meshforge.formats.gltf.reading.names import hull_names
 from meshforge.formats.gltf.reading.notes import scene_notes
@@ -37,7 +38,8 @@ def read_gltf(path: Path) -> Asset:
         fixed = _is_fixed(scene, reader.convention, sources, bodies)
         notes = [*scene_notes(scene, reader.convention), *reader.notes]
         authored = authored_of(sources, bodies)
-        geoms = tuple(_geoms(authored, sources))
+        said = [source_mentions(scene, source) for source in sources]
+        geoms = tuple(_geoms(authored, sources, said))
         masses = tuple(_masses(scene, bodies, geoms))
         digests = tuple((file, digest_of(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
@@ -49,7 +51,7 @@ def read_gltf(path: Path) -> Asset:
         bodies=_bodies(scene, bodies, fixed),
         geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
-        opaque=tuple(_opaque(authored, sources)),
+        opaque=tuple(_opaque(authored, sources, said)),
         visuals=_visuals(source, path, bodies, reader.convention),
         files=files,
         missing=missing,
@@ -107,18 +109,22 @@ def _masses(scene: Scene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence
             yield inertial
 
 
-def _geoms(authored: Sequence[Authored], sources: Sequence[Source]) -> Iterator[Geom]:
-    for element, source in zip(authored, sources, strict=True):
-        for name, part in zip(element.names, source.parts, strict=True):
+def _geoms(
+    authored: Sequence[Authored], sources: Sequence[Source], said: Sequence[Sequence[Mentions]]
+) -> Iterator[Geom]:
+    for element, source, words in zip(authored, sources, said, strict=True):
+        for name, part, own in zip(element.names, source.parts, words, strict=True):
             if part.shape is not None:
-                yield Geom(name, element.body, part.shape)
+                yield Geom(name, element.body, part.shape, mentions=own)
 
 
-def _opaque(authored: Sequence[Authored], sources: Sequence[Source]) -> Iterator[Opaque]:
-    for element, source in zip(authored, sources, strict=True):
-        for name, part in zip(element.names, source.parts, strict=True):
+def _opaque(
+    authored: Sequence[Authored], sources: Sequence[Source], said: Sequence[Sequence[Mentions]]
+) -> Iterator[Opaque]:
+    for element, source, words in zip(authored, sources, said, strict=True):
+        for name, part, own in zip(element.names, source.parts, words, strict=True):
             if part.shape is None:
-                yield Opaque(name, element.body, part.reason, part.surface, source.plane)
+                yield Opaque(name, element.body, part.reason, part.surface, source.plane, own)
 
 
 def _visuals(

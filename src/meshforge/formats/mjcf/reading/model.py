@@ -11,6 +11,7 @@ from meshforge.formats.mjcf.files.sources import Tree
 from meshforge.formats.mjcf.reading.contact import contact_attributes
 from meshforge.formats.mjcf.reading.engine import Compiled
 from meshforge.formats.mjcf.reading.kinematics import body_poses, geom_poses, rotation_of
+from meshforge.formats.mjcf.reading.mentions import GeomMentions
 from meshforge.formats.mjcf.reading.shapes import Shapes
 from meshforge.geometry import Pose
 
@@ -44,16 +45,17 @@ class Reading:
         import mujoco
 
         geoms, opaque = [], []
-        shapes = Shapes(self.model)
+        shapes, said = Shapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
                 continue
             part = shapes.part(k, pose)
             if part.shape is not None:
-                geoms.append(Geom(name, body, part.shape, contact=contact_attributes(self.model, k)))
+                contact = contact_attributes(self.model, k)
+                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=said.of(k)))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane))
+                opaque.append(Opaque(name, body, part.reason, part.surface, plane, said.of(k)))
         return tuple(geoms), tuple(opaque)
 
     @cached_property

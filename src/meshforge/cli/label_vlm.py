@@ -1,0 +1,168 @@
+"""`meshforge label --with vlm`: what would be sent, or what a model said and what it cost."""
+
+from __future__ import annotations
+
+import threading
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from meshforge.perception.vlm import Bill
+    from meshforge.project import Project, VlmForecast, VlmLabelled, VlmSettings
+
+_SHOWN = 8  # names in a row
+
+
+@dataclass(frozen=True)
+class VlmOptions:
+    """What the command line says of the model; None where it leaves that to meshforge.toml."""
+
+    model: str | None = None
+    base_url: str | None = None
+    mode: str | None = None
+    max_cost: float | None = None
+
+    def settings(self, project: Project) -> VlmSettings:
+        """The settings of the project with these in their place. Raises UsageError where they do not fit."""
+        from pydantic import ValidationError
+
+        from meshforge.errors import UsageError, complaint
+        from meshforge.project import VlmSettings
+
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        try:
+            return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
+        except ValidationError as error:
+            raise UsageError(complaint(error)) from error
+
+    @property
+    def given(self) -> str | None:
+        """The first option that was given, as it is typed."""
+        names = (name for name, value in asdict(self).items() if value is not None)
+        return next((f"--{name.replace('_', '-')}" for name in names), None)
+
+
+def foretell(project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, *, json: bool) -> None:
+    """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
+    from meshforge.cli.interruption import interruptible
+    from meshforge.cli.output import print_json, progress
+
+    settings = options.settings(project)
+    with progress(len(project.assets()), "drawing") as advance, interruptible() as stop:
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary)
+        if stop():
+            raise KeyboardInterrupt
+    if json:
+        print_json(asdict(found), compact=True)
+    else:
+        _say_forecast(found)
+
+
+def ask(project: Project, options: VlmOptions) -> VlmLabelled:
+    """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
+    from meshforge.cli.interruption import interruptible
+    from meshforge.cli.output import progress
+
+    settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
+    bar = progress(len(project.assets()), f"asking {settings.model}")
+    with bar as advance, interruptible() as stop, _said_at(stop, waiting):
+        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop)
+
+
+@contextmanager
+def _said_at(stop: Callable[[], bool], text: str) -> Iterator[None]:
+    """Within the block, say so as soon as a stop is wanted, whatever is waited for then."""
+    from meshforge.cli.output import remark
+
+    over = threading.Event()
+
+    def watch() -> None:
+        while not over.wait(0.1):
+            if stop():
+                remark(text)
+                return
+
+    threading.Thread(target=watch, daemon=True).start()
+    try:
+        yield
+    finally:
+        over.set()
+
+
+def say_open(found: VlmLabelled, asset: str) -> None:
+    """Name the hulls of an asset that got no label, by why."""
+    from meshforge.words import listed
+
+    by_reason: dict[str, list[str]] = defaultdict(list)
+    for hull, why in found.open.get(asset, {}).items():
+        by_reason[why].append(hull)
+    for why, hulls in by_reason.items():
+        typer.echo(f"    no label: {listed(hulls, _SHOWN)} ({why})")
+
+
+def close(project: Project, found: VlmLabelled, *, json: bool) -> None:
+    """Say what it all came to, and where it can be looked at."""
+    from meshforge.cli.output import print_json, remark
+    from meshforge.words import listed
+
+    pages = project.layout.vlm / "pages"
+    if json:
+        ending = {"ended": found.ended, "unasked": list(found.unasked), "blind": found.blind}
+        print_json({"bill": asdict(found.bill)} | ending, compact=True)
+        return
+    typer.echo(_bill(found.bill))
+    if any(found.open.values()) or found.bill.answered + found.bill.cached:
+        typer.echo(f"what was sent and what came back: {pages}")
+    if found.blind:
+        remark("The model took a red picture for another one: it may not see pictures at all.")
+    if found.ended:
+        remark(f"The asking ended early: {found.ended}")
+    if found.unasked:
+        remark(f"not labelled: {listed(found.unasked, _SHOWN)}; run it again to go on")
+
+
+def as_json(found: VlmLabelled, asset: str) -> dict[str, Any]:
+    """What is told of an asset besides its report."""
+    return {"open": found.open.get(asset, {})}
+
+
+def _bill(bill: Bill) -> str:
+    from meshforge.words import counted
+
+    parts = [f"{counted(bill.answered, 'answer')}"]
+    parts += [f"{bill.cached} more from earlier"] if bill.cached else []
+    parts += [f"{counted(bill.retries, 'attempt')} repeated"] if bill.retries else []
+    tokens = f"{bill.usage.input:,} tokens in, {bill.usage.output:,} out"
+    tokens += " (estimated, since the server does not tell)" if bill.usage.estimated else ""
+    return f"{', '.join(parts)}; {tokens}; {_cost(bill)}"
+
+
+def _cost(bill: Bill) -> str:
+    from meshforge.words import counted
+
+    if bill.cost is None:
+        return "cost not known: write input_price and output_price into [vlm]"
+    lost = f", and up to ${bill.perhaps:.4f} should {counted(bill.lost, 'lost attempt')} be charged for"
+    return f"${bill.cost:.4f}{lost if bill.lost else ''}"
+
+
+def _say_forecast(found: VlmForecast) -> None:
+    from meshforge.words import counted, listed
+
+    hulls = f"{counted(found.assets, 'asset')} with {counted(found.hulls, 'hull')} to be labelled"
+    typer.echo(f"{found.model} at {found.host}, mode {found.mode}: {hulls}")
+    known = f"; {found.known} more have their answer already" if found.known else ""
+    fresh = found.questions - found.known
+    typer.echo(f"would send {counted(fresh, 'question')} with {counted(found.pictures, 'picture')}{known}")
+    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
+    typer.echo(f"about {found.input:,} tokens in and {found.output:,} out: {cost}")
+    if found.unreadable:
+        typer.echo(f"cannot be read: {listed(found.unreadable, _SHOWN)}")
+    if not found.key_is_set:
+        typer.echo(f"the key is not there: the environment variable {found.key} is not set")
+    typer.echo("nothing was sent")

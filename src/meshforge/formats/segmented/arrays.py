@@ -1,0 +1,103 @@
+"""Segmented points and meshes as NumPy leaves them: `.npz` with several arrays, `.npy` with one."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.errors import AssetError
+from meshforge.formats.segmented.classes import in_order
+from meshforge.formats.segmented.segmented import Segmented, checked, rank_of, whole_numbers
+from meshforge.geometry import Floats, Ints
+
+Array = npt.NDArray[Any]
+_POINTS = ("points", "vertices", "verts", "xyz", "coords", "coord", "pos", "pts")
+_FACES = ("faces", "triangles", "face", "tris")
+_NAMES = ("names", "classes", "class_names", "label_names", "part_names", "labels_names")
+_REMEDY = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
+
+
+def read_arrays(path: Path) -> Segmented:
+    """The points or faces in an `.npz` or `.npy` file with their classes. Raises AssetError."""
+    where = str(path)
+    found = _loaded(path)
+    return checked(_of_several(found, where) if isinstance(found, dict) else _of_one(found, where), where)
+
+
+def _loaded(path: Path) -> Array | dict[str, Array]:
+    """What a file holds; pickled objects, which may run anything, are not read."""
+    try:
+        with path.open("rb") as stream:
+            found = np.load(stream, allow_pickle=False)
+            return (
+                {key.lower(): found[key] for key in found.files} if isinstance(found, np.lib.npyio.NpzFile) else found
+            )
+    except (ValueError, EOFError, KeyError, zipfile.BadZipFile, MemoryError) as error:
+        problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
+        raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
+
+
+def _of_several(arrays: Mapping[str, Array], where: str) -> Segmented:
+    names = next((arrays[key] for key in _NAMES if key in arrays and arrays[key].dtype.kind in "US"), None)
+    ranks = [
+        (rank, key)
+        for key, array in arrays.items()
+        if array.ndim and array.dtype.kind in "iufb" and (rank := rank_of(key)) is not None
+    ]
+    points = next((arrays[key] for key in _POINTS if key in arrays), None)
+    if points is None or not ranks:
+        lacks = "points (or vertices)" if points is None else "labels"
+        holds = ", ".join(sorted(arrays)) or "nothing"
+        raise AssetError(f"it has no array {lacks}, but {holds}", where=where, remedy=_REMEDY)
+    faces = next((arrays[key] for key in _FACES if key in arrays), np.zeros((0, 3), dtype=np.int64))
+    classes, vertices = whole_numbers(arrays[min(ranks)[1]], where), _points(points, where)
+    if 0 < len(classes) == len(vertices) == len(faces):
+        problem = f"it has {len(faces):,} vertices and as many faces, so that it is open whose the classes are"
+        raise AssetError(problem, where=where, remedy="Leave the faces out if the classes are of vertices.")
+    of_faces = len(classes) == len(faces)
+    return Segmented(classes, vertices, _faces(faces, where), _named(names), of_faces=of_faces)
+
+
+def _of_one(array: Array, where: str) -> Segmented:
+    if array.dtype.names:
+        ranks = [(rank, key) for key in array.dtype.names if (rank := rank_of(key)) is not None]
+        if not ranks or not {"x", "y", "z"} <= set(array.dtype.names):
+            holds = ", ".join(array.dtype.names)
+            raise AssetError(f"it needs the fields x, y, z and label, it has {holds}", where=where, remedy=_REMEDY)
+        points = np.column_stack([array[axis].reshape(-1) for axis in "xyz"])
+        return Segmented(whole_numbers(array[min(ranks)[1]], where), _points(points, where))
+    if array.ndim == 2 and array.shape[1] == 4:
+        return Segmented(whole_numbers(array[:, 3], where), _points(array[:, :3], where))
+    if array.ndim == 1 or 1 in array.shape:
+        return Segmented(whole_numbers(array, where))
+    shape = " x ".join(map(str, array.shape)) or "no"
+    problem = f"it has {shape} numbers, where a class each is expected, or x, y, z and a class each"
+    raise AssetError(problem, where=where, remedy=_REMEDY)
+
+
+def _points(array: Array, where: str) -> Floats:
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iuf":
+        shape = " x ".join(map(str, array.shape)) or "no"
+        raise AssetError(f"its points are {shape} values of type {array.dtype}, not three numbers each", where=where)
+    return array.astype(np.float64)
+
+
+def _faces(array: Array, where: str) -> Ints:
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
+        shape = " x ".join(map(str, array.shape)) or "no"
+        problem = f"its faces are {shape} values of type {array.dtype}, not three numbers of vertices each"
+        raise AssetError(problem, where=where)
+    return array.astype(np.int64)
+
+
+def _named(names: Array | None) -> dict[int, str]:
+    if names is None:
+        return {}
+    return in_order([str(name, "utf-8", "replace") if isinstance(name, bytes) else str(name) for name in names.ravel()])

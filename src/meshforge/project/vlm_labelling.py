@@ -1,0 +1,147 @@
+"""Labels of a project's hulls from a vision-language model: each asset is written as soon as all is said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, closing, nullcontext
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.errors import UsageError, told
+from meshforge.project.found_labels import write_found
+from meshforge.project.labelling import Labelled
+from meshforge.project.vlm_settings import VlmSettings
+from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
+
+if TYPE_CHECKING:
+    from meshforge.perception.vlm import Bill, Client, Labeller, Pending, Said
+    from meshforge.project.project import Project
+
+Progress = Callable[["Bill"], None]
+Keeping = Callable[[str], AbstractContextManager[object]]
+
+
+@dataclass(frozen=True, slots=True)
+class VlmLabelled:
+    """What came of asking a model. reports: of all assets, in their order; bill: what it cost.
+
+    open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not come
+    to, and ended: why, None where all were; blind: the model did not tell the colour of a red picture.
+    """
+
+    reports: tuple[Labelled, ...]
+    bill: Bill
+    open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    unasked: tuple[str, ...] = ()
+    ended: str | None = None
+    blind: bool = False
+
+
+def label_with_vlm(
+    project: Project,
+    settings: VlmSettings,
+    progress: Progress | None = None,
+    stop: Callable[[], bool] | None = None,
+    keeping: Keeping = nullcontext,
+) -> VlmLabelled:
+    """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
+
+    progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: gives what is
+    entered while an asset's labels are written. Raises MeshForgeError where nothing could be asked at all.
+    """
+    from meshforge.perception.vlm import Client, Labeller
+
+    manner = settings.manner(project.vocabulary)
+    client = Client(settings.endpoint(), project.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
+    with closing(client), closing(Labeller(client, manner, examples_of(project, settings))) as labeller:
+        run = _Run(project, client, labeller, keeping, progress)
+        for asset in project.assets():
+            if client.end or (stop and stop()):
+                break
+            run.begin(asset)
+        run.finish()
+    return run.told()
+
+
+class _Run:
+    """Assets on their way: drawn one after the other, asked about at one time, written as they are done."""
+
+    def __init__(
+        self, project: Project, client: Client, labeller: Labeller, keeping: Keeping, progress: Progress | None
+    ) -> None:
+        self._project, self._client, self._labeller = project, client, labeller
+        self._keeping, self._progress = keeping, progress
+        self._pending: dict[str, tuple[SymbolicMesh, Pending]] = {}
+        self._reports: dict[str, Labelled] = {}
+        self._open: dict[str, Mapping[str, str]] = {}
+
+    def begin(self, asset: str) -> None:
+        """Draw an asset and ask about it; write those of which all is said by then."""
+        try:
+            mesh = self._project.mesh(asset)
+            self._pending[asset] = mesh, self._labeller.begin(mesh, wanted_of(mesh), asset)
+        except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
+            self._report(Labelled(asset, problems=(told(error, asset),)))
+            return
+        for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
+            self._write(done)
+
+    def finish(self) -> None:
+        """Wait for all answers, and write what they say."""
+        for asset in list(self._pending):
+            self._write(asset)
+
+    def told(self) -> VlmLabelled:
+        """What came of it all. Raises the error that ended it, where nothing came of it."""
+        end, bill = self._client.end, self._client.bill
+        if end and not bill.answered + bill.cached:
+            raise end
+        reports = tuple(self._reports[asset] for asset in self._project.assets() if asset in self._reports)
+        unasked = tuple(asset for asset in self._project.assets() if asset not in self._reports)
+        ended = end.message if end else "stopped" if unasked else None
+        return VlmLabelled(reports, bill, self._open, unasked, ended, self._client.is_blind)
+
+    def _write(self, asset: str) -> None:
+        mesh, pending = self._pending.pop(asset)
+        said = pending.said()
+        end = self._client.end
+        failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
+        if end and said.failed and not said.labels:
+            return  # it is told once that the asking ended, and which assets were not come to
+        with self._keeping(asset):
+            report = write_found(self._project, asset, mesh, said.labels)
+        if said.open:
+            self._open[asset] = said.open
+        if said.asked:
+            _write_page(self._project.layout.vlm, asset, said)
+        self._report(replace(report, problems=(*report.problems, *failed)))
+
+    def _report(self, report: Labelled) -> None:
+        self._reports[report.asset] = report
+        if self._progress:
+            self._progress(self._client.bill)
+
+
+def _write_page(folder: Path, asset: str, said: Said) -> None:
+    from meshforge.perception.vlm import write_page
+
+    write_page(folder, asset, said)
+
+
+def wanted_of(mesh: SymbolicMesh) -> list[str]:
+    """The hulls whose labels may change."""
+    return [hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES]
+
+
+def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
+    """The labelled assets that are shown as examples, with labels that somebody gave."""
+    meshes = []
+    for asset in settings.examples:
+        mesh = project.mesh(asset)
+        guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
+        if len(guessed) == len(mesh.hulls):
+            remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
+            raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
+        meshes.append(mesh.labelled(guessed))
+    return meshes

@@ -1,0 +1,113 @@
+"""What the history tells of labels: what the last edit of all did, and what was said since they were carried over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, get_args
+
+from meshforge.errors import MeshForgeError
+from meshforge.studio.history import Entry, History
+from meshforge.studio.showing.relabelled import Labels, given_since, relabelled_asset, settled
+from meshforge.studio.wire.family import Card
+from meshforge.studio.wire.labelling import CarriedOver, Relabelled, Way
+from meshforge.symbolic import read_labels
+
+if TYPE_CHECKING:
+    from meshforge.project import Project
+
+_WAYS: tuple[str, ...] = get_args(Way)
+Names = Mapping[str, Sequence[str]]
+"""The names of the hulls of each asset, in order."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Used:
+    """Labels were carried over when so many entries were done; best: the asset that would help most then."""
+
+    entries: int
+    best: str | None
+
+
+class Relabelling:
+    """Reads the history of labels; what it has made out of an entry is kept as long as that is the last one."""
+
+    def __init__(self, history: History) -> None:
+        self._history = history
+        self._known: tuple[Entry, int, Relabelled] | None = None
+        self._stayed: tuple[tuple[Entry, ...], str | None] | None = None
+
+    def relabelled(self, names: Names) -> Relabelled | None:
+        """What the last edit did to assets whose hulls are known by now; None where it was not one of all labels."""
+        done = self._history.done
+        if not done or done[-1].edit.get("kind") not in _WAYS:
+            return None
+        entry = done[-1]
+        if self._known is None or self._known[0] is not entry or self._known[1] != len(names):
+            self._known = entry, len(names), self._made(entry, len(done), names)
+        return self._known[2]
+
+    def stayed(self, entries: int, best: str | None) -> None:
+        """Labels were carried over when so many entries were done, and stayed as they were, so that it is no entry."""
+        self._stayed = self._history.done[:entries], best
+
+    def carried(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
+        """How it stands with labels that were carried over; None where they never were, or where that is undone."""
+        done = self._history.done
+        used = self._used(done)
+        if used is None:
+            return None
+        is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
+        states = self._states(project, done[used.entries :])
+        unused = sum(given_since(before, now) for before, now in states)
+        return CarriedOver(unused=unused, next=used.best if is_open else None)
+
+    def _made(self, entry: Entry, number: int, names: Names) -> Relabelled:
+        files = {asset: name for asset, name in _files(entry.names).items() if asset in names}
+        states = [(a, self._held(entry.before[name]), self._held(entry.after[name])) for a, name in files.items()]
+        assets = (relabelled_asset(asset, names[asset], before, after) for asset, before, after in states)
+        return Relabelled(
+            entry=number,
+            way=entry.edit["kind"],
+            assets=tuple(filter(None, assets)),
+            settled=sum(settled(before, after) for _, before, after in states),
+        )
+
+    def _used(self, done: tuple[Entry, ...]) -> _Used | None:
+        """The last time that labels were carried over."""
+        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
+        edit = {} if last is None else done[last].edit
+        found = None if last is None else _Used(min(edit.get("used", last), last), edit.get("next"))
+        if self._stayed and done[: len(self._stayed[0])] == self._stayed[0]:
+            again = _Used(len(self._stayed[0]), self._stayed[1])
+            return again if found is None or again.entries > found.entries else found
+        return found
+
+    def _states(self, project: Project, since: Sequence[Entry]) -> Iterator[tuple[Labels, Labels]]:
+        """The labels of each asset that people or files labelled since: before that, in words of today, and now."""
+        first: dict[str, str | None] = {}
+        for entry in since:
+            first = first if entry.edit.get("kind") == "propagate" else entry.before | first
+        words = [(entry.edit["old"], entry.edit["new"]) for entry in since if entry.edit.get("kind") == "rename-label"]
+        known = set(project.assets())
+        for asset, name in _files(first).items():
+            if asset in known:
+                before = self._held(first[name])
+                for old, new in words:
+                    before = {hull: replace(x, name=new) if x.name == old else x for hull, x in before.items()}
+                try:
+                    yield before, project.labels(asset).labels
+                except MeshForgeError:  # its card tells that they cannot be read
+                    continue
+
+    def _held(self, digest: str | None) -> Labels:
+        """What a labels file held; nothing where there was none, or where the history was damaged."""
+        try:
+            return read_labels(self._history.held(digest)).labels if digest else {}
+        except MeshForgeError:
+            return {}
+
+
+def _files(names: Iterable[str]) -> dict[str, str]:
+    """Of some files, by their paths from the project's folder, those of labels, by asset."""
+    return {name.removeprefix("labels/").removesuffix(".json"): name for name in names if name.startswith("labels/")}

@@ -1,0 +1,130 @@
+"""One shot, drawn: the numbered picture and the plain one under the same camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from meshforge.geometry import Floats, Ints
+from meshforge.views.camera import Camera, View
+from meshforge.views.labelling.arrangement import Arrangement
+from meshforge.views.labelling.flat import Page, drawn_over, framed, ink, shaded
+from meshforge.views.labelling.paper import Key, draw_head, draw_numbers, head_height, type_sizes
+from meshforge.views.labelling.placing import LEAST, Size, placed
+from meshforge.views.labelling.shot import Shot
+from meshforge.views.labelling.sitter import NEUTRAL, Sitter
+from meshforge.views.middles import Middle
+from meshforge.views.outline import Lines
+from meshforge.views.stage import Hits
+from meshforge.views.text import INK
+
+_FAINT = 0.28  # of full ink, for hulls that are only hinted at
+
+
+@dataclass(frozen=True, eq=False)
+class Easel:
+    """Where a sitter's pictures are drawn; size: pixels along each side."""
+
+    sitter: Sitter
+    size: int
+
+    @property
+    def room(self) -> tuple[int, int]:
+        """Width and height that words leave to the drawing [px]."""
+        return self.size, self.size - head_height(self.size) - self._key.height
+
+    def drawn(self, arrangement: Arrangement, view: View) -> Shot:
+        """The picture of an arrangement from one side."""
+        from PIL import ImageDraw
+
+        sitter, top = self.sitter, head_height(self.size)
+        camera = arrangement.camera(view, self.room)
+        hits = arrangement.seen(camera)
+        items = arrangement.items(hits)
+        drawing, faint = ink(hits, self._line), self._faint(arrangement, hits, camera)
+        colors = sitter.colors[list(arrangement.solid)]
+        marked = framed(self._page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
+        draw = ImageDraw.Draw(marked)
+        numbered = self._number(draw, arrangement, items, camera, top)
+        draw_head(draw, self.size, arrangement.name(view), camera, arrangement.stage.upright)
+        self._key.draw(draw, numbered, sitter.colors)
+        plain = self._visual(arrangement, camera)
+        if plain is None:
+            plain = self._page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
+        hulls = sitter.mesh.hulls
+        counts = np.bincount(items[items >= 0], minlength=len(hulls)).tolist()
+        return Shot(
+            arrangement.name(view),
+            marked,
+            framed(plain, self.size, top),
+            {hull.name: n for hull, n in zip(hulls, counts, strict=True)},
+            frozenset(hulls[k].name for k in numbered),
+        )
+
+    @cached_property
+    def _key(self) -> Key:
+        return Key(self.sitter.texts, self.size)
+
+    @cached_property
+    def _sizes(self) -> dict[int, dict[int, Size]]:
+        return type_sizes(self.sitter.texts, self.size)
+
+    @property
+    def _line(self) -> int:
+        """How wide lines are [px]."""
+        return max(2, round(self.size / 512))
+
+    def _page(
+        self,
+        arrangement: Arrangement,
+        hits: Hits,
+        colors: Floats,
+        camera: Camera,
+        drawing: Lines,
+        faint: Lines | None,
+    ) -> Page:
+        """The solid hulls in their colours, and their lines and those of the faint ones."""
+        page = shaded(hits, colors, arrangement.stage, camera)
+        drawn_over(page, drawing)
+        if faint is not None:
+            drawn_over(page, faint, _FAINT)
+        return page
+
+    def _faint(self, arrangement: Arrangement, hits: Hits, camera: Camera) -> Lines | None:
+        """The lines (h, w) of hulls that are only hinted at, where nothing else is; None without such hulls."""
+        behind = arrangement.behind(camera)
+        return np.where(hits.item < 0, ink(behind, self._line), np.uint8(0)) if behind else None
+
+    def _visual(self, arrangement: Arrangement, camera: Camera) -> Page | None:
+        """The visual mesh, where it can be shown."""
+        visual = arrangement.visual(camera)
+        if visual is None:
+            return None
+        hits, steps = visual
+        page = shaded(hits, self.sitter.visuals[1], arrangement.stage, camera)
+        drawn_over(page, ink(hits, self._line, steps, self.sitter.smooth))
+        return page
+
+    def _number(self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera, top: int) -> list[int]:
+        """Writes the numbers of hulls, and returns which have one."""
+        known: dict[int, Middle] = {}
+        if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST:
+            (alone,) = arrangement.solid
+            first, last = _ends(arrangement, camera)
+            draw.line([(column, row + top) for column, row in (first.tolist(), last.tolist())], INK, self._line)
+            column, row = ((first + last) / 2).round().astype(int).tolist()
+            known[alone] = Middle(column, row, 0.0)
+        places = placed(items, self._sizes, known)
+        draw_numbers(draw, places, self.sitter.texts, self.sitter.colors, top)
+        return sorted(place.item for place in places)
+
+
+def _ends(arrangement: Arrangement, camera: Camera) -> tuple[Floats, Floats]:
+    """Column and row (2,) of the two ends of a hull that is drawn alone and too thin for rays to meet it."""
+    points = camera.pixels(arrangement.stage.placed(arrangement.skins[arrangement.solid[0]].vertices))
+    first: Floats = points[np.argmax(np.linalg.norm(points - points[0], axis=1))]
+    last: Floats = points[np.argmax(np.linalg.norm(points - first, axis=1))]
+    return first, last

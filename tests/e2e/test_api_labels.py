@@ -1,0 +1,197 @@
+"""Labels carried over in the studio: a job that blocks nothing, is one step of the history, and loses no label."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.project import Project
+from meshforge.symbolic import Label
+from tests.e2e.legs import HULLS, LABELS, four_legged
+from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
+from tests.studio_project import demo_project
+from tests.unit.batch.families import tree
+
+FIRST, SECOND, THIRD = "t0.obj", "t1.obj", "t2.obj"
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[Studio]:
+    """Tables, the first of which is labelled by a person."""
+    project = four_legged(tmp_path)
+    for name, label in LABELS.items():
+        project.set_labels(FIRST, {name: label})
+    with opened(tmp_path, project.folder) as found:
+        found.settled()
+        yield found
+
+
+def folder(studio: Studio) -> Path:
+    return Path(studio.settled()["project"]["folder"])
+
+
+def labels(studio: Studio) -> dict[str, bytes]:
+    return tree(folder(studio) / "labels")
+
+
+def carry(studio: Studio, page: Page) -> dict[str, Any]:
+    """Carry labels over; the job when it is over."""
+    return page.job(ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"])
+
+
+def relabelled(page: Page) -> dict[str, Any]:
+    """What is told of changed labels, after nothing was told."""
+    event = page.until(lambda e: e["kind"] == "relabelled" and e["relabelled"] is not None)
+    found: dict[str, Any] = event["relabelled"]
+    return found
+
+
+def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: Studio) -> None:
+    before = labels(studio)
+    assert "carry labels over" in studio.settled()["project"]["next"]["say"]
+    with studio.page() as page:
+        assert page.hello["relabelled"] is None
+        assert page.hello["project"]["carried"] is None
+        job = carry(studio, page)
+        assert (job["state"], job["done"], job["total"]) == ("done", 4, 4)
+        assert job["message"].startswith("15 labels on 3 assets; ")
+        found = relabelled(page)
+        assert (found["way"], found["entry"], found["settled"]) == ("propagate", 1, 0)
+        assert [(one["asset"], one["new"]) for one in found["assets"]] == [
+            (f"t{k}.obj", list(range(5))) for k in (1, 2, 3)
+        ]
+        cards = studio.cards(lambda cards: all(len(card["unsure"]) for card in list(cards.values())[1:]))
+        assert [card["given"] for card in cards.values()] == [5, 0, 0, 0]
+        assert all(set(card["unsure"]) <= {1, 2, 3, 4} for card in cards.values()), "tops are sure"
+        hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
+        assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
+        assert hello["project"]["carried"]["next"] in (SECOND, THIRD, "t3.obj")
+        after = labels(studio)
+        assert ok(studio.post("/api/undo"))["said"] == "labels carried over"
+        assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
+        assert labels(studio) == before
+        ok(studio.post("/api/redo"))
+        assert relabelled(page) == found
+        assert labels(studio) == after
+        studio.edit("label", asset=SECOND, hulls=["leg_a"], label="first")
+        assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
+        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 1)
+
+
+def test_a_studio_that_is_opened_anew_tells_the_same(tmp_path: Path) -> None:
+    project = four_legged(tmp_path)
+    project.set_labels(FIRST, {"top": "top"})
+    with opened(tmp_path, project.folder) as studio, studio.page() as page:
+        assert page.hello
+        carry(studio, page)
+        found = relabelled(page)
+    with opened(tmp_path, project.folder) as studio:
+        hello = studio.until(lambda hello: hello["relabelled"] is not None)
+        assert hello["relabelled"] == found
+
+
+def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -> None:
+    with studio.page() as page:
+        assert page.hello
+        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
+        assert studio.post("/api/jobs", {"kind": "propagate"}).status_code == 400
+        for name in HULLS:
+            studio.edit("label", asset=SECOND, hulls=[name], label="fourth")
+        assert page.job(job)["state"] == "done"
+    said = dict.fromkeys(HULLS, Label("fourth"))
+    project = Project.open(folder(studio))
+    assert dict(project.labels(SECOND).labels) == said
+    assert _given(studio, SECOND) == len(HULLS)
+    after = 0  # labels that came when all was carried over already
+    while ok(studio.post("/api/undo"))["said"] != "labels carried over":
+        after += 1
+    assert dict(project.labels(SECOND).labels) == dict(list(said.items())[: len(said) - after])
+    assert not project.labels(THIRD).labels
+    for _ in range(after + 1):
+        ok(studio.post("/api/redo"))
+    assert dict(project.labels(SECOND).labels) == said
+    assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 5)
+
+
+def _given(studio: Studio, asset: str) -> int:
+    """How many labels of an asset are a person's, once that is shown."""
+    cards = studio.cards(lambda cards: all(place >= 0 for place in cards[asset]["labels"]))
+    given: int = cards[asset]["given"]
+    return given
+
+
+def test_one_that_is_stopped_changes_nothing(studio: Studio) -> None:
+    before = labels(studio)
+    with studio.page() as page:
+        assert page.hello
+        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
+        ok(studio.post("/api/jobs/cancel", {"id": job}))
+        over = page.job(job)
+        assert (over["state"], over["message"]) == ("cancelled", "Cancelled: no label was changed.")
+        assert labels(studio) == before
+        assert studio.settled()["history"]["undoable"] == 0
+        assert carry(studio, page)["state"] == "done"
+
+
+def test_hulls_that_were_cut_meanwhile_are_told_and_nothing_is_written(studio: Studio) -> None:
+    with studio.page() as page:
+        assert page.hello
+        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
+        studio.edit("cut", asset=THIRD, hull="top", at=[1, 1, 1.45], across=[1, 0, 0])
+        over = page.job(job)
+        assert over["state"] == "failed"
+        assert "changed meanwhile" in over["message"]
+        assert set(labels(studio)) == {f"{FIRST}.json"}
+        assert ok(studio.post("/api/undo"))["said"] == f"top of {THIRD} cut in two"
+
+
+def test_it_says_what_is_missing(tmp_path: Path) -> None:
+    project = four_legged(tmp_path, words=())
+    with opened(tmp_path, project.folder) as studio:
+        studio.settled()
+        refused = studio.post("/api/jobs", {"kind": "propagate"})
+        assert (refused.status_code, refused.json()["message"]) == (400, "the vocabulary is empty")
+        studio.edit("vocabulary", labels=["top", "leg"])
+        refused = studio.post("/api/jobs", {"kind": "propagate"})
+        assert refused.json()["remedy"] == "Label the hulls of one asset first."
+
+
+def test_a_second_time_without_news_stays_as_it_is_and_uses_what_was_said(studio: Studio) -> None:
+    with studio.page() as page:
+        assert page.hello
+        carry(studio, page)
+        card = studio.cards(lambda cards: bool(cards[SECOND]["unsure"]))[SECOND]
+        words = [word["name"] for word in studio.settled()["project"]["vocabulary"]]
+        for k, name in enumerate(HULLS):
+            studio.edit("label", asset=SECOND, hulls=[name], label=words[card["labels"][k]])
+        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 5)
+        assert carry(studio, page)["state"] == "done"
+        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 0)
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.6, 1.2])
+def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) -> None:
+    project = demo_project(tmp_path, demonstrated=False)
+    for asset in project.assets()[1:]:
+        project.layout.labels(asset).unlink()
+    said = {"convex_00": Label("drawer")}
+    with opened(tmp_path, project.folder) as studio:
+        studio.settled()
+        studio.edit("label", asset="table_02.obj", hulls=["convex_00"], label="drawer")
+        before = labels(studio)
+        ok(studio.post("/api/jobs", {"kind": "propagate"}))
+        time.sleep(seconds)
+        studio.process.send_signal(signal.SIGKILL)
+        studio.process.wait(PATIENCE)
+    with opened(tmp_path, project.folder) as studio:
+        hello = studio.settled()
+        assert not any(card["error"] for card in hello["cards"])
+        assert said.items() <= dict(project.labels("table_02.obj").labels).items()
+        if hello["history"]["undo"] == "labels carried over":
+            ok(studio.post("/api/undo"))
+        assert {name: text for name, text in labels(studio).items() if not name.endswith(".tmp")} == before

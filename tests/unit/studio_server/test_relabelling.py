@@ -1,0 +1,277 @@
+"""What the history tells of labels that were carried over: what changed, what was said since, and taking it back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from meshforge.project import Project
+from meshforge.studio.edits import Edit
+from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, RenameLabel
+from meshforge.studio.edits.own import Propagate
+from meshforge.studio.history import History
+from meshforge.studio.state.relabelling import Relabelling
+from meshforge.studio.wire.family import Card
+from meshforge.studio.wire.labelling import CarriedOver
+from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
+from tests.unit.batch.families import label_of, table_boxes, tree
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.project.test_propagating import NAMES, family
+
+ASSETS = ("t0.obj", "t1.obj", "t2.obj")
+HULLS = dict.fromkeys(ASSETS, NAMES)
+
+
+def label(asset: str, hull: str, to: str | None) -> LabelHulls:
+    return LabelHulls(asset=asset, hulls=(hull,), label=to)
+
+
+def labelled(folder: Path) -> tuple[Project, History]:
+    """Three tables, of which one is labelled."""
+    project = family(folder)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    return project, History(project)
+
+
+def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
+    """Carry labels over, as the job does."""
+    with history.recorded(project, Propagate(used=history.view.undoable, next=best)):
+        project.propagate_labels()
+
+
+def labels(project: Project) -> dict[str, bytes]:
+    return tree(project.folder / "labels")
+
+
+def cards(project: Project) -> list[Card]:
+    rows = {asset: project.labels(asset).labels.values() for asset in ASSETS}
+    given = {asset: sum(one.source in GIVEN_SOURCES for one in row) for asset, row in rows.items()}
+    return [Card(asset=asset, hulls=len(NAMES), given=given[asset]) for asset in ASSETS]
+
+
+def carried(project: Project, history: History) -> CarriedOver | None:
+    return Relabelling(history).carried(project, cards(project))
+
+
+def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    before = labels(project)
+    carry(project, history)
+    after = labels(project)
+    assert before.keys() < after.keys()
+    assert len(history.undo(project)) == 1
+    assert labels(project) == before
+    assert len(history.redo(project)) == 1
+    assert labels(project) == after
+
+
+def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    relabelling = Relabelling(history)
+    assert relabelling.relabelled(HULLS) is None
+    carry(project, history)
+    found = relabelling.relabelled(HULLS)
+    assert found and (found.entry, found.way, found.settled) == (1, "propagate", 0)
+    assert [(one.asset, one.new, one.changed) for one in found.assets] == [
+        (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
+    ]
+    history.do(project, label("t1.obj", "crumb", "leg"))
+    assert relabelling.relabelled(HULLS) is None
+    history.undo(project)
+    assert relabelling.relabelled(HULLS) == found
+    assert Relabelling(History(project)).relabelled(HULLS) == found, "a studio that is opened anew knows it, too"
+    history.undo(project)
+    assert relabelling.relabelled(HULLS) is None
+    history.redo(project)
+    assert relabelling.relabelled(HULLS) == found
+
+
+def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    carry(project, history)
+    project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
+    carry(project, history)
+    found = Relabelling(history).relabelled(HULLS)
+    assert found and found.settled == 1
+    assert [one.model_dump() for one in found.assets] == [
+        {"asset": "t2.obj", "new": (), "changed": (NAMES.index("top"),), "was": ("misc",)}
+    ]
+
+
+def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    carry(project, history)
+    relabelling = Relabelling(history)
+    first = relabelling.relabelled({"t2.obj": NAMES})
+    assert first and [one.asset for one in first.assets] == ["t2.obj"]
+    both = relabelling.relabelled(HULLS)
+    assert both and [one.asset for one in both.assets] == ["t1.obj", "t2.obj"]
+
+
+def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    history = History(project)
+    history.do(project, LabelFromNames())
+    found = Relabelling(history).relabelled(HULLS)
+    assert found and found.way == "label-names"
+    assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
+
+
+def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    assert carried(project, history) is None
+    carry(project, history)
+    assert carried(project, history) == CarriedOver(unused=0, next="t1.obj")
+
+    def unused_after(edit: Edit) -> int:
+        history.do(project, edit)
+        now = carried(project, history)
+        assert now
+        return now.unused
+
+    assert unused_after(label("t1.obj", "crumb", "leg")) == 1
+    assert unused_after(label("t1.obj", "crumb", "misc")) == 1
+    assert unused_after(label("t1.obj", "top", "top")) == 2, "a label that was right is news, now that a person says it"
+    assert unused_after(label("t0.obj", "top", "misc")) == 3
+    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were carried over"
+    assert unused_after(RenameLabel(old="leg", new="foot")) == 2
+    assert unused_after(label("t1.obj", "crumb", None)) == 1
+    history.undo(project)
+    assert carried(project, history) == CarriedOver(unused=2, next="t1.obj")
+    project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
+    carry(project, history, "t2.obj")
+    assert carried(project, history) == CarriedOver(unused=0, next="t2.obj")
+    history.undo(project)
+    assert carried(project, history) == CarriedOver(unused=2, next="t1.obj")
+
+
+def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    relabelling = Relabelling(history)
+    relabelling.stayed(0, "t2.obj")
+    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    carry(project, history)
+    history.do(project, label("t1.obj", "top", "top"))
+    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
+    relabelling.stayed(2, "t2.obj")
+    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    history.do(project, label("t2.obj", "top", "top"))
+    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
+    history.undo(project)
+    history.undo(project)
+    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), "before it was said"
+
+
+def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+
+    @contextmanager
+    def keeping(best: str | None) -> Iterator[None]:
+        history.do(project, label("t1.obj", "crumb", "leg"))
+        with history.recorded(project, Propagate(used=0, next=best)):
+            yield
+
+    project.propagate_labels(keeping=keeping)
+    assert project.labels("t1.obj").labels["crumb"] == Label("leg")
+    now = carried(project, history)
+    assert now and now.unused == 1
+    history.undo(project)
+    assert {name: one.name for name, one in project.labels("t1.obj").labels.items()} == {"crumb": "leg"}
+
+
+def test_an_asset_that_is_labelled_is_no_longer_the_next(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    carry(project, history)
+    project.set_labels("t1.obj", {name: label_of(name) for name in NAMES[1:]})
+    assert carried(project, history) == CarriedOver(unused=0, next="t1.obj"), "others than the studio are not counted"
+    history.do(project, label("t1.obj", NAMES[0], label_of(NAMES[0])))
+    now = carried(project, history)
+    assert now and now.next is None
+
+
+def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    carry(project, history)
+    history.do(project, label("t1.obj", "crumb", "leg"))
+    for blob in (project.folder / ".meshforge/studio/history/blobs").glob("*/*"):
+        blob.write_bytes(b"{")
+    found = carried(project, history)
+    assert found and found.next == "t1.obj"
+    history = History(project)
+    history.do(project, label("t1.obj", "crumb", "misc"))
+    known = cards(project)
+    project.layout.labels("t1.obj").write_text("{")
+    assert Relabelling(history).carried(project, known) == CarriedOver(unused=0, next="t1.obj")
+
+
+MOVES = st.lists(
+    st.one_of(
+        st.builds(
+            label, st.sampled_from(ASSETS), st.sampled_from(tuple(table_boxes())), st.sampled_from(["leg", "misc"])
+        ),
+        st.sampled_from(["carry", "carry", "undo", "redo", "reopen"]),
+    ),
+    max_size=8,
+)
+
+
+@settings(max_examples=12, deadline=None)
+@given(moves=MOVES)
+def test_no_label_of_a_person_is_lost_whatever_is_done(
+    tmp_path_factory: pytest.TempPathFactory, moves: Sequence[LabelHulls | str]
+) -> None:
+    project, history = labelled(tmp_path_factory.mktemp("family"))
+    states, at = [(labels(project), _said(project))], 0
+    for move in moves:
+        if move == "reopen":
+            history = History(project)
+        elif move in ("undo", "redo"):
+            way = -1 if move == "undo" else 1
+            moved = bool(history.undo(project) if move == "undo" else history.redo(project))
+            at += way if moved else 0
+        else:
+            said = dict(states[at][1])
+            if isinstance(move, LabelHulls):
+                changed = history.do(project, move) is not None
+                said |= {(move.asset, move.hulls[0]): str(move.label)}
+            else:
+                done = history.view.undoable
+                carry(project, history)
+                changed = history.view.undoable > done
+            if changed:
+                states, at = [*states[: at + 1], (labels(project), said)], at + 1
+        assert (labels(project), _said(project)) == states[at]
+
+
+def _said(project: Project) -> dict[tuple[str, str], str]:
+    """What people said, by asset and hull."""
+    return {
+        (asset, name): one.name
+        for asset in ASSETS
+        for name, one in project.labels(asset).labels.items()
+        if one.source in HUMAN_SOURCES
+    }
+
+
+@needs_fork
+def test_carrying_over_that_is_killed_leaves_whole_labels_and_can_be_taken_back(tmp_path: Path) -> None:
+    project, history = labelled(tmp_path)
+    history.do(project, label("t1.obj", "crumb", "leg"))
+    before, said = labels(project), _said(project)
+    for _ in deaths(lambda: carry(project, History(project))):
+        left = {name: text for name, text in labels(project).items() if not name.endswith(".tmp")}
+        assert _said(project) == said
+        history = History(project)
+        if left == before:
+            assert history.view.undoable == 1
+            continue
+        assert history.view.undo == "labels carried over"
+        history.undo(project)
+        assert {name: text for name, text in labels(project).items() if not name.endswith(".tmp")} == before
+    assert _said(project) == said
+    assert len(project.labels("t2.obj").labels) == len(NAMES)
