@@ -30,7 +30,7 @@ export type Event =
   | ReachChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob;
+export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob;
 
 export interface Everything {
   ActionForm: ActionForm;
@@ -38,6 +38,7 @@ export interface Everything {
   AnyEdit: AnyEdit;
   ApplyJob: ApplyJob;
   Argument: Argument;
+  AskJob: AskJob;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
   Card: Card;
@@ -56,6 +57,7 @@ export interface Everything {
   Event: Event;
   ExportJob: ExportJob;
   FindingView: FindingView;
+  ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
   Generalised: Generalised;
   Guess: Guess;
@@ -78,6 +80,7 @@ export interface Everything {
   LessonChanged: LessonChanged;
   LessonView: LessonView;
   Mark: Mark;
+  Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
   NearestView: NearestView;
@@ -309,6 +312,14 @@ export interface DropCorrections {
 export interface ApplyJob {
   kind: "apply";
   assets?: string[] | null;
+}
+/**
+ * Ask the model that meshforge.toml names for labels. max_cost: dollars it may spend, null as that says.
+ */
+export interface AskJob {
+  kind: "ask";
+  mode: "cheap" | "balanced" | "exact";
+  max_cost?: number | null;
 }
 /**
  * An asset as it is prepared, in the frame it comes in.
@@ -617,7 +628,7 @@ export interface HistoryView {
  */
 export interface Relabelled {
   entry: number;
-  way: "propagate" | "label-files" | "label-names";
+  way: "propagate" | "label-files" | "label-names" | "label-vlm";
   assets: RelabelledAsset[];
   settled: number;
 }
@@ -756,7 +767,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate";
+  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask";
   title: string;
   done: number;
   total: number;
@@ -837,6 +848,13 @@ export interface ExportJob {
   folder?: string;
 }
 /**
+ * Find out what asking a model for labels would send and cost; nothing is sent.
+ */
+export interface ForecastJob {
+  kind: "forecast";
+  mode: "cheap" | "balanced" | "exact";
+}
+/**
  * What does an extractor select on all assets, as a rule of that number meets them?
  */
 export interface GeneraliseRequest {
@@ -883,11 +901,23 @@ export interface PropagateJob {
 }
 /**
  * Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
- * without a label whose names say one.
+ * without a label whose names say one; model: what can be asked, null where none is named.
  */
 export interface LabelSources {
   files: number;
   names: number;
+  model: Model | null;
+}
+/**
+ * The model that can be asked for labels. host: where it is; mode, max_cost: as meshforge.toml has them; why: what
+ * is in the way of asking it, null where nothing is.
+ */
+export interface Model {
+  name: string;
+  host: string;
+  mode: "cheap" | "balanced" | "exact";
+  max_cost?: number | null;
+  why?: string | null;
 }
 /**
  * The language: actions (all but Each, which is a switch), operators, directions.

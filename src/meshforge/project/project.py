@@ -311,13 +311,14 @@ class Project:
         *,
         progress: Callable[[Bill], None] | None = None,
         stop: Callable[[], bool] | None = None,
-        keeping: Callable[[str], AbstractContextManager[object]] = nullcontext,
+        keeping: Callable[[], AbstractContextManager[object]] | None = None,
     ) -> VlmLabelled:
         """Ask a vision-language model for labels; what a person or a file says stays.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
-        says when to ask no more; keeping: gives what is entered while an asset's labels are written. Answers are kept,
-        so that none is paid for twice. Raises MeshForgeError where nothing could be asked at all.
+        says when to ask no more; keeping: the block in which all labels are written, in the end; None writes those of
+        an asset as soon as all is said of it. Answers are kept, so that none is paid for twice. Raises MeshForgeError
+        where nothing could be asked at all.
         """
         return vlm_labelling.label_with_vlm(self, settings or self.settings.vlm, progress, stop, keeping)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager, closing, nullcontext
+from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 Progress = Callable[["Bill"], None]
-Keeping = Callable[[str], AbstractContextManager[object]]
+Keeping = Callable[[], AbstractContextManager[object]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +43,13 @@ def label_with_vlm(
     settings: VlmSettings,
     progress: Progress | None = None,
     stop: Callable[[], bool] | None = None,
-    keeping: Keeping = nullcontext,
+    keeping: Keeping | None = None,
 ) -> VlmLabelled:
     """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
 
-    progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: gives what is
-    entered while an asset's labels are written. Raises MeshForgeError where nothing could be asked at all.
+    progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: the block in
+    which all labels are written, in the end; None writes those of an asset as soon as all is said of it.
+    Raises MeshForgeError where nothing could be asked at all.
     """
     from meshforge.perception.vlm import Client, Labeller
 
@@ -68,13 +69,14 @@ class _Run:
     """Assets on their way: drawn one after the other, asked about at one time, written as they are done."""
 
     def __init__(
-        self, project: Project, client: Client, labeller: Labeller, keeping: Keeping, progress: Progress | None
+        self, project: Project, client: Client, labeller: Labeller, keeping: Keeping | None, progress: Progress | None
     ) -> None:
         self._project, self._client, self._labeller = project, client, labeller
         self._keeping, self._progress = keeping, progress
         self._pending: dict[str, tuple[SymbolicMesh, Pending]] = {}
         self._reports: dict[str, Labelled] = {}
         self._open: dict[str, Mapping[str, str]] = {}
+        self._unwritten: list[Callable[[], None]] = []
 
     def begin(self, asset: str) -> None:
         """Draw an asset and ask about it; write those of which all is said by then."""
@@ -82,7 +84,8 @@ class _Run:
             mesh = self._project.mesh(asset)
             self._pending[asset] = mesh, self._labeller.begin(mesh, wanted_of(mesh), asset)
         except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-            self._report(Labelled(asset, problems=(told(error, asset),)))
+            self._reports[asset] = Labelled(asset, problems=(told(error, asset),))
+            self._advance()
             return
         for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
             self._write(done)
@@ -91,6 +94,10 @@ class _Run:
         """Wait for all answers, and write what they say."""
         for asset in list(self._pending):
             self._write(asset)
+        if self._keeping and self._unwritten:
+            with self._keeping():
+                for write in self._unwritten:
+                    write()
 
     def told(self) -> VlmLabelled:
         """What came of it all. Raises the error that ended it, where nothing came of it."""
@@ -109,16 +116,22 @@ class _Run:
         failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
         if end and said.failed and not said.labels:
             return  # it is told once that the asking ended, and which assets were not come to
-        with self._keeping(asset):
-            report = write_found(self._project, asset, mesh, said.labels)
         if said.open:
             self._open[asset] = said.open
         if said.asked:
             _write_page(self._project.layout.vlm, asset, said)
-        self._report(replace(report, problems=(*report.problems, *failed)))
 
-    def _report(self, report: Labelled) -> None:
-        self._reports[report.asset] = report
+        def write() -> None:
+            report = write_found(self._project, asset, mesh, said.labels)
+            self._reports[asset] = replace(report, problems=(*report.problems, *failed))
+
+        if self._keeping:
+            self._unwritten.append(write)
+        else:
+            write()
+        self._advance()
+
+    def _advance(self) -> None:
         if self._progress:
             self._progress(self._client.bill)
 

@@ -27,7 +27,7 @@ def middles(items: Ints, wanted: Collection[int] | None = None, least: int = 1) 
     """The middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room first."""
     from scipy.ndimage import find_objects
 
-    counts = np.bincount(items[items >= 0].ravel())
+    counts = pixels_of(items)
     boxes: Any = find_objects((items + 1).astype(np.int32))
     found = {
         int(k): _middle(items[boxes[k]], int(k), boxes[k])
@@ -35,6 +35,12 @@ def middles(items: Ints, wanted: Collection[int] | None = None, least: int = 1) 
         if wanted is None or k in wanted
     }
     return dict(sorted(found.items(), key=lambda row: (-row[1].room, row[0])))
+
+
+def pixels_of(items: Ints, count: int = 0) -> Ints:
+    """How many pixels (h, w) show each item, for `count` items at least; -1 is none."""
+    counts: Ints = np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
+    return counts
 
 
 def _middle(part: Ints, item: int, where: tuple[slice, slice]) -> Middle:

@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.geometry import Aabb, Ints
 from meshforge.symbolic import SymbolicMesh
 from meshforge.views.camera import Up, View, look
+from meshforge.views.middles import pixels_of
 from meshforge.views.stage import Layer, Stage, cast, upright
 from meshforge.views.subject import skins_of, up_axis
 
@@ -38,5 +39,5 @@ def visible_hulls(
 ) -> Mapping[str, int]:
     """How many pixels of a picture show each hull, by name; hulls that are hidden have 0."""
     items = id_buffer(mesh, view=view, size=size, up=up)
-    counts = np.bincount(items[items >= 0].ravel(), minlength=len(mesh.hulls))
+    counts = pixels_of(items, len(mesh.hulls))
     return {hull.name: int(n) for hull, n in zip(mesh.hulls, counts, strict=True)}

@@ -239,7 +239,8 @@ def test_wrong_usage_is_one_message_and_exit_code_two(run: Run, words: tuple[str
 
 def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("new", "rows", "row.obj", "--vocabulary", "leg,panel").code == 0
-    assert run("label", "rows", "--with", "file", "--json").json["taken"] == 3
+    taken, summary = map(json.loads, run("label", "rows", "--with", "file", "--json").out.splitlines())
+    assert (taken["taken"], summary["labels"]["unlabelled"]) == (3, 0)
     assert run("synthesize", "rows").code == 2  # nothing is demonstrated yet
     assert run("demonstrate", "rows", "row.obj", "l*, far => Delete", "middle => Replace(sphere)").code == 0
     assert run("demonstrate", "rows", "row.obj").out == "1. far, left => Delete\n2. middle => Replace(sphere)\n"

@@ -14,7 +14,7 @@ def test_names_are_put_together_by_label_and_by_what_says_so(tmp_path: Path) -> 
     project = named(tmp_path, "door", "leg", base=("door1", "leg1", "leg2", "drr", "x"), oak_door=("a", "b"))
     assert project.propose_from_names([("x", "")]) == Proposals(
         rows=(
-            Proposal("door", "body", ("oak_door",), 2, 1, 0.7, 0.7),
+            Proposal("door", "body", ("oak_door",), 2, 1, 0.6, 0.6),
             Proposal("door", "hull", ("door1",), 1, 1, 0.7, 0.7),
             Proposal("leg", "hull", ("leg1", "leg2"), 2, 1, 0.7, 0.7),
         ),

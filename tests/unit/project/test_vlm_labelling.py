@@ -359,19 +359,21 @@ def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> 
         assert project.label_with_vlm(settings(server)).blind
 
 
-def test_each_asset_is_written_within_what_is_kept_for_it(tmp_path: Path) -> None:
+def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
     project = family(tmp_path, 2)
-    inside: list[str] = []
+    assets = project.assets()
+    inside: list[list[int]] = []
 
     @contextmanager
-    def keeping(asset: str) -> Iterator[None]:
-        before = labels(project, asset)
+    def keeping() -> Iterator[None]:
+        before = [len(labels(project, asset)) for asset in assets]
         yield
-        inside.append(f"{asset} {len(before)} {len(labels(project, asset))}")
+        inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
 
     with serving(right) as server:
-        project.label_with_vlm(settings(server), keeping=keeping)
-    assert sorted(inside) == ["t000.obj 0 6", "t001.obj 0 6"]
+        found = project.label_with_vlm(settings(server), keeping=keeping)
+    assert inside == [[0, 0, 6, 6]]
+    assert [report.taken for report in found.reports] == [6, 6]
 
 
 def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:

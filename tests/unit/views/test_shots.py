@@ -19,6 +19,8 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.views import Shot, numbers, png, shots
 from meshforge.views.camera import Camera
 from meshforge.views.labelling.arrangement import Arrangement
+from meshforge.views.labelling.further import arrangements
+from meshforge.views.labelling.paper import head_height
 from meshforge.views.labelling.picture import Easel
 from meshforge.views.labelling.placing import LEAST
 from meshforge.views.labelling.sights import LIKED, WORDS
@@ -184,6 +186,20 @@ def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
     taken = shots(mesh)
     (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
     assert close.seen["h1"] > 10 * max(shot.seen["h1"] for shot in taken if shot is not close)
+
+
+def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
+    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
+    easel = Easel(Sitter(mesh, (0, 1), "Z"), 512)
+    (near, _), *_ = arrangements(easel.sitter, [1])
+    shot = easel.drawn(near, "top")
+    width, height = easel.room
+    side = round(0.24 * 512)
+    assert sum(shot.seen.values()) == width * height - side**2, "the large cube is everywhere behind"
+    assert shot.numbered == {"h0", "h1"}
+    corner = pixels(shot.marked)[head_height(512) : head_height(512) + side, -side:]
+    assert corner.min() < 0.2, "a frame marks the place"
+    assert np.ptp(corner[:, side // 4], axis=1).max() < 0.1, "the large cube is pale there"
 
 
 def test_pictures_are_no_more_than_asked_for_where_all_is_seen() -> None:

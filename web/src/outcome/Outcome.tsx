@@ -23,6 +23,7 @@ const DONE: Readonly<Record<Relabelled["way"], string>> = {
   propagate: "Labels carried over",
   "label-files": "Labels taken from files",
   "label-names": "Labels taken from names",
+  "label-vlm": "Labels from a model",
 };
 
 /** Where labels are given, and nothing else is in hand. */

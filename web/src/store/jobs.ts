@@ -1,6 +1,6 @@
 // Long work that a person starts: carrying labels over, applying the program, exporting.
 import { api } from "../server/api";
-import type { JobRequest } from "../wire";
+import type { JobRequest, Model } from "../wire";
 import { useProject } from "./project";
 import { complainedOf } from "./toasts";
 import { givenLabels } from "./unsure";
@@ -26,21 +26,29 @@ export function notCarriable(): string | null {
   return given === hulls ? "Every hull is labelled by you or a file." : null;
 }
 
-async function start(request: JobRequest): Promise<boolean> {
+/** Begins a job, and gives its id; null where it cannot be begun. */
+async function begin(request: JobRequest): Promise<string | null> {
   try {
-    await api.startJob(request);
-    return true;
+    return (await api.startJob(request)).id;
   } catch (error) {
     complainedOf(error);
-    return false;
+    return null;
   }
 }
+
+const start = async (request: JobRequest): Promise<boolean> => (await begin(request)) !== null;
 
 /** Applies the program to all assets, or to some. */
 export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
   start({ kind: "apply", assets: assets && [...assets] });
 
 export const carryOver = (): Promise<boolean> => start({ kind: "propagate" });
+
+/** Finds out what asking the model would send and cost; gives the id of the job. */
+export const forecastAsking = (mode: Model["mode"]): Promise<string | null> => begin({ kind: "forecast", mode });
+
+export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<boolean> =>
+  start({ kind: "ask", mode, max_cost });
 
 export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
   start({ kind: "export", folder, accepted_only });

@@ -14,6 +14,7 @@ from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.plain.folder_tree import Member, Tree
 from meshforge.formats.plain.parts import all_parts, as_parts, member_names, natural, renaming
 from meshforge.formats.plain.plain import AS_HULLS, BODY, PlainFormat
+from meshforge.formats.segmented.places import is_segmented
 from meshforge.geometry import Pose
 
 
@@ -65,7 +66,7 @@ class Folder(Format):
         return sorted((f for f in files if self._knows(f)), key=lambda f: natural(f.name))
 
     def _knows(self, path: Path) -> bool:
-        return any(path.suffix.lower() in member.suffixes for member in self.members)
+        return not is_segmented(path) and any(path.suffix.lower() in member.suffixes for member in self.members)
 
     def format_of(self, path: Path) -> PlainFormat:
         """The format of a member. Raises StopIteration for a file of another kind."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from meshforge.perception.names.words import common, fillers, is_one_of, is_same
+from meshforge.perception.names.words import is_one_of, is_same, known
 
 EXACT = 0.7
 """How sure a label is whose word is in a name: names are given by people, though not for this."""
@@ -18,7 +18,7 @@ def likeness(word: str, meant: str) -> float:
     """How surely one word stands for another, 0 where it does not. Common words stand for themselves alone."""
     if is_same(word, meant):
         return EXACT
-    if is_one_of(word, common() | fillers()) or len(word) < _LEAST or len(meant) <= _LEAST or word[0] != meant[0]:
+    if is_one_of(word, known()) or len(word) < _LEAST or len(meant) <= _LEAST or word[0] != meant[0]:
         return 0.0
     if word == _consonants(meant):
         return _VOWELLESS

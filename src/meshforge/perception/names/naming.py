@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from meshforge.asset import Mentions
 from meshforge.perception.names.patterns import Pattern, fitting
-from meshforge.perception.names.saying import said
+from meshforge.perception.names.saying import UNSURE, said
 
 How = Literal["pattern", "word", "likeness"]
 
@@ -16,7 +16,8 @@ NAMELESS = "body"
 """What formats without bodies call the only one."""
 _PATTERN = 0.9
 _SURE = 0.5  # a name that is less sure gives way to the next
-_TRUST = {"class": 0.9, "shown": 0.9, "material": 0.75}
+_LESS = {"body": 0.1, "class": 0.1, "shown": 0.1, "material": 0.2}  # what a name says of several things at once
+_HULL = "hull"
 _OWN = ("visual", "mesh", "group", "node")
 _DIGITS = 2
 
@@ -36,7 +37,7 @@ class Names:
 
     def own_said(self) -> Iterator[tuple[str, str]]:
         """The kinds and the names that are its own, not its body's."""
-        yield "hull", self.own
+        yield _HULL, self.own
         yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
 
     def said(self) -> Iterator[tuple[str, str]]:
@@ -68,19 +69,27 @@ def told(names: Names, vocabulary: Sequence[str], patterns: Sequence[Pattern] = 
 
 
 def _by_pattern(names: Names, patterns: Sequence[Pattern]) -> Told | None:
-    for kind, name in (*names.said(), ("hull", names.hull)):
+    for kind, name in (*names.said(), (_HULL, names.hull)):
         if pattern := fitting(name, patterns):
             return Told(pattern.label or None, _PATTERN, kind, name, "pattern")
     return None
 
 
 def _by_words(names: Names, vocabulary: Sequence[str]) -> Told | None:
-    """What the first name says that is sure of it, else the one that is surest."""
-    found = []
+    """What the first name says that is sure of it, else the one that is surest.
+
+    It is unsure after all where another name of the hull's own is as sure of another label.
+    """
+    found = list(_said(names, vocabulary))
+    sure = [one for one in found if one.confidence >= _SURE]
+    if not sure:
+        return max(found, key=lambda one: one.confidence, default=None)
+    own = {one.label for one in sure if one.kind in (_HULL, *_OWN)}
+    return replace(sure[0], confidence=UNSURE) if len(own) > 1 else sure[0]
+
+
+def _said(names: Names, vocabulary: Sequence[str]) -> Iterator[Told]:
     for kind, name in names.said():
         if one := said(name, vocabulary):
-            confidence = round(one.confidence * _TRUST.get(kind, 1.0), _DIGITS)
-            found.append(Told(one.label, confidence, kind, name, "word" if one.exact else "likeness"))
-            if confidence >= _SURE:
-                return found[-1]
-    return max(found, key=lambda one: one.confidence, default=None)
+            confidence = round(one.confidence - _LESS.get(kind, 0.0), _DIGITS)
+            yield Told(one.label, confidence, kind, name, "word" if one.exact else "likeness")

@@ -9,8 +9,9 @@ from functools import lru_cache
 from meshforge.perception.names.likeness import EXACT, likeness
 from meshforge.perception.names.words import Words, fillers, is_one_of, is_same, parted, places, words_of
 
+UNSURE = 0.45
+"""How sure a label is at most where a name may mean another thing, or a place."""
 _LESS = 0.1  # for a label that is not alone in its name
-_UNSURE = 0.45  # where a name goes on with another thing, or it is open whether a thing or a place is meant
 _TURNED = frozenset(("of", "for", "on", "in"))
 _DIGITS = 2
 
@@ -44,13 +45,14 @@ def said(name: str, vocabulary: Sequence[str]) -> Said | None:
     The words of a label may be in the plural, shortened or misspelt, or joined with others: the last thing in a name
     is what it names, `drawer_handle` is a handle.
     """
-    return _said(name, tuple(vocabulary))
+    return _said(words_of(name), tuple(vocabulary))
 
 
 @lru_cache(maxsize=1 << 14)
-def _said(name: str, vocabulary: tuple[str, ...]) -> Said | None:
+def _said(spoken: Words, vocabulary: tuple[str, ...]) -> Said | None:
+    """The same of the words of a name, of which there are far fewer than names."""
     known = {label: words_of(label) for label in vocabulary}
-    words = _parted(_in_order(words_of(name)), {word for own in known.values() for word in own})
+    words = _parted(_in_order(spoken), {word for own in known.values() for word in own})
     found = [mention for label, wanted in known.items() for mention in _mentions(words, label, wanted)]
     found = [one for one in found if not any(_outdoes(other, one) for other in found)]
     things = [one for one in found if not _are(known[one.label], fillers())] or found
@@ -63,7 +65,7 @@ def _said(name: str, vocabulary: tuple[str, ...]) -> Said | None:
     sure = chosen.sure - (_LESS if len({one.label for one in found}) > 1 else 0.0)
     before = words[: chosen.start] if chosen.start in at_places else ()
     is_open = any(start >= last for start in at_places) or not _are((*before, *words[last:]), fillers())
-    return Said(chosen.label, round(min(sure, _UNSURE) if is_open else sure, _DIGITS), chosen.sure == EXACT)
+    return Said(chosen.label, round(min(sure, UNSURE) if is_open else sure, _DIGITS), chosen.sure == EXACT)
 
 
 def _in_order(words: Words) -> Words:

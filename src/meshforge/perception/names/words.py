@@ -45,9 +45,16 @@ def common() -> frozenset[str]:
     return _listed("common.txt")
 
 
+@cache
 def fillers() -> frozenset[str]:
     """Words that say nothing of what a thing is, or only which one."""
     return _listed("fillers.txt") | places()
+
+
+@cache
+def known() -> frozenset[str]:
+    """All these words."""
+    return common() | fillers()
 
 
 def places() -> frozenset[str]:
@@ -61,18 +68,21 @@ def _listed(file: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-def parted(word: str, known: Collection[str]) -> Words:
+def parted(word: str, more: Collection[str]) -> Words:
     """A word that is several words joined, `kettlehandle`, as these, the fewest; any other as it is.
 
-    known: words besides the common ones. Parts have three letters at least.
+    more: words besides the known ones. Parts have three letters at least.
     """
-    lexicon = common() | fillers() | frozenset(known)
     best: list[Words | None] = [()]
     for end in range(1, len(word) + 1):
         ways = [
             (*before, word[start:end])
             for start, before in enumerate(best)
-            if before is not None and end - start >= _LEAST and is_one_of(word[start:end], lexicon)
+            if before is not None and end - start >= _LEAST and _is_part(word[start:end], more)
         ]
         best.append(min(ways, key=len, default=None))
     return best[-1] or (word,)
+
+
+def _is_part(word: str, more: Collection[str]) -> bool:
+    return any(form in known() or form in more for form in forms(word))

@@ -49,6 +49,25 @@ class Propagate(Edit):
         return project.assets()
 
 
+class LabelFromModel(Edit):
+    """A model was asked for labels; the job makes the change itself."""
+
+    kind: Literal["label-vlm"] = "label-vlm"
+    model: str
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("the job of asking makes this change")
+
+    def touches(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
+
+    def said(self, project: Project) -> str:
+        return f"labels from {self.model}"
+
+    def assets(self, project: Project) -> tuple[str, ...]:
+        return project.assets()
+
+
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 

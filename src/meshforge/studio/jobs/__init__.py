@@ -1,4 +1,4 @@
-"""Long work at the desk that a page asks for: applying, decomposing, exporting, carrying labels; its door: `begin`."""
+"""Long work at the desk that a page asks for: applying, decomposing, exporting, getting labels; its door: `begin`."""
 
 from meshforge.studio.jobs.begin import begin
 

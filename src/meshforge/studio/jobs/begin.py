@@ -5,10 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, assert_never
 
 from meshforge.studio.jobs.apply import apply_job
+from meshforge.studio.jobs.ask import ask_job, forecast_job
 from meshforge.studio.jobs.decompose import decompose_job
 from meshforge.studio.jobs.export import export_job
 from meshforge.studio.jobs.propagate import propagate_job
-from meshforge.studio.wire.jobs import ApplyJob, DecomposeJob, ExportJob, Job, JobRequest, PropagateJob
+from meshforge.studio.wire.jobs import (
+    ApplyJob,
+    AskJob,
+    DecomposeJob,
+    ExportJob,
+    ForecastJob,
+    Job,
+    JobRequest,
+    PropagateJob,
+)
 
 if TYPE_CHECKING:
     from meshforge.studio.state import Desk
@@ -25,5 +35,9 @@ def begin(desk: Desk, request: JobRequest) -> Job:
             return export_job(desk, request)
         case PropagateJob():
             return propagate_job(desk)
+        case ForecastJob():
+            return forecast_job(desk, request)
+        case AskJob():
+            return ask_job(desk, request)
         case _:
             assert_never(request)

@@ -6,7 +6,7 @@ from typing import Literal
 
 from meshforge.studio.wire.base import Wire
 
-JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate"]
+JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask"]
 
 
 class JobLine(Wire):
@@ -63,4 +63,23 @@ class PropagateJob(Wire):
     kind: Literal["propagate"] = "propagate"
 
 
-JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob
+Mode = Literal["cheap", "balanced", "exact"]
+"""How many pictures and questions a model is asked for a hull."""
+
+
+class ForecastJob(Wire):
+    """Find out what asking a model for labels would send and cost; nothing is sent."""
+
+    kind: Literal["forecast"] = "forecast"
+    mode: Mode
+
+
+class AskJob(Wire):
+    """Ask the model that meshforge.toml names for labels. max_cost: dollars it may spend, null as that says."""
+
+    kind: Literal["ask"] = "ask"
+    mode: Mode
+    max_cost: float | None = None
+
+
+JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob

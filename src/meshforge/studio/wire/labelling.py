@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Literal
 
 from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire.jobs import Mode
 
-Way = Literal["propagate", "label-files", "label-names"]
+Way = Literal["propagate", "label-files", "label-names", "label-vlm"]
 
 
 class RelabelledAsset(Wire):
@@ -37,3 +38,14 @@ class CarriedOver(Wire):
 
     unused: int
     next: str | None = None
+
+
+class Model(Wire):
+    """The model that can be asked for labels. host: where it is; mode, max_cost: as meshforge.toml has them; why: what
+    is in the way of asking it, null where nothing is."""
+
+    name: str
+    host: str
+    mode: Mode
+    max_cost: float | None = None
+    why: str | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire.labelling import Model
 
 
 class PreviewRequest(Wire):
@@ -59,7 +60,8 @@ class Done(Wire):
 
 class LabelSources(Wire):
     """Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
-    without a label whose names say one."""
+    without a label whose names say one; model: what can be asked, null where none is named."""
 
     files: int
     names: int
+    model: Model | None

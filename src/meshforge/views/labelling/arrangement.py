@@ -95,9 +95,11 @@ class Arrangement:
     def visual(self, camera: Camera) -> tuple[Hits, Any] | None:
         """What the pixels show of the visual mesh, and where a part of it steps back behind another (h, w).
 
-        None where there is no visual mesh, or the hulls are not in their places.
+        None where there is no visual mesh, where the hulls are not in their places, and from close up where some are
+        drawn alone: what is around them would hide all.
         """
-        if self.push or not self.sitter.visuals[0]:
+        hidden = bool(self.close) and len(self.solid) < len(self.skins)
+        if self.push or hidden or not self.sitter.visuals[0]:
             return None
         return met_with_steps(self.sitter.visual(self.stage), camera)
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,14 +13,19 @@ from meshforge.geometry import Floats, Ints
 from meshforge.views.camera import Camera, View
 from meshforge.views.labelling.arrangement import Arrangement
 from meshforge.views.labelling.flat import Page, drawn_over, framed, ink, shaded
+from meshforge.views.labelling.inset import free_corner, inset
 from meshforge.views.labelling.paper import Key, draw_head, draw_numbers, head_height, type_sizes
 from meshforge.views.labelling.placing import LEAST, Size, placed
 from meshforge.views.labelling.shot import Shot
 from meshforge.views.labelling.sitter import NEUTRAL, Sitter
-from meshforge.views.middles import Middle
+from meshforge.views.marks import Box
+from meshforge.views.middles import Middle, pixels_of
 from meshforge.views.outline import Lines
 from meshforge.views.stage import Hits
 from meshforge.views.text import INK
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 _FAINT = 0.28  # of full ink, for hulls that are only hinted at
 
@@ -47,15 +53,19 @@ class Easel:
         drawing, faint = ink(hits, self._line), self._faint(arrangement, hits, camera)
         colors = sitter.colors[list(arrangement.solid)]
         marked = framed(self._page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
+        taken: list[tuple[int, int, int, int]] = []
+        if arrangement.close:
+            taken = [self._put_inset(marked, arrangement, view, items, top)]
+            items = _covered(items, taken[0])
         draw = ImageDraw.Draw(marked)
-        numbered = self._number(draw, arrangement, items, camera, top)
+        numbered = self._number(draw, arrangement, items, camera, taken, top)
         draw_head(draw, self.size, arrangement.name(view), camera, arrangement.stage.upright)
         self._key.draw(draw, numbered, sitter.colors)
         plain = self._visual(arrangement, camera)
         if plain is None:
             plain = self._page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
         hulls = sitter.mesh.hulls
-        counts = np.bincount(items[items >= 0], minlength=len(hulls)).tolist()
+        counts = pixels_of(items, len(hulls)).tolist()
         return Shot(
             arrangement.name(view),
             marked,
@@ -108,8 +118,19 @@ class Easel:
         drawn_over(page, ink(hits, self._line, steps, self.sitter.smooth))
         return page
 
-    def _number(self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera, top: int) -> list[int]:
-        """Writes the numbers of hulls, and returns which have one."""
+    def _put_inset(
+        self, marked: Image, arrangement: Arrangement, view: View, items: Ints, top: int
+    ) -> tuple[int, int, int, int]:
+        """Shows in a corner where a picture from close up is, and returns the box that this covers."""
+        small = inset(arrangement, view, self.size)
+        column, row = free_corner(items, small.width)
+        marked.paste(small, (column, row + top))
+        return column, row, column + small.width, row + small.width
+
+    def _number(
+        self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera, taken: Sequence[Box], top: int
+    ) -> list[int]:
+        """Writes the numbers of hulls, and returns which have one; nothing is written on boxes that are taken."""
         known: dict[int, Middle] = {}
         if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST:
             (alone,) = arrangement.solid
@@ -117,9 +138,17 @@ class Easel:
             draw.line([(column, row + top) for column, row in (first.tolist(), last.tolist())], INK, self._line)
             column, row = ((first + last) / 2).round().astype(int).tolist()
             known[alone] = Middle(column, row, 0.0)
-        places = placed(items, self._sizes, known)
+        places = placed(items, self._sizes, known, taken)
         draw_numbers(draw, places, self.sitter.texts, self.sitter.colors, top)
         return sorted(place.item for place in places)
+
+
+def _covered(items: Ints, box: tuple[int, int, int, int]) -> Ints:
+    """What pixels (h, w) show when nothing in a box is seen."""
+    left, top, right, bottom = box
+    rest = items.copy()
+    rest[top:bottom, left:right] = -1
+    return rest
 
 
 def _ends(arrangement: Arrangement, camera: Camera) -> tuple[Floats, Floats]:

@@ -11,10 +11,11 @@ import numpy as np
 from meshforge.geometry import Floats, Ints
 from meshforge.views.labelling.lines import crosses, cuts, overlaps
 from meshforge.views.marks import Box
-from meshforge.views.middles import Middle, middles
+from meshforge.views.middles import Middle, middles, pixels_of
 
 LEAST = 24
 """Pixels of a hull that must be seen for it to be numbered."""
+_NOTHING = -1  # what stands on a box that is taken
 _OWN, _OTHERS = 0.4, 0.12  # the least of a number's box that its own hull fills, and the most that others do
 _GAP = 3  # pixels between numbers
 _CELL = 4  # pixels along the cells in which free paper is looked for
@@ -44,27 +45,30 @@ class Place:
 
 
 def placed(
-    items: Ints, sizes: Mapping[int, Mapping[int, Size]], known: Mapping[int, Middle] | None = None
+    items: Ints,
+    sizes: Mapping[int, Mapping[int, Size]],
+    known: Mapping[int, Middle] | None = None,
+    taken: Sequence[Box] = (),
 ) -> list[Place]:
-    """Places for the numbers of hulls as far as they are seen and fit; none covers another.
+    """Places for the numbers of hulls as far as they are seen and fit; none covers another, or a box that is taken.
 
     items: (h, w), what each pixel shows; sizes: of each number to be placed, the room it takes for each height of
     type [px] that it may be written in, the one liked best first; known: where hulls are that hardly any pixel shows.
     """
     found = {**middles(items, sizes, LEAST), **(known or {})}
-    places: list[Place] = []
+    places = [Place(_NOTHING, box, 0) for box in taken]
     for item, middle in found.items():
         place = _within(items, item, middle, sizes[item], places)
         if place:
             places.append(place)
     led = [item for item in found if item not in {place.item for place in places}]
-    if not led:
-        return places
-    smallest = {item: list(sizes[item].items())[-1] for item in led}
-    page = _Page(items, places, [found[item] for item in led], max(w * h for _, (w, h) in smallest.values()))
-    for item in led:
-        page.lead(item, found[item], *smallest[item])
-    return page.places
+    if led:
+        smallest = {item: list(sizes[item].items())[-1] for item in led}
+        page = _Page(items, places, [found[item] for item in led], max(w * h for _, (w, h) in smallest.values()))
+        for item in led:
+            page.lead(item, found[item], *smallest[item])
+        places = page.places
+    return places[len(taken) :]
 
 
 def _within(items: Ints, item: int, middle: Middle, sizes: Mapping[int, Size], places: Sequence[Place]) -> Place | None:
@@ -98,7 +102,7 @@ class _Page:
         self.places = list(places)
         self._size = items.shape[1], items.shape[0]
         cells = items[::_CELL, ::_CELL]
-        counts = np.bincount(items[items >= 0], minlength=1)
+        counts = np.append(pixels_of(items), 0)
         self._taken = _summed(cells >= 0)
         self._small = _summed((cells >= 0) & (counts[cells] < _SMALL * area))
         self._kept = np.array([(s.column - 4, s.row - 4, s.column + 4, s.row + 4) for s in kept], np.float64)

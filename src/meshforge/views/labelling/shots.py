@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from meshforge.errors import UsageError, nearest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.views.camera import Up
-from meshforge.views.labelling.arrangement import Arrangement
+from meshforge.views.labelling.arrangement import COARSE, Arrangement
 from meshforge.views.labelling.choosing import chosen
 from meshforge.views.labelling.further import alone, arrangements, best
 from meshforge.views.labelling.picture import Easel
@@ -18,6 +18,7 @@ from meshforge.views.labelling.sitter import Sitter
 from meshforge.views.subject import up_axis
 
 SIZES = range(256, 4097)
+_GLIMPSED = 2.5  # pixels of a glimpse: fewer tell little
 _POOR = 10 * LEAST  # pixels: hulls that show fewer of them everywhere are drawn from close up, if pictures are left
 
 
@@ -127,6 +128,6 @@ class _Session:
 
     @property
     def _least(self) -> float:
-        """The share of a picture from which on a hull is likely to be numbered."""
+        """The share of a picture from which on a hull is likely to be numbered, as far as a glimpse can tell."""
         width, height = self._easel.room
-        return 2 * LEAST / (width * height)
+        return max(2 * LEAST / (width * height), _GLIMPSED / (COARSE**2 * self._shape))

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body
 
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.serving.routes.common import AtDesk, FromPage
+from meshforge.studio.showing.model import model_of
 from meshforge.studio.wire.requests import Done, LabelSources
 
 router = APIRouter(prefix="/api")
@@ -48,4 +49,5 @@ def stop_learning(desk: AtDesk) -> Done:
 def label_sources(desk: AtDesk) -> LabelSources:
     """Where labels could come from, as far as assets are read by now."""
     offered = desk.offers.of(desk.project, {card.asset for card in desk.shown.cards if card.hulls is not None})
-    return LabelSources(files=len(offered.files), names=sum(map(len, offered.names.values())))
+    names = sum(map(len, offered.names.values()))
+    return LabelSources(files=len(offered.files), names=names, model=model_of(desk.project))
