@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from meshforge.batch import Lost, isolated
 from meshforge.errors import MeshForgeError, ProjectError, StoppedError
-from meshforge.project.labelling import Labelled, merged, write_merged
-from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh, follow_labels
+from meshforge.project.found_labels import write_found
+from meshforge.project.labelling import Labelled
+from meshforge.symbolic import Label, SymbolicMesh
 
 if TYPE_CHECKING:
     from meshforge.perception import Propagated
@@ -54,7 +55,9 @@ def propagate(
         )
     with keeping(best):
         rows = enumerate(meshes.items())
-        reports = {asset: _written(project, asset, mesh, found.labels(place)) for place, (asset, mesh) in rows}
+        reports = {
+            asset: write_found(project, asset, mesh, _named(mesh, found.labels(place))) for place, (asset, mesh) in rows
+        }
     return Carried(tuple((reports | broken)[asset] for asset in project.assets()), best)
 
 
@@ -90,20 +93,6 @@ def _read(
     return meshes, broken
 
 
-def _written(project: Project, asset: str, mesh: SymbolicMesh, found: Sequence[Label | None]) -> Labelled:
-    """Write what was found for one asset, beside what its labels are by now."""
-    with project.lock():
-        now = follow_labels(project.labels(asset), mesh.labelled(dict.fromkeys(mesh.index))).mesh
-        rows = zip(now.hulls, found, strict=True)
-        given = {hull.name: label for hull, label in rows if label and _gives_way(hull.annotation, label)}
-        labelled, report = merged(asset, now, given, project.vocabulary)
-        if report.taken:
-            write_merged(project, asset, labelled)
-    return report
-
-
-def _gives_way(current: Label | None, given: Label) -> bool:
-    """Whether a label may be replaced: an earlier one of ours, or one that another machine was less sure of."""
-    if current is None or current.source == given.source:
-        return True
-    return current.source not in GIVEN_SOURCES and current.confidence < given.confidence
+def _named(mesh: SymbolicMesh, found: Sequence[Label | None]) -> dict[str, Label]:
+    """Labels by hull; found: those of all hulls."""
+    return {hull.name: label for hull, label in zip(mesh.hulls, found, strict=True) if label}
