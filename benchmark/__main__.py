@@ -1,20 +1,23 @@
 """Runs parts of the benchmark by name, and writes what they find into the results.
 
-Usage: script/bench [PART ...] [--quick] [--out FOLDER]
+Usage: script/bench [PART ...] [--quick] [--out FOLDER] [--vlm FILE] [--max-cost DOLLARS] [--blender PYTHON] ...
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from importlib import import_module
 from pathlib import Path
 
 from benchmark.evaluation.page import write as write_page
+from benchmark.given import Given
 from benchmark.machine import machine
 from benchmark.pages import PAGES, Page, page_of, text_of
 from benchmark.report import Result, as_text
+from meshforge.errors import AssetError, UsageError
 from meshforge.files import write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
@@ -27,20 +30,42 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(every)}; without any, those of a run")
     parser.add_argument("--quick", action="store_true", help="few cases, one round: to see that it works")
     parser.add_argument("--out", type=Path, default=RESULTS, help="the folder of the results")
+    _add_given(parser)
     options = parser.parse_args(arguments)
     if unknown := [part for part in options.parts if part not in every]:
         parser.error(f"there is no part {unknown[0]!r}, only {', '.join(every)}")
+    given = Given(options.vlm, options.max_cost, options.blender, options.sample, tuple(options.labels))
     for part in options.parts or [part for page in PAGES for part in page.parts]:
         page = page_of(part)
-        result = run(page, part, options.quick)
+        try:
+            result = run(page, part, options.quick, given)
+        except (UsageError, AssetError) as error:
+            _tell("")
+            print(error.message, file=sys.stderr)
+            return 1
         _write(options.out, page, result, options.quick)
         print(as_text(result), flush=True)
     return 0
 
 
-def run(page: Page, part: str, quick: bool = False) -> Result:
+def _add_given(parser: argparse.ArgumentParser) -> None:
+    """The options of the parts that ask a model; their defaults are in the environment."""
+    vlm = Path(name) if (name := os.environ.get("BENCH_VLM")) else None
+    asking = parser.add_argument_group("for comparison and labellers")
+    asking.add_argument("--vlm", type=Path, default=vlm, metavar="FILE", help="a TOML file whose table [vlm] says "
+                        "which model to ask, as that of a project's meshforge.toml (BENCH_VLM)")  # fmt: skip
+    asking.add_argument("--max-cost", type=float, metavar="DOLLARS", help="the most that a baseline or labeller costs")
+    asking.add_argument("--blender", type=Path, metavar="PYTHON", help="a Python 3.11 with the dependency "
+                        "group blender (BENCH_BLENDER), else that in .bench/blender")  # fmt: skip
+    asking.add_argument("--sample", type=int, default=Given().sample, metavar="N", help="meshes that are labelled")
+    asking.add_argument("--labels", type=Path, action="append", default=[], metavar="FOLDER",
+                        help="labels that something else made: MESH.labels.json for each mesh")  # fmt: skip
+
+
+def run(page: Page, part: str, quick: bool = False, given: Given | None = None) -> Result:
     """The result of one part."""
-    result = import_module(f"benchmark.{page.name}.{part}").measure(_tell, quick)
+    measure = import_module(f"benchmark.{page.name}.{part}").measure
+    result = measure(_tell, quick, given or Given()) if part in page.given else measure(_tell, quick)
     _tell("")
     assert isinstance(result, Result)
     return result

@@ -13,7 +13,8 @@ from benchmark.report import Result, as_text
 class Page:
     """A page, named as the folder of its parts is.
 
-    parts: those of a whole run; aside: those that run only when they are named; packages: whose versions matter.
+    parts: those of a whole run; aside: those that run only when they are named; packages: whose versions matter;
+    given: the parts that take what is given on the command line besides.
     """
 
     name: str
@@ -21,6 +22,7 @@ class Page:
     parts: tuple[str, ...]
     packages: tuple[str, ...]
     aside: tuple[str, ...] = ()
+    given: tuple[str, ...] = ()
 
     @property
     def all_parts(self) -> tuple[str, ...]:
@@ -58,12 +60,14 @@ PAGES = (
         ),
         ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco", "cvc5"),
         aside=("tuning",),
+        given=("comparison",),
     ),
     Page(
         "labels",
         "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
-        ("propagation",),
+        ("propagation", "labellers"),
         ("numpy", "scipy"),
+        given=("labellers",),
     ),
     Page(
         "studio",

@@ -2,34 +2,132 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from benchmark.baselines import agent, scripting
+from benchmark.baselines.accounts import accounts
+from benchmark.baselines.blender.apart import found
+from benchmark.baselines.blender.process import Blender
+from benchmark.baselines.playing import Played, played, vlm_agent, vlm_blender
+from benchmark.baselines.refining import ROUNDS
 from benchmark.evaluation import paper
 from benchmark.evaluation.figures import by_task, fpr, shown, spread
 from benchmark.evaluation.sessions import sessions
-from benchmark.report import Result, Table, Tell
-from benchmark.study import FULL, NOISY
+from benchmark.given import Given
+from benchmark.report import Cell, Result, Table, Tell
+from benchmark.study import FULL, NOISY, Session
+from meshforge.project.vlm_settings import VlmSettings
 
-BASELINES = ("VLM Agent", "VLM Blender")
+_CONDITIONS = (FULL, NOISY)
 
 
-def measure(tell: Tell, quick: bool) -> Result:
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A baseline: what came of it, None where it was not run, and what there is to say about that."""
+
+    name: str
+    played: Played | None
+    about: str = ""
+
+    @property
+    def whole(self) -> Played | None:
+        """What came of all sessions."""
+        return None if self.played is None or self.played.missing else self.played
+
+
+def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
     """Our row from the same sessions as RQ1, and the rows of the baselines."""
-    rows = sessions((FULL, NOISY), tell, quick)
-    ours = {condition.name: shown(spread(by_task(rows, condition.name), fpr)) for condition in (FULL, NOISY)}
-    table = Table(
+    given = given or Given()
+    settings = given.settings()
+    taught = sessions(_CONDITIONS, tell, quick)
+    rows = (_agent(taught, settings, tell), _blender(taught, settings, given.blender, tell))
+    functional = Table(
         "Functional pass rate",
-        ("", "FPR (paper)", "FPR, true labels", "FPR, noisy labels"),
+        ("", "FPR (paper)", *(f"FPR, {condition.name}" for condition in _CONDITIONS)),
         (
-            ("MeshForge", paper.RQ2["MeshForge"], ours[FULL.name], ours[NOISY.name]),
-            *((name, paper.RQ2[name], "not run", "not run") for name in BASELINES),
+            ("MeshForge", paper.RQ2["MeshForge"], *_passed(taught)),
+            *((row.name, paper.RQ2[row.name], *_cells(row)) for row in rows),
         ),
     )
+    whole = [(row.name, row.whole, row.name == agent.NAME) for row in rows if row.whole]
+    is_priced = settings is not None and settings.endpoint().is_priced
     return Result(
         "comparison",
         "RQ2: comparison",
-        (table,),
-        notes=(
-            "*VLM Agent*: a model writes the program in the language; *VLM Blender*: it writes a Blender script. Both "
-            "need an OpenAI-compatible endpoint; none was configured, so nothing is said about them here.",
-            paper.CONDITIONS,
-        ),
+        (functional, *([accounts(whole, _CONDITIONS, is_priced=is_priced)] if whole else [])),
+        notes=tuple(_notes(rows, settings)),
+        details=tuple(_details(rows)),
     )
+
+
+def _agent(taught: Sequence[Session], settings: VlmSettings | None, tell: Tell) -> _Row:
+    if settings is None:
+        return _Row(agent.NAME, None, "no model was named")
+    return _Row(agent.NAME, played(vlm_agent(), taught, settings, tell))
+
+
+def _blender(taught: Sequence[Session], settings: VlmSettings | None, python: Path | None, tell: Tell) -> _Row:
+    if settings is None:
+        return _Row(scripting.NAME, None, "no model was named")
+    python = python or found()
+    if python is None:
+        return _Row(scripting.NAME, None, "no Python with Blender in it (bpy) was named")
+    with Blender(python) as blender:
+        fences = blender.fences
+    about = f"Scripts ran in Blender {fences.blender}, fenced in: {fences}"
+    return _Row(scripting.NAME, played(vlm_blender(python), taught, settings, tell), about)
+
+
+def _passed(rows: Sequence[Session]) -> tuple[Cell, ...]:
+    return tuple(shown(spread(by_task(rows, condition.name), fpr)) for condition in _CONDITIONS)
+
+
+def _cells(row: _Row) -> tuple[Cell, ...]:
+    if row.whole:
+        return _passed(row.whole.sessions)
+    return ("not finished" if row.played else "not run",) * len(_CONDITIONS)
+
+
+def _details(rows: Sequence[_Row]) -> Iterator[dict[str, Any]]:
+    for row in rows:
+        for session, written in zip(row.played.sessions, row.played.written, strict=True) if row.played else ():
+            yield {"baseline": row.name, **session.to_json(), "asking": written.to_json()}
+
+
+def _notes(rows: Sequence[_Row], settings: VlmSettings | None) -> Iterator[str]:
+    yield (
+        "*VLM Agent*: a model is given the documentation and the grammar of the language, and writes the program. "
+        "*VLM Blender*: it writes a Blender script, which is run on each mesh; a mesh with an object that is no closed "
+        "convex hull counts as failed. Both see what was demonstrated in MeshForge's session: of each mesh the hulls "
+        "with labels, boxes and contacts, pictures before and after, and all steps, also where the person showed the "
+        "tool only some; answers to its questions are not told. What a program or script does otherwise on these "
+        f"meshes is told to the model, up to {ROUNDS} answers in all; the one that did best is judged on all other "
+        "meshes by the task's criterion, also where it never did as was shown."
+    )
+    yield (
+        "Labels, orientation, thresholds and templates are those of the session; under noisy labels the baselines keep "
+        "those that the person started with, while MeshForge's row has the corrections that were confirmed. Scripts "
+        "meet each mesh turned as the rules do, or as it lies where its landmarks are not to be found; they are one "
+        "script for all meshes, while those of the paper may also go mesh by mesh."
+    )
+    for row in rows:
+        if row.played is None:
+            yield f"{row.name} was not run: {row.about}."
+        elif row.played.missing:
+            yield f"{row.name} is not finished: {row.played.missing} sessions are missing. {row.played.why}"
+        elif row.about:
+            yield f"{row.about}."
+    if settings is None:
+        yield (
+            "To run them: `script/bench comparison --vlm FILE`, with a table `[vlm]` as that of a project's "
+            "`meshforge.toml` in the file, and Blender's Python in `.bench/blender` (dependency group `blender`) or "
+            "named by `--blender PYTHON`. Answers are kept, so that an interrupted run goes on; `--max-cost DOLLARS` "
+            "limits what one run may spend on each baseline."
+        )
+    else:
+        endpoint = settings.endpoint()
+        yield f"The model asked: {endpoint.model}, at temperature 0."
+    yield paper.CONDITIONS

@@ -1,0 +1,42 @@
+"""What a script makes of a mesh of a task, as programs' edits are judged."""
+
+from __future__ import annotations
+
+from benchmark.baselines.blender.process import Blender
+from benchmark.baselines.blender.scene import mesh_of, scene_of
+from benchmark.baselines.blender.shapes import Illegal
+from benchmark.tasks import Edited, Task
+from meshforge.errors import MeshForgeError
+from meshforge.geometry import Pose
+from meshforge.language import stage, unstage
+from meshforge.symbolic import SymbolicMesh
+
+
+def edited(blender: Blender, script: str, task: Task, mesh: SymbolicMesh) -> Edited:
+    """A script's edit of a mesh as it lies in its file; the script meets it as rules do, turned by the landmarks.
+
+    What comes back counts only if every object is a legal hull.
+    """
+    staged, pose = _staged(task, mesh)
+    done = ran(blender, script, task, staged)
+    return done if done.mesh is None else Edited(unstage(mesh, done.mesh, pose), named=done.named)
+
+
+def ran(blender: Blender, script: str, task: Task, staged: SymbolicMesh) -> Edited:
+    """A script's edit of a mesh in the frame of the rules."""
+    answer = blender.run(script, scene_of(staged, task.templates))
+    if "objects" not in answer:
+        return Edited(None, error=answer["error"])
+    try:
+        mesh, named = mesh_of(answer["objects"], staged)
+    except Illegal as error:
+        return Edited(None, error=f"no legal hulls: {error}")
+    return Edited(mesh, named=named)
+
+
+def _staged(task: Task, mesh: SymbolicMesh) -> tuple[SymbolicMesh, Pose]:
+    """The mesh in the frame of the rules; where its landmarks are missing, as it lies."""
+    try:
+        return stage(mesh, task.program.orient, task.program.contact)
+    except MeshForgeError:
+        return stage(mesh, None, task.program.contact)

@@ -1,0 +1,64 @@
+"""A vision-language model as a labeller of the benchmark's meshes."""
+
+from __future__ import annotations
+
+import threading
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+
+from benchmark.evaluation.journal import JOURNALS
+from benchmark.labels.methods import Labels, Method, Told
+from benchmark.labels.sampling import Family
+from meshforge.perception.vlm import Client, Endpoint, Labeller, Question, Reply, Said
+from meshforge.project.vlm_settings import VlmSettings
+from meshforge.symbolic import SymbolicMesh
+
+
+class CountingClient(Client):
+    """A client that counts what its answers cost when they were given, also those that it had already [$]."""
+
+    def __init__(self, endpoint: Endpoint, folder: Path, max_cost: float | None) -> None:
+        super().__init__(endpoint, folder, max_cost=max_cost)
+        self.cost = 0.0
+        self._counting = threading.Lock()
+
+    def ask(self, question: Question) -> Reply:
+        reply = super().ask(question)
+        with self._counting:
+            self.cost += reply.cost
+        return reply
+
+
+@dataclass
+class Asked:
+    """A model that labels; what is spent counts over all families and repeats."""
+
+    settings: VlmSettings
+    spent: float = field(default=0.0, init=False)
+
+    @property
+    def method(self) -> Method:
+        return Method(f"{self.settings.model}, {self.settings.mode}", self._told)
+
+    def _told(self, family: Family, repeat: int) -> Told:
+        """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
+        endpoint, most = self.settings.endpoint(), self.settings.max_cost
+        left = None if most is None else max(0.0, most - self.spent)
+        manner = self.settings.model_copy(update={"about": "", "descriptions": {}}).manner(family.vocabulary)
+        started = perf_counter()
+        client = CountingClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
+        with closing(client), closing(Labeller(client, manner)) as labeller:
+            pending = [labeller.begin(family.bare[place]) for place in family.drawn]
+            said = [one.said() for one in pending]
+        self.spent += client.bill.cost or 0.0
+        labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))
+        why = next((problem for one in said for problem in one.failed), "")
+        cost = client.cost if endpoint.is_priced else None
+        return Told(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
+
+
+def _labels(mesh: SymbolicMesh, said: Said) -> Labels:
+    found = {name: label.name for name, label in said.labels.items()}
+    return tuple(found.get(hull.name) for hull in mesh.hulls)

@@ -1,0 +1,285 @@
+"""Scripts in real Blender: what they make of a mesh, and that those that misbehave harm nobody and count as failures.
+
+Skipped where there is no Blender: see `benchmark.baselines.blender.apart.found`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmark.assets import samples
+from benchmark.baselines.blender.apart import found
+from benchmark.baselines.blender.editing import edited
+from benchmark.baselines.blender.process import Blender, Limits
+from benchmark.baselines.blender.scene import mesh_of, scene_of
+from benchmark.baselines.blender.shapes import Illegal
+from benchmark.tasks import task
+from meshforge.errors import UsageError
+from meshforge.geometry import convex_hull, digest
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.benchmark.blender_script import SHELLS
+
+PYTHON = found()
+needs_blender = pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
+MESH = samples("cup")[3].mesh
+SCENE = scene_of(MESH, {})
+QUICK = Limits(seconds=3.0, memory=2 << 30, file=1 << 20)
+
+
+@pytest.fixture(scope="module")
+def blender() -> Iterator[Blender]:
+    assert PYTHON
+    with Blender(PYTHON, QUICK) as one:
+        yield one
+
+
+def made(blender: Blender, script: str, before: SymbolicMesh = MESH) -> SymbolicMesh:
+    answer = blender.run(script, scene_of(before, {}))
+    assert "error" not in answer, answer["error"]
+    return mesh_of(answer["objects"], before)[0]
+
+
+def complaint(blender: Blender, script: str) -> str:
+    answer = blender.run(script, SCENE)
+    assert "objects" not in answer
+    return str(answer["error"])
+
+
+@needs_blender
+def test_a_mesh_that_is_left_alone_comes_back_bit_for_bit(blender: Blender) -> None:
+    back = made(blender, "pass")
+    assert [hull.name for hull in back.hulls] == [hull.name for hull in MESH.hulls]
+    assert all(a is b for a, b in zip(back.hulls, MESH.hulls, strict=True))
+
+
+@needs_blender
+def test_objects_are_where_the_hulls_are_and_say_what_is_known_of_them(blender: Blender) -> None:
+    script = """
+import json
+told = {}
+for o in bpy.data.objects:
+    low = [min((o.matrix_world @ v.co)[k] for v in o.data.vertices) for k in range(3)]
+    told[o.name] = low, o["label"], o["contacts"].split()
+raise ValueError(json.dumps(told))
+"""
+    told = dict(json.loads(complaint(blender, script).rpartition("ValueError: ")[2]))
+    for place, hull in enumerate(MESH.hulls):
+        low, label, contacts = told[hull.name]
+        assert np.allclose(low, hull.aabb.min, atol=1e-6)
+        assert label == hull.label
+        assert contacts == [MESH.hulls[other].name for other in sorted(MESH.neighbours(place))]
+    assert told.keys() == MESH.index.keys()
+
+
+@needs_blender
+def test_what_a_script_deletes_moves_labels_and_makes_comes_back(blender: Blender) -> None:
+    first, second, third, *rest = (hull.name for hull in MESH.hulls)
+    script = f"""
+objects = bpy.data.objects
+objects.remove(objects[{first!r}])
+objects[{second!r}].location.z += 0.5
+objects[{third!r}]["label"] = "spout"
+bpy.ops.mesh.primitive_cube_add(size=0.2, location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
+bpy.context.object.name, bpy.context.object["label"] = "box", "lid"
+bpy.ops.object.light_add()
+"""
+    answer = blender.run(script, SCENE)
+    back, named = mesh_of(answer["objects"], MESH)
+    assert {hull.name for hull in back.hulls} == {second, third, *rest, "box"}
+    assert named == {third, "box"}
+    lifted = MESH.named(second).aabb.min + np.array([0, 0, 0.5])
+    assert np.allclose(back.named(second).aabb.min, lifted, atol=1e-6)
+    assert back.named(second).label == MESH.named(second).label
+    assert (back.named(third).label, back.named("box").label) == ("spout", "lid")
+    assert digest(back.named(third).shape) == digest(MESH.named(third).shape)
+    assert back.named("box").volume == pytest.approx(0.008, rel=1e-5)
+    assert back.named("box").shape.kind == "polytope"
+    assert all(back.named(name) is MESH.named(name) for name in rest)
+
+
+HULL = """
+import bmesh
+points = [o.matrix_world @ v.co for o in bpy.context.scene.objects for v in o.data.vertices]
+for o in list(bpy.data.objects):
+    bpy.data.objects.remove(o)
+bm = bmesh.new()
+for p in points:
+    bm.verts.new(p)
+bmesh.ops.convex_hull(bm, input=bm.verts)
+bmesh.ops.delete(bm, geom=[v for v in bm.verts if not v.link_faces], context="VERTS")
+mesh = bpy.data.meshes.new("all")
+bm.to_mesh(mesh)
+bpy.context.scene.collection.objects.link(bpy.data.objects.new("all", mesh))
+"""
+
+
+@needs_blender
+@pytest.mark.parametrize("category", ["cup", "kettle", "lamp"])
+def test_the_hull_that_is_made_as_the_model_is_told_is_legal_and_the_right_one(blender: Blender, category: str) -> None:
+    for sample in samples(category)[:30:10]:
+        (hull,) = made(blender, HULL, sample.mesh).hulls
+        wanted = convex_hull(np.concatenate([one.vertices for one in sample.mesh.hulls]))
+        assert hull.volume == pytest.approx(wanted.volume, rel=2e-3)
+
+
+@needs_blender
+@pytest.mark.parametrize(
+    ("script", "kind"),
+    [
+        ("bpy.ops.mesh.primitive_cube_add(rotation=(.3, .4, .5), scale=(.1, .2, .3))", "box"),
+        ("bpy.ops.mesh.primitive_cube_add()\nbpy.context.object.scale = (.1, -.2, .3)", "box"),
+        ("bpy.ops.mesh.primitive_cylinder_add(rotation=(.3, .4, .5), scale=(.1, .1, .3))", "cylinder"),
+        ("bpy.ops.mesh.primitive_uv_sphere_add(location=(1, 0, 0))", "sphere"),
+    ],
+)
+def test_a_primitive_that_says_what_it_is_becomes_one(blender: Blender, script: str, kind: str) -> None:
+    back = made(blender, f"{script}\nbpy.context.object.name = 'new'\nbpy.context.object['primitive'] = {kind!r}")
+    one = back.named("new")
+    assert one.primitive
+    assert one.shape.kind == kind
+    as_mesh = made(blender, f"{script}\nbpy.context.object.name = 'new'").named("new")
+    assert as_mesh.shape.kind == "polytope"
+    assert one.aabb.size == pytest.approx(as_mesh.aabb.size, rel=0.02)
+    assert as_mesh.volume == pytest.approx(one.volume, rel=0.05)
+
+
+@needs_blender
+@pytest.mark.parametrize(
+    ("script", "why"),
+    [
+        ("bpy.ops.mesh.primitive_torus_add()", "Torus: not convex"),
+        ("bpy.ops.mesh.primitive_monkey_add()", "Suzanne: not closed"),
+        ("bpy.ops.mesh.primitive_plane_add()", "Plane: no thickness"),
+        ("bpy.data.objects[0].scale.x = 0", "hull_00: no thickness"),
+        ("bpy.data.objects[0].data.clear_geometry()", "hull_00: no faces"),
+        ("bpy.data.objects[0].location.x = float('nan')", "hull_00: no faces, or coordinates that are not finite"),
+        ("bpy.data.objects[0]['primitive'] = 'box'", "hull_00: its mesh is not the box"),
+        ("bpy.data.objects[0]['primitive'] = 'cone'", "there is no primitive 'cone'"),
+        ("for k in range(1001): bpy.context.scene.collection.objects.link(bpy.data.objects[0].copy())", "1000 at most"),
+    ],
+)
+def test_what_is_no_legal_hull_is_refused(blender: Blender, script: str, why: str) -> None:
+    answer = blender.run(script, SCENE)
+    with pytest.raises(Illegal, match=why.replace("(", r"\(")):
+        mesh_of(answer["objects"], MESH)
+
+
+@needs_blender
+@pytest.mark.parametrize(
+    ("script", "why"),
+    [
+        ("for", "SyntaxError"),
+        ("bpy.data.objects['none']", "line 1"),
+        ("def f():\n    raise KeyError('x')\nf()", 'File "script.py", line 3, in <module>'),
+        ("import sys\nsys.exit('no')", "the script ends itself: no"),
+        ("while True: pass", "it took longer than 3 seconds"),
+        ("a = []\nwhile True: a.append(bytes(1 << 28))", "MemoryError"),
+        ("f = open('big', 'wb')\nfor _ in range(9): f.write(bytes(1 << 20))", "File too large"),
+        ("import os\nos._exit(0)", "Blender broke down under it"),
+        ("import faulthandler\nfaulthandler._read_null()", "Blender broke down under it"),
+        ("import os\nos.abort()", "Blender broke down under it"),
+        ("import os\nos.fork()", "other processes may not be used"),
+        ("import subprocess\nsubprocess.run(['ls'])", "other processes may not be used"),
+        ("import os\nos.kill(os.getppid(), 9)", "other processes may not be used"),
+        ("import ctypes\nctypes.string_at(0)", "calling into the system"),
+        ("open('/etc/passwd').read()", "files outside of the working folder"),
+        ("open('/proc/self/environ').read()", "files outside of the working folder"),
+        ("bpy.ops.wm.open_mainfile(filepath='/etc/passwd')", "RuntimeError"),
+        ("import socket\nsocket.create_connection(('127.0.0.1', 80))", "the network may not be used"),
+        ("import urllib.request\nurllib.request.urlopen('http://example.org')", "the network may not be used"),
+        ("x = [\n" * 400, "SyntaxError"),
+        ("import os\nopen(os.getcwd() + '/none')", "No such file or directory: '.../none'"),
+        ("bpy.context.scene.collection.objects.link(1)", "TypeError"),
+    ],
+)
+def test_a_script_that_misbehaves_is_stopped_and_the_next_one_runs_as_ever(
+    blender: Blender, script: str, why: str
+) -> None:
+    assert why in complaint(blender, script)
+    assert complaint(blender, script) == complaint(blender, script)
+    assert len(made(blender, "pass").hulls) == len(MESH.hulls)
+
+
+@needs_blender
+@pytest.mark.parametrize(
+    "script",
+    [
+        "open({path!r}, 'w')",
+        "import os\nos.mkdir({path!r})",
+        "import os\nos.rename('/etc/hostname', {path!r})",
+        "bpy.ops.wm.save_as_mainfile(filepath={path!r})",
+        "bpy.ops.wm.obj_export(filepath={path!r})",
+        "import os\nos.symlink('/etc', 'etc')\nopen('etc/x', 'w')",
+        "import os\nos.chdir('/')\nopen({path!r}.lstrip('/'), 'w')",
+    ],
+)
+def test_nothing_is_written_outside_of_a_folder_that_is_gone_afterwards(
+    blender: Blender, tmp_path: Path, script: str
+) -> None:
+    path = tmp_path / "written"
+    blender.run(script.format(path=str(path)), SCENE)
+    assert list(tmp_path.iterdir()) == []
+    assert made(blender, "open('own', 'w').write('x')\nopen('own').read()").hulls
+
+
+@needs_blender
+def test_no_key_and_nothing_else_of_ours_is_in_the_environment(
+    blender: Blender, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-secret")
+    assert PYTHON
+    with Blender(PYTHON, QUICK) as one:
+        told = complaint(one, "import os\nraise ValueError(dict(os.environ))")
+        assert "PATH" in told
+        assert "sk-secret" not in told
+        assert not {name for name in os.environ if name.endswith("KEY") and name in told}
+
+
+@needs_blender
+def test_a_whole_task_is_done_by_a_right_script_as_by_its_program() -> None:
+    assert PYTHON
+    one = task("cup-easy")
+    with Blender(PYTHON) as blender:
+        for sample in one.samples()[:12:3]:
+            by_program, by_script = one.run(one.program, sample.mesh), edited(blender, SHELLS, one, sample.mesh)
+            assert by_script.mesh, by_script.error
+            assert by_program.mesh
+            assert len(by_script.mesh.hulls) == len(by_program.mesh.hulls)
+            volume = sum(hull.volume for hull in by_program.mesh.hulls)
+            assert sum(hull.volume for hull in by_script.mesh.hulls) == pytest.approx(volume, rel=1e-3)
+            verdicts = [one.failure(sample, done) for done in (by_program, by_script)]
+            assert (verdicts[0] is None) == (verdicts[1] is None)
+
+
+def test_a_python_without_blender_and_none_at_all_are_one_message(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"there is no program here(.|\n)*install --group blender"):
+        Blender(tmp_path / "python").run("pass", SCENE)
+    empty = tmp_path / "empty"
+    empty.write_text("#!/bin/sh\necho no Blender here >&2\nexit 1\n", "utf-8")
+    empty.chmod(0o755)
+    with pytest.raises(UsageError, match="Blender does not start: no Blender here"):
+        Blender(empty).run("pass", SCENE)
+
+
+def test_blender_is_looked_for_where_it_is_said_to_be() -> None:
+    assert found({"BENCH_BLENDER": "/opt/python"}) == Path("/opt/python")
+
+
+@needs_blender
+def test_who_writes_where_results_are_written_is_found_out_and_spoils_nothing_for_the_next(blender: Blender) -> None:
+    forging = """
+import os
+for number in range(3, 20):
+    try:
+        os.write(number, b'{"number": 0, "objects": []}\\n' * 2)
+    except OSError:
+        pass
+"""
+    assert "only results are written" in complaint(blender, forging) or "broke down" in complaint(blender, forging)
+    assert len(made(blender, "pass").hulls) == len(MESH.hulls)

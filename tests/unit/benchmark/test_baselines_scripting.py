@@ -1,0 +1,148 @@
+"""VLM Blender on loopback, in real Blender: what is fed back, and how it ends. Skipped where there is no Blender."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from benchmark.baselines.blender.apart import found
+from benchmark.baselines.blender.process import Blender, Limits
+from benchmark.baselines.demonstrated import Shown, demonstrated
+from benchmark.baselines.judging import scripted
+from benchmark.baselines.playing import played, vlm_blender
+from benchmark.baselines.refining import ROUNDS, refined
+from benchmark.baselines.scripting import Scripting, actions, differences
+from benchmark.evaluation import journal
+from benchmark.study import FULL, Bench, Session
+from benchmark.tasks import task
+from meshforge.language import ACTIONS
+from meshforge.project.vlm_settings import VlmSettings
+from tests.loopback.server import MODEL
+from tests.unit.benchmark.blender_script import SHELLS
+from tests.unit.benchmark.model_asking import PRICES, VARIABLE, asking, block, by_turn, key
+
+__all__ = ["key"]
+pytestmark = pytest.mark.usefixtures("key")
+PYTHON = found()
+needs_blender = pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
+NAME = "cup-easy"
+ROOM = 500
+
+
+@pytest.fixture(scope="module")
+def bench() -> Bench:
+    return Bench(task(NAME))
+
+
+@pytest.fixture(scope="module")
+def taught(bench: Bench) -> Session:
+    """A session with two meshes shown."""
+    return Session(NAME, FULL.name, 100, shown=list(bench.samples)[:2])
+
+
+@pytest.fixture(scope="module")
+def shown(bench: Bench, taught: Session) -> list[Shown]:
+    return demonstrated(bench, taught)
+
+
+@pytest.fixture(scope="module")
+def work(bench: Bench, shown: list[Shown]) -> Iterator[Scripting]:
+    assert PYTHON
+    with Blender(PYTHON, Limits(seconds=5.0)) as blender:
+        yield Scripting(bench.task, shown, blender)
+
+
+def test_the_actions_are_told_as_the_project_documents_them() -> None:
+    assert all(f"| `{name}" in actions() for name in ACTIONS)
+    assert actions().startswith("## Editing them")
+    assert "## Orientation" not in actions()
+
+
+def test_meshes_that_are_the_same_do_not_differ_and_others_do_in_words(shown: list[Shown]) -> None:
+    before, after = shown[0].before, shown[0].after
+    assert differences(before, before) == differences(after, after) == []
+    lacking, left = differences(before, after)
+    walls = [hull.name for hull in before.hulls if hull.label == "wall"]
+    assert lacking.startswith("there should be, and is not: ")
+    assert left.startswith(f"there is, and should not be: {walls[0]}, wall, (")
+    without = after.with_hulls(after.hulls[1:])
+    (one,) = differences(without, after)
+    assert one.startswith(f"there should be, and is not: {after.hulls[0].name}, ")
+
+
+@needs_blender
+def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
+    bench: Bench, taught: Session, shown: list[Shown], work: Scripting
+) -> None:
+    open_shell = SHELLS.replace("for part in parts:", "for part in parts[1:]:")
+    torus = "bpy.ops.mesh.primitive_torus_add()"
+    answers = [block("objects = nowhere"), block(torus), block(open_shell), block(SHELLS)]
+    with asking(by_turn(*answers)) as (server, client):
+        written = refined(client, work.opening, work.tried, ROOM)
+    assert (written.fits, written.wrong, written.text) == (True, [2, 2, 2, 0], SHELLS.strip())
+    first, *again = server.answered
+    assert "headless Blender 5" in first.text
+    assert "0.002 times the diagonal" in first.text
+    said = [list(asked.parts[len(before.parts) :]) for asked, before in zip(again, server.answered, strict=False)]
+    names = [one.name for one in shown]
+    failed, illegal, lacking = ["\n".join(p for p in parts if isinstance(p, str)) for parts in said]
+    assert all(f"{name}: it fails: Traceback" in failed for name in names)
+    assert "NameError: name 'nowhere' is not defined" in failed
+    assert all(f"{name}: it fails: no legal hulls: Torus: not convex" in illegal for name in names)
+    assert all(f"{name}: there should be, and is not: " in lacking for name in names)
+    assert [len(asked.pictures) - len(first.pictures) for asked in again] == [0, 0, 2]
+    judged = Session.of_json(
+        json.loads(json.dumps(scripted(NAME, FULL.name, 100, taught.shown, written.text, str(PYTHON))))
+    )
+    program = {n for n in bench.samples if bench.failure(n, bench.truth.edited(bench.task.program, n))} - set(
+        taught.shown
+    )
+    assert judged.failures.keys() == program
+    assert judged.judged == len(bench.samples) - 2
+
+
+@needs_blender
+def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
+    bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Blender.__init__, "__defaults__", (Limits(seconds=1.0),))
+    judged = Session.of_json(scripted(NAME, FULL.name, 100, taught.shown, "while True: pass", str(PYTHON)))
+    reasons = list(judged.failures.values())
+    assert len(reasons) == judged.judged
+    assert reasons[:3] == ["it took longer than 1 seconds"] * 3
+    assert set(reasons[3:]) == {"not tried: 3 meshes in a row took too long or broke Blender"}
+
+
+@needs_blender
+@pytest.mark.parametrize("answer", ["", "```python\n```"])
+def test_a_model_that_writes_nothing_ends_as_failure_within_the_rounds(
+    taught: Session, work: Scripting, answer: str
+) -> None:
+    with asking(lambda asked: answer) as (server, client):
+        written = refined(client, work.opening, work.tried, ROOM)
+    assert (written.fits, written.text, written.rounds, len(server.answered)) == (False, None, ROUNDS, ROUNDS)
+
+
+@needs_blender
+def test_all_sessions_are_played_and_what_was_asked_is_not_asked_again(
+    taught: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(journal, "JOURNALS", tmp_path)
+    monkeypatch.setattr("benchmark.baselines.playing.JOURNALS", tmp_path)
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
+    assert PYTHON
+    with asking(by_turn(block("1 / 0"), block(SHELLS))) as (server, _):
+        settings = VlmSettings(
+            base_url=server.base_url, model=MODEL, key_env=VARIABLE, input_price=PRICES[0], output_price=PRICES[1]
+        )
+        one, other = (played(vlm_blender(PYTHON), [taught], settings, lambda line: None) for _ in range(2))
+        assert len(server.answered) == 2
+    assert one == other
+    assert not one.missing
+    (log,), (written,) = one.sessions, one.written
+    assert (written.fits, written.rounds) == (True, 2)
+    assert len(log.failures) < 0.1 * log.judged
+    assert written.cost > 0

@@ -1,0 +1,216 @@
+"""Labellers on a few meshes: what they are scored by, and a model on loopback, which is asked five times."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from benchmark import __main__ as bench
+from benchmark.labels import asked as asked_module
+from benchmark.labels.methods import REPEATS, Method, Told, offline
+from benchmark.labels.sampling import LABELLED, Family, families
+from benchmark.labels.sampling import main as write_sample
+from benchmark.labels.scores import scored
+from meshforge.errors import UsageError
+from meshforge.formats import read
+from meshforge.perception.vlm import MODES
+from meshforge.symbolic.label_file import write_labels
+from meshforge.views import png, shots
+from tests.loopback import Asked, labels_as_json, serving, status
+from tests.unit.benchmark.model_asking import PRICES, key, settings_file
+
+__all__ = ["key"]
+pytestmark = pytest.mark.usefixtures("key")
+SIZE = 256
+CHEAP = f'mode = "cheap"\nsize = {SIZE}\n'
+
+
+@pytest.fixture(scope="module")
+def cups() -> Family:
+    (family,) = families(4, ("cup",))
+    return family
+
+
+def test_the_sample_is_spread_over_categories_and_assets_and_leaves_out_what_is_labelled_by_hand(cups: Family) -> None:
+    drawn = families(200)
+    assert [family.count for family in drawn] == [25] * 8
+    assert [family.count for family in families(11)] == [2, 2, 2, 1, 1, 1, 1, 1]
+    assert [family.name for family in families(1)] == ["cup"]
+    (every,) = families(72, ("cup",))
+    assert len(every.drawn) == len(set(every.drawn)) == 72
+    assert set(every.drawn) == set(range(75)) - set(every.advised)
+    (some,) = families(25, ("cup",))
+    assert len({some.samples[place].asset.name for place in some.drawn}) == 25
+    assert len(cups.advised) == LABELLED
+    assert set(cups.drawn) <= set(every.drawn)
+    assert not any(hull.label for mesh in cups.bare for hull in mesh.hulls)
+    for wrong in (0, -1, 577):
+        with pytest.raises(UsageError, match="cannot be drawn"):
+            families(wrong)
+
+
+def truth(family: Family) -> list[list[str]]:
+    return [[hull.label or "" for hull in family.samples[place].mesh.hulls] for place in family.drawn]
+
+
+def test_none_and_foreign_words_count_as_wrong_and_repeats_are_held_against_each_other(cups: Family) -> None:
+    right = truth(cups)
+    hulls = sum(map(len, right))
+    first = tuple(tuple(row) for row in right)
+    other = (("gizmo", None, *right[0][2:]), *first[1:])
+    told = [[Told(other, cost=0.4)], [Told(first)], [Told(first)]]
+    score = scored(Method("one", lambda family, repeat: told[repeat][0]), [cups], told)
+    assert score.accuracy == pytest.approx(1 - 2 / hulls)
+    assert score.unlabelled == pytest.approx(1 / hulls)
+    assert score.foreign == pytest.approx(1 / hulls)
+    assert score.agreement == pytest.approx(1 - 2 / hulls)
+    assert score.friedman == pytest.approx(0.3679, abs=1e-3)  # one mesh of four differs: chi squared 2 of 2 degrees
+    assert (score.meshes, score.cost, score.of("cup")) == (4, 0.4, score.accuracy)
+    pure = [p >= 0.8 for place in cups.drawn for p in cups.samples[place].purities]
+    assert score.accuracy_pure == pytest.approx(1 - sum(pure[:2]) / sum(pure))
+    same = scored(Method("one", lambda family, repeat: told[1][0]), [cups], told[1:] * 2)
+    assert (same.accuracy, same.agreement, same.friedman) == (1.0, 1.0, None)
+    alone = scored(Method("one", lambda family, repeat: told[0][0]), [cups], told[:1])
+    assert (alone.agreement, alone.friedman) == (None, None)
+
+
+def test_labellers_that_ask_nobody(cups: Family) -> None:
+    scores = {}
+    for method in offline(()):
+        assert method.repeats == REPEATS
+        scores[method.name] = scored(method, [cups], [[method.tell(cups, repeat)] for repeat in range(3)])
+    assert all(score.agreement == 1.0 and score.friedman is None for score in scores.values())
+    assert scores["propagation, 1 labelled"].accuracy > 0.9
+    assert scores["propagation, 3 labelled"].accuracy > scores["majority, 1 labelled"].accuracy > 0.2
+    assert (scores["names"].accuracy, scores["names"].unlabelled) == (0.0, 1.0)
+    assert {score.cost for score in scores.values()} == {0.0}
+
+
+def test_labels_that_something_else_made_are_read_from_a_folder(cups: Family, tmp_path: Path) -> None:
+    known = [cups.samples[place] for place in cups.drawn[:2]]
+    for sample in known:
+        write_labels(tmp_path / "made" / "deep" / f"{sample.name}.labels.json", sample.mesh, ["wall"])
+    method = offline([tmp_path / "made"])[-1]
+    score = scored(method, [cups], [[method.tell(cups, 0)]])
+    hulls = [len(cups.bare[place].hulls) for place in cups.drawn]
+    assert method.name == "labels of made"
+    assert score.accuracy == pytest.approx(sum(hulls[:2]) / sum(hulls))
+    assert score.unlabelled == pytest.approx(1 - score.accuracy)
+    assert (score.cost, score.agreement) == (None, None)
+    with pytest.raises(UsageError, match="no labels file"):
+        offline([tmp_path / "none"])[-1].tell(cups, 0)
+
+
+def test_the_sample_can_be_written_and_read_with_hulls_called_the_same(tmp_path: Path) -> None:
+    write_sample([str(tmp_path), "--sample", "1"])
+    (path,) = tmp_path.rglob("*.obj")
+    (family,) = families(1)
+    sample = family.samples[family.drawn[0]]
+    assert path == tmp_path / "cup" / f"{sample.name}.obj"
+    names = [geom.name.rpartition("/")[2] for geom in read(path).geoms]
+    assert names == [hull.name for hull in sample.mesh.hulls]
+    assert (tmp_path / "cup" / "vocabulary.txt").read_text("utf-8").split() == list(family.vocabulary)
+
+
+class Model:
+    """A model that knows the meshes by their first picture, and what is wrong with its answers."""
+
+    def __init__(self, family: Family) -> None:
+        self.truth: dict[bytes, dict[int, str]] = {}
+        for place, labels in zip(family.drawn, truth(family), strict=True):
+            taken = shots(family.bare[place], most=MODES["cheap"].pictures, size=SIZE)
+            self.truth[png(taken[0].marked)] = dict(enumerate(labels))
+        self.asked = 0
+
+    def __call__(self, asked: Asked) -> str:
+        right = self.truth[asked.pictures[0]]
+        said = {number: right[number] for number in asked.numbers}
+        said |= {0: "gizmo"} if 0 in said else {}
+        self.asked += 1
+        return labels_as_json(said)
+
+
+@pytest.fixture
+def answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(asked_module, "JOURNALS", tmp_path / "journals")
+    return tmp_path / "journals"
+
+
+def run(out: Path, *more: object) -> dict[str, Any]:
+    assert bench.main(["labellers", "--quick", "--sample", "2", "--out", str(out), *map(str, more)]) == 0
+    found = json.loads((out / "labels-labellers.json").read_text("utf-8"))
+    table = found["tables"][0]
+    return {row[0]: dict(zip(table["columns"], row, strict=True)) for row in table["rows"]} | {"notes": found["notes"]}
+
+
+def test_without_a_model_its_row_says_so(tmp_path: Path) -> None:
+    found = run(tmp_path)
+    assert set(list(found["a vision-language model"].values())[1:]) == {"not run"}
+    assert found["paper: GPT-4o"]["right"] == 0.92
+    assert found["propagation, 2 labelled"]["repeats"] == REPEATS
+    assert any("No model was named." in note for note in found["notes"])
+    assert "## Labellers on the same meshes" in (tmp_path / "labels.md").read_text("utf-8")
+
+
+def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Path, answers: Path) -> None:
+    (family,) = families(2, ("cup",))
+    model = Model(family)
+    with serving(model) as server:
+        settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
+        found = run(tmp_path / "out", "--vlm", settings)
+        asked, spent = model.asked, dict(server.usage)
+        again = run(tmp_path / "again", "--vlm", settings)
+        assert model.asked == asked
+    row = found["loopback-vl, cheap"]
+    assert {k: v for k, v in row.items() if k != "s a mesh"} == {
+        k: v for k, v in again["loopback-vl, cheap"].items() if k != "s a mesh"
+    }
+    assert asked == 2 * 2 * REPEATS  # each mesh once, and once again for the hull that has no label
+    hulls = sum(map(len, truth(family)))
+    assert row["right"] == pytest.approx(1 - 2 / hulls)
+    assert row["no label, %"] == pytest.approx(200 / hulls)
+    assert (row["repeats"], row["all repeats agree, %"], row["Friedman, p"]) == (REPEATS, 100, "no difference")
+    cost = (PRICES[0] * spent["input"] + PRICES[1] * spent["output"]) / 1e6
+    assert row["$ a mesh"] == pytest.approx(cost / REPEATS / 2, rel=0.1)  # but for probes
+    assert any("loopback-vl, mode cheap" in note for note in found["notes"])
+
+
+def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
+    (family,) = families(2, ("cup",))
+    model = Model(family)
+    turns = iter(range(10_000))
+
+    def wavering(asked: Asked) -> str:
+        said = json.loads(model(asked))["hulls"]
+        label = ("base", "lid", "misc")[next(turns) % 3]
+        return labels_as_json({row["number"]: label if row["number"] < 3 else row["label"] for row in said})
+
+    with serving(wavering) as server:
+        settings = settings_file(server, tmp_path / "vlm.toml", f"{CHEAP}concurrency = 1\n")
+        found = run(tmp_path / "out", "--vlm", settings)
+    assert found["loopback-vl, cheap"]["all repeats agree, %"] < 100
+
+
+def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Path) -> None:
+    (family,) = families(2, ("cup",))
+    model = Model(family)
+    with serving(model, fault=lambda asked: None if asked.is_probe or model.asked < 1 else status(500)) as server:
+        settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
+        found = run(tmp_path / "out", "--vlm", settings)
+        assert set(list(found["loopback-vl, cheap"].values())[1:]) == {"not finished"}
+        assert any("loopback-vl, cheap is not finished: " in note for note in found["notes"])
+        server.fault = lambda asked: None
+        found = run(tmp_path / "out", "--vlm", settings)
+        assert found["loopback-vl, cheap"]["right"] > 0.9
+
+
+def test_no_more_is_spent_than_may_be_over_all_repeats(tmp_path: Path, answers: Path) -> None:
+    (family,) = families(2, ("cup",))
+    with serving(Model(family)) as server:
+        found = run(tmp_path / "out", "--vlm", settings_file(server, tmp_path / "vlm.toml", CHEAP), "--max-cost", 0.06)
+        assert 0 < PRICES[0] * server.usage["input"] + PRICES[1] * server.usage["output"] <= 0.06e6
+    assert found["loopback-vl, cheap"]["right"] == "not finished"
+    assert any("--max-cost" in note for note in found["notes"])
