@@ -53,6 +53,7 @@ Templates that the rules may use:
 """
 _CLOSING = "Write the program."
 _AGAIN = "Answer with the whole program again."
+_LONG = 2000  # characters of a complaint
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +79,7 @@ class Agent:
         try:
             program = self.read(text)
         except MeshForgeError as error:
-            return Tried(None, 0, (f"The program does not parse:\n{error.message}\n{_AGAIN}",))
+            return Tried(None, 0, (f"The program does not parse:\n{error.message[:_LONG]}\n{_AGAIN}",))
         faults = [fault for one in self.shown for fault in self._faults(program, one)]
         said = "\n".join(("The program does not do what was shown.", *faults, _AGAIN)) if faults else ""
         return Tried(str(program), len(faults), (said,) if faults else ())
@@ -103,7 +104,7 @@ class Agent:
         if _hulls(result.mesh) == _hulls(self._wanted(one)):
             return []
         told = ", then ".join(f"{step.action}{f' as {step.label}' if step.label else ''}" for step in one.demo.steps)
-        return [f"{one.name}: the hulls that are left are not those that were shown. The steps were: {told}."]
+        return [f"{one.name}: other hulls are left than were shown. The steps were: {told}; each is a rule."]
 
     def _wanted(self, one: Shown) -> SymbolicMesh:
         """What was shown, in the frame that the mesh came in."""

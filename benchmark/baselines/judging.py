@@ -66,7 +66,8 @@ def _judge(bench: Bench, log: Session, edit: Callable[[str], Edited]) -> None:
     log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
     for name in rest:
         if why := bench.failure(name, edit(name)):
-            log.failures[name] = why.splitlines()[-1][:_TOLD]  # of a traceback what was wrong
+            lines = why.splitlines()
+            log.failures[name] = lines[-1 if lines[0].startswith("Traceback") else 0][:_TOLD]
             log.failed_pure += name in bench.pure
 
 

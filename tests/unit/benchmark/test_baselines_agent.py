@@ -148,7 +148,7 @@ def test_programs_with_other_rules_that_do_the_same_are_right(bench: Bench, show
     assert (tried.wrong, tried.said) == (0, ())
     less = agent.tried(str(replace(bench.task.program, rules=(one,))))
     assert less.wrong == len(shown)
-    assert 'The steps were: Delete, then Each(Replace("eye.obj")).' in str(less.said[0])
+    assert 'The steps were: Delete, then Each(Replace("eye.obj")); each is a rule.' in str(less.said[0])
     unknown = agent.tried("Is(hadle) => Delete")
     assert unknown.text is None
     assert "Did you mean 'handle'?" in str(unknown.said[0])

@@ -105,6 +105,14 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
 
 
 @needs_blender
+def test_of_a_script_that_fails_the_reason_is_kept(bench: Bench, taught: Session) -> None:
+    script = "if len(bpy.data.objects) % 2:\n    raise ValueError('odd')"
+    judged = Session.of_json(scripted(NAME, FULL.name, 100, taught.shown, script, str(PYTHON)))
+    odd = {name for name, mesh in bench.truth.meshes.items() if len(mesh.hulls) % 2} - set(taught.shown)
+    assert {name for name, why in judged.failures.items() if why == "ValueError: odd"} == odd
+
+
+@needs_blender
 def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
     bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
