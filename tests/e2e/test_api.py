@@ -100,7 +100,7 @@ def test_texts_are_checked_with_the_place_of_the_error(studio: Studio) -> None:
     bad = ok(studio.post("/api/program/check", {"text": "labels leg\nIs(leg) = Delete\n"}))
     assert bad["mark"]["line"] == 2
     assert len(ok(studio.get("/api/language"))["actions"]) == 5
-    assert ok(studio.get("/api/labels/sources")) == {"files": 0, "names": 0}
+    assert ok(studio.get("/api/labels/sources")) == {"files": 0, "names": 0, "model": None}
 
 
 @pytest.mark.parametrize(
