@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import stat
 import struct
 from collections.abc import Iterable
 
@@ -55,7 +56,8 @@ def _allow(ruleset: int, path: str, rights: int) -> None:
     except OSError:
         return  # what is not there need not be allowed
     try:
-        rule = struct.pack("=Qi", rights if os.path.isdir(path) else rights & _OF_A_FILE, place)  # noqa: PTH112
+        is_folder = stat.S_ISDIR(os.fstat(place).st_mode)
+        rule = struct.pack("=Qi", rights if is_folder else rights & _OF_A_FILE, place)
         _calls().syscall(_ADD, ruleset, _PATH, rule, 0)
     finally:
         os.close(place)
