@@ -42,6 +42,11 @@ class VlmSettings(BaseModel):
     wait: Seconds = 1.0
     extra: Mapping[str, Any] = {}
 
+    def check(self, vocabulary: Sequence[str]) -> None:
+        """Raises UsageError for what is in the way of asking: no model, no key, no vocabulary."""
+        self.endpoint().key()
+        self.manner(vocabulary)
+
     def endpoint(self) -> Endpoint:
         """Where the model is asked. Raises UsageError: no address, or no model named."""
         from meshforge.perception.vlm import Endpoint

@@ -60,8 +60,7 @@ def ask_job(desk: Desk, request: AskJob) -> Job:
 def _settings(desk: Desk, request: ForecastJob | AskJob) -> VlmSettings:
     """Those of the project, which are tried out before anything long begins."""
     settings = desk.project.settings.vlm.model_copy(update={"mode": request.mode})
-    settings.endpoint().key()
-    settings.manner(desk.project.vocabulary)
+    settings.check(desk.project.vocabulary)
     return settings
 
 

@@ -22,10 +22,8 @@ def model_of(project: Project) -> Model | None:
         return None
     host, why = "", None
     try:
-        endpoint = settings.endpoint()
-        host = endpoint.host
-        endpoint.key()
-        settings.manner(project.vocabulary)
+        host = settings.endpoint().host
+        settings.check(project.vocabulary)
     except MeshForgeError as error:
         why = error.message
     if find_spec("openai") is None:
