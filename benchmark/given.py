@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from meshforge.errors import UsageError, complaint
 
 if TYPE_CHECKING:
-    from meshforge.project.vlm_settings import VlmSettings
+    from meshforge.project.labels.vlm.settings import VlmSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Given:
 
     def settings(self) -> VlmSettings | None:
         """Whom to ask and how. Raises UsageError: no such file, no such table, or a field that does not fit."""
-        from meshforge.project.vlm_settings import VlmSettings
+        from meshforge.project.labels.vlm.settings import VlmSettings
 
         if self.vlm is None:
             return None

@@ -23,7 +23,7 @@ from benchmark.report import Tell
 from benchmark.study import Bench, Session
 from benchmark.tasks import Task, task
 from meshforge.perception.vlm import AskingError, Client, Message
-from meshforge.project.vlm_settings import VlmSettings
+from meshforge.project.labels.vlm.settings import VlmSettings
 
 ANSWERS = "vlm"
 """Where answers are kept, below the journals."""

@@ -12,7 +12,7 @@ from benchmark.evaluation.journal import JOURNALS
 from benchmark.labels.methods import Labels, Method, Told
 from benchmark.labels.sampling import Family
 from meshforge.perception.vlm import Client, Endpoint, Labeller, Question, Reply, Said
-from meshforge.project.vlm_settings import VlmSettings
+from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
 

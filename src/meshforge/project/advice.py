@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.project.label_files import beside
+from meshforge.project.labels.from_files.finding import beside
 
 if TYPE_CHECKING:
     from meshforge.project.accepting import Standing

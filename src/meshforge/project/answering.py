@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError, UsageError, nearest
-from meshforge.project import labelling
 from meshforge.project.answers_file import (
     AnswerLine,
     AnswersFile,
@@ -16,6 +15,7 @@ from meshforge.project.answers_file import (
     repair_id,
 )
 from meshforge.project.json_files import read_json, write_json
+from meshforge.project.labels import labelling
 from meshforge.project.steps import bare_text
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Correction, Question, Step

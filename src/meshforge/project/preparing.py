@@ -24,7 +24,7 @@ from meshforge.preparation import (
     write_preparation,
 )
 from meshforge.project.demonstrating import astray
-from meshforge.project.relabelling import relabelled
+from meshforge.project.labels.relabelling import relabelled
 from meshforge.symbolic import SymbolicMesh
 from meshforge.words import listed
 

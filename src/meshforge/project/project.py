@@ -21,43 +21,38 @@ from meshforge.project import (
     correcting,
     decomposing,
     demonstrating,
-    filing,
-    label_sheets,
-    labelling,
     learning,
     meeting,
-    naming,
     opening,
     overview,
     preparing,
-    propagating,
-    proposing,
     reading,
     renaming,
     reviewing,
     rules,
-    tallying,
     templating,
-    vlm_forecast,
-    vlm_labelling,
 )
 from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
-from meshforge.project.filing import Filing
-from meshforge.project.labelling import Labelled
+from meshforge.project.labels import labelling, naming, propagating, proposing, sheets, tallying
+from meshforge.project.labels.from_files import filing
+from meshforge.project.labels.from_files.filing import Filing
+from meshforge.project.labels.labelling import Labelled
+from meshforge.project.labels.name_patterns import Meanings
+from meshforge.project.labels.offering import Offered, Offers
+from meshforge.project.labels.propagating import Carried
+from meshforge.project.labels.proposing import Proposals
+from meshforge.project.labels.tallying import Tally
+from meshforge.project.labels.vlm import forecast as vlm_forecast
+from meshforge.project.labels.vlm import labelling as vlm_labelling
+from meshforge.project.labels.vlm.forecast import VlmForecast
+from meshforge.project.labels.vlm.labelling import VlmLabelled
+from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.project.layout import Layout
-from meshforge.project.name_patterns import Meanings
-from meshforge.project.offering import Offered, Offers
 from meshforge.project.preparing import Prepared
-from meshforge.project.propagating import Carried
-from meshforge.project.proposing import Proposals
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
 from meshforge.project.status import AssetStatus, Status
-from meshforge.project.tallying import Tally
-from meshforge.project.vlm_forecast import VlmForecast
-from meshforge.project.vlm_labelling import VlmLabelled
-from meshforge.project.vlm_settings import VlmSettings
 from meshforge.symbolic import LabelFile, Source, SymbolicMesh, read_labels
 from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
 from meshforge.synthesis import Correction as LabelCorrection
@@ -289,7 +284,7 @@ class Project:
 
         Sheets of an earlier time are replaced. Raises UsageError where one cannot be written.
         """
-        return label_sheets.contact_sheets(self, folder, assets, progress)
+        return sheets.contact_sheets(self, folder, assets, progress)
 
     def propagate_labels(
         self,

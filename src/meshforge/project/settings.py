@@ -15,8 +15,8 @@ from meshforge.errors import MeshForgeError, ProjectError
 from meshforge.files import write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.project.json_files import invalid
+from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.project.toml_edit import Value, set_value, toml_value
-from meshforge.project.vlm_settings import VlmSettings
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project

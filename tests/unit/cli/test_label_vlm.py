@@ -17,7 +17,7 @@ import pytest
 from meshforge.project import Project
 from tests.loopback import KEY, Asked, Server, labels_as_json, serving
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.project.vlm_family import VARIABLE, family, right, truth
+from tests.unit.project.labels.vlm_family import VARIABLE, family, right, truth
 
 _RUN = "from meshforge.cli import main; main()"
 

@@ -21,7 +21,7 @@ from meshforge.studio.wire.labelling import CarriedOver
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.unit.batch.families import label_of, table_boxes, tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.test_propagating import NAMES, family
+from tests.unit.project.labels.test_propagating import NAMES, family
 
 ASSETS = ("t0.obj", "t1.obj", "t2.obj")
 HULLS = dict.fromkeys(ASSETS, NAMES)

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.errors import UsageError, told
-from meshforge.project.found_labels import write_found
-from meshforge.project.labelling import Labelled
-from meshforge.project.vlm_settings import VlmSettings
+from meshforge.project.labels.found import write_found
+from meshforge.project.labels.labelling import Labelled
+from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
 if TYPE_CHECKING:

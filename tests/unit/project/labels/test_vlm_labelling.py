@@ -23,7 +23,7 @@ from meshforge.perception.vlm import Labeller
 from meshforge.project import Project, VlmLabelled
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
-from tests.unit.project.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
+from tests.unit.project.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
 
 MANY = 200
 

@@ -7,8 +7,8 @@ from contextlib import closing
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from meshforge.project.vlm_labelling import examples_of, wanted_of
-from meshforge.project.vlm_settings import VlmSettings
+from meshforge.project.labels.vlm.labelling import examples_of, wanted_of
+from meshforge.project.labels.vlm.settings import VlmSettings
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from meshforge.batch import Lost, isolated
 from meshforge.errors import MeshForgeError, ProjectError, StoppedError
-from meshforge.project.found_labels import write_found
-from meshforge.project.labelling import Labelled
+from meshforge.project.labels.found import write_found
+from meshforge.project.labels.labelling import Labelled
 from meshforge.symbolic import Label, SymbolicMesh
 
 if TYPE_CHECKING:

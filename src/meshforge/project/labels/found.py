@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from meshforge.project.labelling import Labelled, merged, write_merged
+from meshforge.project.labels.labelling import Labelled, merged, write_merged
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh, follow_labels
 
 if TYPE_CHECKING:

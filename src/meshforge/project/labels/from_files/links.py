@@ -9,9 +9,9 @@ from pathlib import Path
 from meshforge.errors import AssetError
 from meshforge.formats.segmented import read_semantics
 from meshforge.perception.names import EXACT, Names, Pattern
-from meshforge.project.class_meanings import Meaning, meaning_of
-from meshforge.project.given import Given, unknown
-from meshforge.project.naming import names_in
+from meshforge.project.labels.from_files.class_meanings import Meaning, meaning_of
+from meshforge.project.labels.from_files.given import Given, unknown
+from meshforge.project.labels.naming import names_in
 from meshforge.symbolic import Label, SymbolicMesh
 
 

@@ -14,9 +14,9 @@ from meshforge.formats.segmented import Segmented, of_own_mesh, read_segmented
 from meshforge.geometry import Aabb, Floats
 from meshforge.perception.names import Pattern
 from meshforge.perception.segments import Placing, Samples, Votes, of_faces, of_points, placed, votes
-from meshforge.project.class_meanings import Meaning, meaning_of
-from meshforge.project.class_names import names_of_classes
-from meshforge.project.given import Given, unknown
+from meshforge.project.labels.from_files.class_meanings import Meaning, meaning_of
+from meshforge.project.labels.from_files.class_names import names_of_classes
+from meshforge.project.labels.from_files.given import Given, unknown
 from meshforge.symbolic import Label, SymbolicMesh
 
 _HELD = 0.5  # share of points that hulls hold at least, if both are in the same frame

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from meshforge.project import Project, Proposal, Proposals
 from tests.unit.batch.families import tree
+from tests.unit.project.labels.test_naming import named
 from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh
-from tests.unit.project.test_naming import named
 
 
 def test_names_are_put_together_by_label_and_by_what_says_so(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from meshforge.perception.segments import Placing
 from meshforge.project import Filing, Labelled, Offers, Project, Reading
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
-from tests.unit.project.partnet import HULLS, write_partnet
+from tests.unit.project.labels.partnet import HULLS, write_partnet
 from tests.unit.project.tables import FIRST, SECOND, fresh
 
 ASSET = "mobility.urdf"

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from meshforge.errors import MeshForgeError
 from meshforge.files import changed_at
 from meshforge.perception.names import Pattern, told
-from meshforge.project.label_files import beside, kind_of
-from meshforge.project.labelling import is_kept
-from meshforge.project.name_patterns import name_patterns
-from meshforge.project.naming import as_label, names_of
+from meshforge.project.labels.from_files.finding import beside, kind_of
+from meshforge.project.labels.labelling import is_kept
+from meshforge.project.labels.name_patterns import name_patterns
+from meshforge.project.labels.naming import as_label, names_of
 from meshforge.project.survey import Facts, survey
 from meshforge.symbolic import HUMAN_SOURCES, Label, label_homes, read_labels
 

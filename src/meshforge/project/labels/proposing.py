@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError
 from meshforge.perception.names import Names, Told, told
-from meshforge.project.name_patterns import Meanings
-from meshforge.project.naming import as_label, checked_patterns, names_of
+from meshforge.project.labels.name_patterns import Meanings
+from meshforge.project.labels.naming import as_label, checked_patterns, names_of
 from meshforge.project.survey import survey
 from meshforge.symbolic import Label, label_homes
 from meshforge.views import UNSURE

@@ -8,10 +8,10 @@ import numpy as np
 from PIL import Image
 
 from meshforge.project import Project, Share
-from meshforge.project.label_sheets import PER_SHEET
+from meshforge.project.labels.sheets import PER_SHEET
 from meshforge.views import label_colors
 from tests.unit.batch.families import label_of, table_boxes
-from tests.unit.project.test_propagating import family
+from tests.unit.project.labels.test_propagating import family
 
 NAMES = tuple(table_boxes())
 

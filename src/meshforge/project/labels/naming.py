@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError
 from meshforge.perception.names import Names, Pattern, Told, told
-from meshforge.project.labelling import Labelled, merged, write_merged
-from meshforge.project.name_patterns import Meanings, name_patterns
+from meshforge.project.labels.labelling import Labelled, merged, write_merged
+from meshforge.project.labels.name_patterns import Meanings, name_patterns
 from meshforge.project.survey import Facts
 from meshforge.symbolic import Label, SymbolicMesh
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from meshforge.geometry import Shape, digest, overlap_volume
-from meshforge.project.labelling import write_merged
+from meshforge.project.labels.labelling import write_merged
 from meshforge.symbolic import Hull, Label, SymbolicMesh, follow_labels
 from meshforge.words import listed
 

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.errors import MeshForgeError, ProjectError
-from meshforge.project.class_names import classes_said
-from meshforge.project.given import Given
-from meshforge.project.label_files import kind_of, label_files
-from meshforge.project.labelling import Labelled, is_kept, merged, write_merged
-from meshforge.project.link_labels import link_labels, links_said
-from meshforge.project.name_patterns import Meanings, name_patterns
-from meshforge.project.point_labels import Reading, point_labels
-from meshforge.project.proposing import Evidence, Proposals, proposals
+from meshforge.project.labels.from_files.class_names import classes_said
+from meshforge.project.labels.from_files.finding import kind_of, label_files
+from meshforge.project.labels.from_files.given import Given
+from meshforge.project.labels.from_files.links import link_labels, links_said
+from meshforge.project.labels.from_files.points import Reading, point_labels
+from meshforge.project.labels.labelling import Labelled, is_kept, merged, write_merged
+from meshforge.project.labels.name_patterns import Meanings, name_patterns
+from meshforge.project.labels.proposing import Evidence, Proposals, proposals
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
 if TYPE_CHECKING:
