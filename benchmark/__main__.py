@@ -15,7 +15,7 @@ from pathlib import Path
 from benchmark.evaluation.page import write as write_page
 from benchmark.given import Given
 from benchmark.machine import machine
-from benchmark.pages import PAGES, Page, page_of, text_of
+from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.report import Result, as_text
 from meshforge.errors import AssetError, UsageError
 from meshforge.files import write_atomically
@@ -25,17 +25,24 @@ RESULTS = Path(__file__).resolve().parent / "results"
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the parts that are named; where none is, all but those that are for a special occasion."""
-    every = [part for page in PAGES for part in page.all_parts]
+    every, pages = [part for page in PAGES for part in page.all_parts], [page.name for page in PAGES]
     parser = argparse.ArgumentParser(prog="script/bench", description="Measures how fast and how well MeshForge does.")
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(every)}; without any, those of a run")
+    parser.add_argument(
+        "parts",
+        nargs="*",
+        metavar="PART",
+        help=f"of {', '.join(every)}; or a page of them: {', '.join(pages)}; without any, all pages",
+    )
     parser.add_argument("--quick", action="store_true", help="few cases, one round: to see that it works")
     parser.add_argument("--out", type=Path, default=RESULTS, help="the folder of the results")
     _add_given(parser)
     options = parser.parse_args(arguments)
-    if unknown := [part for part in options.parts if part not in every]:
-        parser.error(f"there is no part {unknown[0]!r}, only {', '.join(every)}")
+    try:
+        parts = parts_of(options.parts)
+    except KeyError as unknown:
+        parser.error(f"there is no part {unknown}, only {', '.join((*pages, *every))}")
     given = Given(options.vlm, options.max_cost, options.blender, options.sample, tuple(options.labels))
-    for part in options.parts or [part for page in PAGES for part in page.parts]:
+    for part in parts:
         page = page_of(part)
         try:
             result = run(page, part, options.quick, given)

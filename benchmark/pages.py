@@ -83,6 +83,15 @@ def page_of(part: str) -> Page:
     return next(page for page in PAGES if part in page.all_parts)
 
 
+def parts_of(names: Sequence[str]) -> tuple[str, ...]:
+    """The parts that names of parts and of pages mean; a page's are those of a run. Without any name, those of all pages.
+
+    Raises KeyError for a name that is neither.
+    """
+    known = {part: (part,) for page in PAGES for part in page.all_parts} | {page.name: page.parts for page in PAGES}
+    return tuple(dict.fromkeys(part for name in names or [page.name for page in PAGES] for part in known[name]))
+
+
 def text_of(page: Page, results: Sequence[Mapping[str, Any]]) -> str:
     """The page on some results."""
     listed = "Machine: " + ", ".join(f"{name} {value}" for name, value in results[-1]["machine"].items()) + ".\n"

@@ -12,6 +12,7 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark.clock import in_turns
+from benchmark.pages import PAGES, parts_of
 from benchmark.report import Goal, Result, Table, as_text
 from benchmark.speed import apply, contact, geometry, load, save
 from benchmark.speed.assets import multi_hull
@@ -83,6 +84,14 @@ def test_a_part_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str])
         bench.main(["contacts"])
     assert stopped.value.code == 2
     assert "there is no part 'contacts'" in capsys.readouterr().err
+
+
+def test_a_page_names_all_its_parts_of_a_run() -> None:
+    assert parts_of(["learning"]) == ("search", "growth", "asking", "repairs")
+    assert parts_of(["calibrate", "labels", "labellers"]) == ("calibrate", "propagation", "labellers")
+    assert parts_of([]) == tuple(part for page in PAGES for part in page.parts)
+    with pytest.raises(KeyError):
+        parts_of(["labels", "apply", "labours"])
 
 
 def test_contestants_take_turns_and_the_first_round_does_not_count() -> None:
