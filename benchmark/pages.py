@@ -84,7 +84,7 @@ def page_of(part: str) -> Page:
 
 
 def parts_of(names: Sequence[str]) -> tuple[str, ...]:
-    """The parts that names of parts and of pages mean; a page's are those of a run. Without any name, those of all pages.
+    """The parts that names of parts and of pages mean; a page's are those of a run. Without any, those of all pages.
 
     Raises KeyError for a name that is neither.
     """
