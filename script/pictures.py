@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 
 from meshforge.batch import load_templates
 from meshforge.formats import load
 from meshforge.language import Program, stage
+from meshforge.project import Project
 from meshforge.samples import TABLES
-from meshforge.symbolic import SymbolicMesh
-from meshforge.views import compare, render, sheet, write_png
+from meshforge.symbolic import SymbolicMesh, read_labels
+from meshforge.views import compare, render, sheet, shots, write_png
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
 CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
 """Three readings of a rule of docs/learning.md, on the table that it is asked about."""
+BY_HAND = ("table_10", "table_08")
+"""The tables that somebody labels who follows the advice."""
 
 
 def main(folder: Path) -> None:
     """Write the pictures into a folder."""
     _tables(folder / "tables.png")
     _question(folder / "question.png")
+    _numbered(folder / "numbers.png")
+    _labels(folder / "labels.png")
 
 
 def _tables(path: Path) -> None:
@@ -48,6 +55,25 @@ def _question(path: Path) -> None:
         chosen = frozenset(mesh.hulls[k].name for k in rule.extractor.select(mesh))
         drawn.append(render(mesh, highlight=chosen, size=(520, 400), up="Z"))
     write_png(path, sheet(drawn, columns=len(drawn), titles=[f"choice {k}" for k in range(1, len(drawn) + 1)]))
+
+
+def _numbered(path: Path) -> None:
+    """What a model is shown of a table, or a person who reads hulls off: two of the views, without the plain ones."""
+    first, second, *_ = shots(load(TABLES / "table_03.obj"), size=760)
+    write_png(path, sheet([first.marked, second.marked], columns=2))
+
+
+def _labels(path: Path) -> None:
+    """The contact sheet of all tables after the labels of two were carried over."""
+    with tempfile.TemporaryDirectory() as scratch:
+        program = Program.read(TABLES / "tables.mf")
+        project = Project.create(Path(scratch) / "p", sorted(TABLES.glob("*.obj")), vocabulary=program.labels)
+        for name in BY_HAND:
+            true = read_labels(TABLES / f"{name}.labels.json").labels
+            project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
+        project.propagate_labels()
+        (drawn,) = project.draw_labels(Path(scratch), project.assets())
+        shutil.copyfile(drawn, path)
 
 
 if __name__ == "__main__":

@@ -11,8 +11,11 @@ from typing import Literal
 from playwright.sync_api import Browser, Page
 
 from benchmark.studio.browser import chromium, studio
-from meshforge.cli.tables import demonstrated_tables, kept_tables
+from meshforge.cli.tables import WORDS, demonstrated_tables, kept_tables
+from meshforge.project import Project
 from meshforge.samples import TABLES
+from meshforge.symbolic import read_labels
+from script.pictures import BY_HAND
 
 SIZE = (1440, 900)
 GUESSED = "Keep as step 2"
@@ -27,11 +30,21 @@ def main(folder: Path) -> None:
         with studio(project.folder) as address:
             _demonstrating(_page(browser, address, "light"), folder / "studio.png")
             _asked(_page(browser, address, "light"), folder / "studio-learn.png")
+        with studio(_unlabelled(Path(scratch) / "three").folder) as address:
+            _labelling(_page(browser, address, "light"), folder / "studio-label.png")
         project = demonstrated_tables(Path(scratch) / "two")
         project.synthesize()
         list(project.apply())
         with studio(project.folder) as address:
             _reviewing(_page(browser, address, "dark"), folder / "studio-review.png")
+
+
+def _unlabelled(folder: Path) -> Project:
+    """The tables, of which one is labelled by hand."""
+    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=WORDS)
+    true = read_labels(TABLES / f"{BY_HAND[0]}.labels.json").labels
+    project.set_labels(f"{BY_HAND[0]}.obj", {hull: label.name for hull, label in true.items()})
+    return project
 
 
 def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Page:
@@ -43,6 +56,17 @@ def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Pa
     page.wait_for_function("() => document.querySelector('[data-testid=viewport]')?.dataset.ready")
     page.wait_for_timeout(9000)
     return page
+
+
+def _labelling(page: Page, path: Path) -> None:
+    """What carrying over the labels of one table gave, at the first hull that is unsure."""
+    page.keyboard.press("Alt+1")
+    page.keyboard.press("p")
+    page.get_by_text("carried over").first.wait_for()
+    page.wait_for_timeout(5000)
+    page.keyboard.press("n")
+    page.wait_for_timeout(3000)
+    page.screenshot(path=path)
 
 
 def _demonstrating(page: Page, path: Path) -> None:
