@@ -38,7 +38,7 @@ def rename(project: Project, old: str, new: str) -> None:
         program = project.program()
         after = _settings(project, settings, old, new)
         fresh = changed_settings(project.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
-        fresh = _patterns(project, fresh, settings, old, new)
+        fresh = _tables(project, fresh, settings, old, new)
         lesson = accepting.lesson_digest(project)
         for path, text in texts.items():
             write_atomically(path, text)
@@ -131,11 +131,14 @@ def _repair(line: RepairLine, old: str, new: str) -> RepairLine:
     return line.model_copy(update=values)
 
 
-def _patterns(project: Project, text: str, settings: Settings, old: str, new: str) -> str:
-    """The settings with the label's other name in the patterns that say what names mean."""
+def _tables(project: Project, text: str, settings: Settings, old: str, new: str) -> str:
+    """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
+    told, described = settings.vlm.descriptions, "vlm.descriptions"
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):
             text = set_value(text, pattern, new, "names")
+        if old in told:
+            text = set_value(set_value(text, new, told[old], described), old, None, described)
     except ProjectError as error:
         raise error.at(str(project.layout.settings)) from None
     return text

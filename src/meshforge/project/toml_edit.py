@@ -27,12 +27,14 @@ def toml_value(value: Value) -> str:
 
 
 def set_value(text: str, key: str, value: Value | None, table: str | None = None) -> str:
-    """The text with one key of the top level, or of a table, set anew, added, or taken away by None.
+    """The text with one key of the top level, or of a table (`a` or `a.b`), set anew, added, or taken away by None.
 
     Raises ProjectError where the text is written in a way that this cannot follow (a key inside an inline table).
     """
     wanted = tomllib.loads(text)
-    part = wanted if table is None else wanted.setdefault(table, {})
+    part = wanted
+    for name in table.split(".") if table else ():
+        part = part.setdefault(name, {})
     part.pop(key, None)
     if value is not None:
         part[key] = value if isinstance(value, str | int | float) else list(value)
@@ -113,4 +115,5 @@ def _parses(text: str) -> bool:
 
 
 def _without_empty(tables: dict[str, object]) -> dict[str, object]:
-    return {key: value for key, value in tables.items() if value != {}}
+    full = {key: _without_empty(value) if isinstance(value, dict) else value for key, value in tables.items()}
+    return {key: value for key, value in full.items() if value != {}}

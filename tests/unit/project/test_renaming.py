@@ -95,6 +95,16 @@ def test_files_that_do_not_say_the_label_are_left_alone(tmp_path: Path) -> None:
     assert changed == {"meshforge.toml"}
 
 
+def test_a_label_keeps_its_description_under_its_other_name(tmp_path: Path) -> None:
+    project = saying(tmp_path)
+    told = '\n[vlm]\nmode = "cheap"\n\n[vlm.descriptions]\nleg = "what it stands on"\npanel = "boards"  # all of them\n'
+    with project.layout.settings.open("a") as file:
+        file.write(told)
+    project.rename_label("leg", "chair leg")
+    assert project.settings.vlm.descriptions == {"chair leg": "what it stands on", "panel": "boards"}
+    assert 'panel = "boards"  # all of them\n' in project.layout.settings.read_text()
+
+
 def test_remarks_in_the_settings_stay(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     toml = project.folder / "meshforge.toml"

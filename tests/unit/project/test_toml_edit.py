@@ -55,6 +55,13 @@ def test_a_new_table_comes_last() -> None:
     assert set_value(TEXT, "size", 2, "labelling") == TEXT + "\n[labelling]\nsize = 2\n"
 
 
+def test_a_table_within_a_table_is_found() -> None:
+    text = '[a]\nx = 1\n[a.b]\n"y z" = "here"  # why\n[c]\n'
+    assert set_value(text, "y z", "there", "a.b") == text.replace("here", "there")
+    assert set_value("[a]\nx = 1\n", "y", 2, "a.b") == "[a]\nx = 1\n\n[a.b]\ny = 2\n"
+    assert set_value("[a]\nx = 1\n", "y", None, "a.b") == "[a]\nx = 1\n"
+
+
 def test_none_takes_a_key_away() -> None:
     assert set_value(TEXT, "name", None) == TEXT.replace('name = "tables" # never change\n', "")
     assert set_value(TEXT, "absent", None) == TEXT

@@ -15,7 +15,8 @@ from meshforge.perception.propagation.family import Family, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
 from meshforge.perception.propagation.righting import OtherSides, righted
-from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label, SymbolicMesh
+from meshforge.views.coloring import UNSURE
 
 _DIGITS = 3
 _REMEMBERED = 2000  # meshes whose other sides are not described again
@@ -74,5 +75,7 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
 
 
 def given_label(label: Label | None) -> str | None:
-    """The label that others may be taken from: one that a person gave, or that came in a file."""
-    return label.name if label and label.source in GIVEN_SOURCES else None
+    """The label that others may be taken from: one that a person gave, or that came in a file and is not unsure."""
+    if label is None or label.source not in GIVEN_SOURCES:
+        return None
+    return label.name if label.source in HUMAN_SOURCES or label.confidence >= UNSURE else None

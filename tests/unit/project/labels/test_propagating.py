@@ -67,6 +67,20 @@ def test_what_a_file_says_stays_however_unsure_it_is(tmp_path: Path) -> None:
     assert project.labels("t1.obj").labels["top"] == Label("misc", 0.01, "file")
 
 
+def test_what_a_file_says_without_being_sure_teaches_nothing(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    wrong = dict.fromkeys(NAMES, "misc")
+    project.set_labels("t0.obj", wrong, source="file", confidence=0.4)
+    with pytest.raises(ProjectError, match="no label that others could be taken from"):
+        project.propagate_labels()
+    project.set_labels("t1.obj", {name: label_of(name) for name in NAMES}, source="file", confidence=0.8)
+    project.propagate_labels()
+    assert {name: label.name for name, label in project.labels("t2.obj").labels.items()} == {
+        name: label_of(name) for name in NAMES
+    }
+    assert {label.name for label in project.labels("t0.obj").labels.values()} == {"misc"}
+
+
 def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
     project = family(tmp_path)
     with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
