@@ -1,4 +1,4 @@
-"""Labels found by machines: carried over from a few labelled assets to the rest of their family."""
+"""Labels found by machines: carried over from a few labelled assets, read off names and points, asked of a model."""
 
 from meshforge.perception.propagation import Propagated, Relatives, given_label, propagate
 
