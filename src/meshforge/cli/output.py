@@ -47,13 +47,29 @@ def _made(columns: Sequence[str], rows: Iterable[Sequence[Any]], right: Sequence
 
 @contextmanager
 def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
-    """A bar on stderr for work on several assets; gives the function that counts one more. Silent where piped."""
+    """A bar on stderr for work on several assets, with its rate and the time that is left; silent where piped.
+
+    Gives the function that counts one more. What is printed to stdout meanwhile goes there, also where that is no
+    terminal.
+    """
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
+    from rich.text import Text
+
+    class Rate(TextColumn):
+        def render(self, task: Task) -> Text:
+            return Text(f"{task.speed:.1f}/s" if task.speed else "")
 
     console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(""), TimeRemainingColumn())
+    with Progress(
+        *columns,
+        console=console,
+        transient=True,
+        redirect_stdout=sys.stdout.isatty(),
+        speed_estimate_period=120,
+        disable=not console.is_terminal,
+    ) as bar:
         task = bar.add_task(what, total=total)
         yield lambda: bar.advance(task)
 

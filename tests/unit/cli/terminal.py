@@ -10,14 +10,18 @@ import sys
 import time
 from pathlib import Path
 from types import TracebackType
+from typing import IO
 
 _RUN = "from meshforge.cli import main; main()"
 
 
 class Terminal:
-    """A `meshforge` command at a pseudo-terminal. text: everything it has printed."""
+    """A `meshforge` command at a pseudo-terminal. text: everything it has printed there.
 
-    def __init__(self, *words: str, cwd: Path) -> None:
+    results: where its stdout goes, if elsewhere.
+    """
+
+    def __init__(self, *words: str, cwd: Path, results: IO[bytes] | None = None) -> None:
         self._ours, theirs = os.openpty()
         environment = {**os.environ, "TERM": "dumb", "COLUMNS": "200"}
         self._process = subprocess.Popen(
@@ -25,7 +29,7 @@ class Terminal:
             cwd=cwd,
             env=environment,
             stdin=theirs,
-            stdout=theirs,
+            stdout=results or theirs,
             stderr=theirs,
             start_new_session=True,
         )

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
 import pytest
 
+from tests.unit.batch.families import PROGRAM, write_tables
 from tests.unit.cli.terminal import Terminal
 from tests.unit.project.shelves import ambiguous
 
@@ -23,3 +25,16 @@ def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None
     assert "stopped; what you said so far is kept" in terminal.text
     assert "not settled: it is open what rule 1 does on rack2.obj" in terminal.text
     assert project.answers().ids == ("1:rack2.obj",)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
+def test_results_go_into_a_file_while_the_bar_is_at_the_terminal(tmp_path: Path) -> None:
+    write_tables(tmp_path / "assets", 4)
+    (tmp_path / "p.mf").write_text(PROGRAM)
+    with (tmp_path / "lines.json").open("wb") as results:
+        words = ("apply", "p.mf", "assets", "--out", "out", "--json")
+        with Terminal(*words, cwd=tmp_path, results=results) as terminal:
+            assert terminal.end() == 0
+    lines = [json.loads(line) for line in (tmp_path / "lines.json").read_text().splitlines()]
+    assert [line["status"] for line in lines] == ["edited"] * 4
+    assert "{" not in terminal.text
