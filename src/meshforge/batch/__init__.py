@@ -1,6 +1,6 @@
 """Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
 
-from meshforge.batch.apply import TIMEOUT, apply
+from meshforge.batch.apply import TIMEOUT, Backend, apply
 from meshforge.batch.correction import Correction, replay
 from meshforge.batch.digests import (
     asset_digests,
@@ -17,9 +17,11 @@ from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
 from meshforge.batch.job import AssetJob, Task, jobs, labels_for
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
+from meshforge.batch.plan import Plan, plan, size_text
 from meshforge.batch.pool import Lost, isolated
 from meshforge.batch.report import ReportAsset, write_report
 from meshforge.batch.stamp import Inputs, Stamp, read_stamp
+from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
 
 __all__ = [
@@ -28,6 +30,7 @@ __all__ = [
     "STATE",
     "TIMEOUT",
     "AssetJob",
+    "Backend",
     "Correction",
     "Edited",
     "Failed",
@@ -35,10 +38,12 @@ __all__ = [
     "Inputs",
     "Lost",
     "Outcome",
+    "Plan",
     "ReportAsset",
     "RuleLine",
     "Skipped",
     "Stamp",
+    "Summary",
     "Task",
     "Unchanged",
     "apply",
@@ -55,11 +60,13 @@ __all__ = [
     "load_templates",
     "locked",
     "named_templates",
+    "plan",
     "program_digest",
     "read_stamp",
     "read_template",
     "replay",
     "same_files",
+    "size_text",
     "software",
     "source_files",
     "status",

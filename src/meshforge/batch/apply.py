@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
+from typing import Literal
 
+from meshforge.batch.cluster import on_cluster
 from meshforge.batch.draft import drafts
 from meshforge.batch.edit import Worked, edit
 from meshforge.batch.folder import STATE
 from meshforge.batch.job import AssetJob, Task
 from meshforge.batch.ledger import Ledger
 from meshforge.batch.lock import locked
+from meshforge.batch.memory import share
 from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.pool import Lost, isolated
+from meshforge.batch.pool import Lost, isolated, processors
 from meshforge.errors import UsageError
 from meshforge.formats import Mass
 from meshforge.language import Program, Template
 
+Backend = Literal["local", "ray"]
 TIMEOUT = 600.0
 """Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
+
+
+_Results = Generator[Worked | Lost, None, None]
 
 
 def apply(
@@ -35,36 +43,36 @@ def apply(
     dry_run: bool = False,
     resume: bool = True,
     timeout: float | None = TIMEOUT,
+    memory: int | None = None,
+    backend: Backend = "local",
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> Iterator[Outcome]:
     """Run a program on assets and write each into `out`; one outcome an asset, in the order given.
 
     The outcomes come as the work goes on; an asset is in place when its outcome is there. What one asset does wrong
-    is its own outcome. Outcomes and files do not depend on the number of workers.
+    is its own outcome. Outcomes and files do not depend on the number of workers, nor on where they are.
 
-    workers: processes, None takes one a processor, 0 works in this process (no time-out, no protection against
-    crashes of native code); mass: whether bodies keep their masses where a format derives them from geometry;
+    workers: processes, None takes one a processor, 0 works in this process (no bounds, no protection against crashes of
+    native code); mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
-    and was made from the same is skipped; timeout: seconds for one asset; progress: called for each finished asset;
-    stop: as of `isolated`.
+    and was made from the same is skipped; timeout: seconds for one asset; memory: bytes for one, an even share of
+    the machine's when None; backend: the workers of this machine, or those of a Ray cluster, as of `on_cluster`;
+    progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
     StoppedError when it was told to stop: what is in place by then stays.
     """
     jobs = tuple(assets)
     task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume)
     _check(jobs, task)
-    return _run(jobs, task, workers, timeout, progress, stop)
+    spread = isolated if backend == "local" else on_cluster
+    if backend == "local" and memory is None:
+        memory = share(min(workers or processors(), len(jobs)))
+    work = partial(spread, workers=workers, timeout=timeout, memory=memory, done=progress, stop=stop)
+    return _run(jobs, task, work)
 
 
-def _run(
-    jobs: tuple[AssetJob, ...],
-    task: Task,
-    workers: int | None,
-    timeout: float | None,
-    progress: Callable[[], None] | None,
-    stop: Callable[[], bool] | None,
-) -> Iterator[Outcome]:
+def _run(jobs: tuple[AssetJob, ...], task: Task, spread: Callable[..., _Results]) -> Iterator[Outcome]:
     with ExitStack() as stack:
         ledger = None
         if not task.dry_run:
@@ -72,8 +80,7 @@ def _run(
             stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
-        work = [(task, job) for job in jobs]
-        results = isolated(edit, work, workers=workers, timeout=timeout, done=progress, stop=stop)
+        results = spread(edit, [(task, job) for job in jobs])
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result

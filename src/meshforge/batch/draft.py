@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -37,7 +38,8 @@ def drafts(out: Path) -> Path:
 
 def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
     """Where the output of an asset would be."""
-    folder = drafts(task.out) / text_digest(job.id)
+    attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
+    folder = drafts(task.out) / f"{text_digest(job.id)}-{attempt}"
     return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
 
 

@@ -27,6 +27,8 @@ from meshforge.preparation import prepared_by, record_digest
 from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
 from meshforge.words import listed
 
+_MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
+
 
 @dataclass(frozen=True, slots=True)
 class Worked:
@@ -49,6 +51,9 @@ def edit(work: tuple[Task, AssetJob]) -> Worked:
         inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
         ready = prepared_by(asset, job.preparation) if job.preparation else asset
         return _edited(task, job, ready, inputs, started)
+    except MemoryError:
+        why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
+        return Worked(Failed(job.id, why, time.perf_counter() - started), inputs)
     except Exception as error:  # a failed asset never stops the others
         return Worked(Failed(job.id, told(error, str(job.path)), time.perf_counter() - started), inputs)
 

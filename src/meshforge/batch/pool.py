@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from meshforge.batch.memory import bound
 from meshforge.errors import MeshForgeError, StoppedError
 
 if TYPE_CHECKING:
@@ -41,22 +42,24 @@ def isolated(
     *,
     workers: int | None = None,
     timeout: float | None = None,
+    memory: int | None = None,
     done: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> Generator[Result | Lost, None, None]:
     """The results of `function` on the items, in their order, computed in worker processes.
 
     workers: how many; None takes one a processor, never more than items; 0 works in this process, without
-    protection against crashes and without time-out. timeout: seconds for one item. done: called whenever an item is
-    finished, in any order, maybe from another thread. stop: asked often whether to end all work in the midst.
+    protection against crashes and without bounds. timeout: seconds for one item; memory: bytes that a worker may take
+    beyond what it takes when it starts. done: called whenever an item is finished, in any order, maybe from another
+    thread. stop: asked often whether to end all work in the midst.
     Raises MeshForgeError when worker processes cannot be started at all, StoppedError when it was told to stop.
     """
     number = min(processors() if workers is None else workers, len(items))
     if number > 0:
-        yield from _pooled(function, items, number, timeout, done, stop)
+        yield from _pooled(function, items, number, timeout, memory, done, stop)
         return
     for item in items:
-        _heed(stop)
+        heed(stop)
         result = function(item)
         if done:
             done()
@@ -73,12 +76,13 @@ def _pooled(
     items: Sequence[Item],
     workers: int,
     timeout: float | None,
+    memory: int | None,
     done: Callable[[], None] | None,
     stop: Callable[[], bool] | None,
 ) -> Generator[Result | Lost, None, None]:
     from pebble import ProcessPool
 
-    pool = ProcessPool(max_workers=workers, context=workers_context())
+    pool = ProcessPool(max_workers=workers, context=workers_context(), **_starting(memory))
     waiting: deque[Future[Result]] = deque()
     rest = iter(items)
     try:
@@ -91,7 +95,7 @@ def _pooled(
             if not waiting:
                 break
             while stop and not wait([waiting[0]], OFTEN).done:
-                _heed(stop)
+                heed(stop)
             oldest = _outcome(waiting.popleft(), timeout)
             yield oldest
     finally:  # also when the caller stops early, or on Ctrl-C
@@ -102,7 +106,13 @@ def _pooled(
 _END: Any = object()
 
 
-def _heed(stop: Callable[[], bool] | None) -> None:
+def _starting(memory: int | None) -> dict[str, Any]:
+    """What each worker does first."""
+    return {"initializer": bound, "initargs": [memory]} if memory else {}
+
+
+def heed(stop: Callable[[], bool] | None) -> None:
+    """Raise StoppedError where it is said that all is to end."""
     if stop and stop():
         raise StoppedError("this was stopped")
 

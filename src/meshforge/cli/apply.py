@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -11,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Json, Labels, Workers
+from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
-    from meshforge.batch import Outcome
+    from meshforge.batch import AssetJob, Outcome, Summary
+    from meshforge.language import Program
+    from meshforge.symbolic import SymbolicMesh
 
 
 def apply(
@@ -25,43 +26,67 @@ def apply(
     ] = None,
     labels: Labels = None,
     workers: Workers = None,
+    backend: Annotated[
+        Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
+    ] = "local",
+    timeout: Timeout = None,
+    memory: Memory = None,
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep",
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")] = False,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
+    report: Annotated[
+        Path | None, typer.Option("--report", help="An HTML page with pictures before and after, failures first.")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
-    Exit code 1 when some assets failed: they are named, and the others are done.
+    A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed:
+    they are named, and the others are done.
     """
-    from meshforge.batch import Failed, json_line
-    from meshforge.cli.output import print_json, progress
+    from time import perf_counter
 
-    options = {"workers": workers, "mass": mass, "link": link, "dry_run": dry_run, "resume": not fresh}
-    work = _of_project(program, assets, labels) if program.is_dir() else _of_program(program, assets, out, labels)
-    outcomes = []
-    with progress(work.total, "editing") as advance:
-        for outcome in work.run(out=out, progress=advance, **options):
-            outcomes.append(outcome)
+    from meshforge.batch import TIMEOUT, Summary, json_line, plan
+    from meshforge.cli.output import print_json, progress, remark
+    from meshforge.errors import UsageError
+
+    if report and dry_run:
+        raise UsageError("with --dry-run there is nothing to show", remedy="Leave out --report.")
+    work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
+    remark(str(plan(work.jobs, work.out)))
+    summary, started = Summary(), perf_counter()
+    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
+    options = {"workers": workers, "backend": backend, "mass": mass, "link": link, "dry_run": dry_run}
+    with progress(len(work.jobs), "editing") as advance:
+        for outcome in work.run(out=work.out, resume=not fresh, progress=advance, **options, **bounds):
+            summary.add(outcome)
             if json:
                 print_json(json_line(outcome), compact=True)
+            else:
+                typer.echo(told(outcome))
     if not json:
-        report(outcomes, dry_run=dry_run)
-    raise typer.Exit(int(any(isinstance(outcome, Failed) for outcome in outcomes)))
+        typer.echo(f"{summary}{' (nothing was written)' if dry_run else ''}")
+    if report:
+        _write_report(report, work, summary, perf_counter() - started)
+    raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """How many assets there are, and what runs the program on them."""
+    """What is to be run on what. mesh: an asset by its id, before the run; demonstrated: those that somebody edited."""
 
-    total: int
+    program: Program
+    jobs: Sequence[AssetJob]
+    out: Path
     run: Callable[..., Iterator[Outcome]]
+    mesh: Callable[[str], SymbolicMesh]
+    demonstrated: Collection[str] = ()
 
 
-def _of_project(folder: Path, assets: list[str] | None, labels: Path | None) -> _Work:
+def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out: Path | None) -> _Work:
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
@@ -71,13 +96,16 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None) -> 
             remedy=f"For other assets: meshforge apply {folder / 'program.mf'} ASSETS... --out DIR",
         )
     project = Project.open(folder)
-    return _Work(len(project.assets()), project.apply)
+    program, jobs = project.work()
+    place = out or project.layout.edited
+    return _Work(program, jobs, place, project.apply, project.mesh, project.demonstrations())
 
 
 def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:
     from meshforge.batch import apply as run
     from meshforge.batch import expand, jobs, load_templates, template_folders
     from meshforge.errors import UsageError
+    from meshforge.formats import load
     from meshforge.language import Program
 
     if not assets or out is None:
@@ -86,25 +114,42 @@ def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: 
     program = Program.read(path)
     templates = load_templates(program, template_folders(path))
     work = jobs(expand(assets), labels)
-    return _Work(len(work), partial(run, program, work, templates=templates))
+    known = {job.id: job for job in work}
+    return _Work(
+        program,
+        work,
+        out,
+        partial(run, program, work, templates=templates),
+        lambda asset: load(known[asset].path, labels=known[asset].labels),
+    )
 
 
-def report(outcomes: Sequence[Outcome], *, dry_run: bool = False) -> None:
-    """One line an asset, then the counts."""
+def told(outcome: Outcome) -> str:
+    """What became of an asset: a line, and its notes below it."""
     from meshforge.batch import Failed, status
     from meshforge.words import counted
 
-    for outcome in outcomes:
-        if isinstance(outcome, Failed):
-            typer.echo(f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    "))
-            continue
-        typer.echo(f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}")
-        for line in (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags):
-            typer.echo(f"    note: {line}")
-    done = [outcome for outcome in outcomes if not isinstance(outcome, Failed)]
-    counts = Counter(status(outcome) for outcome in outcomes)
-    typer.echo(
-        f"{counted(len(outcomes), 'asset')}: {', '.join(f'{n} {word}' for word, n in counts.items())}; "
-        f"hulls {sum(o.before for o in done)} -> {sum(o.after for o in done)}"
-        + (" (nothing was written)" if dry_run else "")
-    )
+    if isinstance(outcome, Failed):
+        return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+    notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
+    line = f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}"
+    return "\n".join([line, *(f"    note: {note}" for note in notes)])
+
+
+def _write_report(path: Path, work: _Work, summary: Summary, seconds: float) -> None:
+    from meshforge.batch import write_report
+    from meshforge.cli.compared import compared
+    from meshforge.cli.output import progress, remark
+
+    with progress(len(summary.shown), "drawing") as advance:
+        assets = list(compared(summary.shown, work.program, work.mesh, work.demonstrated))
+        write_report(
+            path,
+            title=work.out.resolve().name,
+            program=work.program,
+            assets=assets,
+            seconds=seconds,
+            summary=summary,
+            progress=advance,
+        )
+    remark(f"report: {path}")

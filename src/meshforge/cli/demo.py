@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from textwrap import indent
 from typing import TYPE_CHECKING, Annotated
@@ -14,9 +13,7 @@ from meshforge.cli.options import Workers
 from meshforge.cli.studio import Browser, Port
 
 if TYPE_CHECKING:
-    from meshforge.batch import Outcome
     from meshforge.batch.report import ReportAsset
-    from meshforge.language import Program
     from meshforge.project import Project
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
@@ -49,6 +46,7 @@ def _run_through(out: Path, workers: int | None) -> None:
     from time import perf_counter
 
     from meshforge.batch.report import write_report
+    from meshforge.cli.compared import compared
     from meshforge.cli.output import progress, remark
     from meshforge.cli.tables import demonstrated_tables
 
@@ -67,7 +65,7 @@ def _run_through(out: Path, workers: int | None) -> None:
     with progress(len(project.assets()), "editing") as advance:
         outcomes = list(project.apply(workers=workers, progress=advance))
     seconds = perf_counter() - started
-    assets = _compared(project, program, outcomes)
+    assets = list(compared(outcomes, program, project.mesh, shown))
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
@@ -85,31 +83,6 @@ def _in_browser(out: Path, port: int, browser: bool) -> None:
     from meshforge.studio.serving import Opening
 
     opened(Opening(kept_tables(out).folder, tour=True), port=port, browser=browser)
-
-
-def _compared(project: Project, program: Program, outcomes: Sequence[Outcome]) -> list[ReportAsset]:
-    """Each table before and after, standing upright."""
-    from meshforge.batch import Failed, status
-    from meshforge.batch.report import ReportAsset
-    from meshforge.formats import load
-    from meshforge.language import RuleTrace, stage
-
-    shown, assets = project.demonstrations(), []
-    for outcome in outcomes:
-        before, name = project.mesh(outcome.asset), outcome.asset
-        if isinstance(outcome, Failed):
-            assets.append(ReportAsset(name, before, status="failed", error=outcome.error, demonstrated=name in shown))
-            continue
-        upright, pose = stage(before, program.orient, program.contact)
-        after = load(outcome.out)
-        standing = replace(after, hulls=tuple(hull.moved(pose) for hull in after.hulls))
-        trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
-        assets.append(
-            ReportAsset(
-                name, upright, standing, trace, status(outcome), demonstrated=name in shown, notes=outcome.notes
-            )
-        )
-    return assets
 
 
 def _told(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:

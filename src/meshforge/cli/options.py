@@ -7,12 +7,38 @@ from typing import Annotated
 
 import typer
 
+
+def _gibibytes(text: str) -> int:
+    """Bytes of a number of GiB."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0
+    if not 0 < number < 1e6:
+        raise typer.BadParameter(f"{text!r} is no number of GiB above 0")
+    return int(number * (1 << 30))
+
+
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for scripts.")]
 Labels = Annotated[
     Path | None,
     typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
+Timeout = Annotated[
+    float | None,
+    typer.Option("--timeout", min=0, help="Seconds for one asset, 0 for no bound; default 600.", show_default=False),
+]
+Memory = Annotated[
+    int | None,
+    typer.Option(
+        "--memory",
+        metavar="GIB",
+        parser=_gibibytes,
+        help="Memory for one asset; default an even share of the machine's.",
+        show_default=False,
+    ),
+]
 InProject = Annotated[
     Path | None,
     typer.Option("--project", help="Show ASSET as this project prepares and labels it; ASSET may be its id there."),

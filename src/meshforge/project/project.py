@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import TIMEOUT, Correction, Found, Outcome, apply, locked, named_templates
+from meshforge.batch import TIMEOUT, AssetJob, Backend, Correction, Found, Outcome, apply, locked, named_templates
 from meshforge.formats import Mass
 from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
@@ -451,6 +451,9 @@ class Project:
         link: bool = False,
         dry_run: bool = False,
         resume: bool = True,
+        timeout: float | None = TIMEOUT,
+        memory: int | None = None,
+        backend: Backend = "local",
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
     ) -> Iterator[Outcome]:
@@ -469,9 +472,16 @@ class Project:
             link=link,
             dry_run=dry_run,
             resume=resume,
+            timeout=timeout,
+            memory=memory,
+            backend=backend,
             progress=progress,
             stop=stop,
         )
+
+    def work(self) -> tuple[Program, tuple[AssetJob, ...]]:
+        """The program, and the jobs that `apply` runs it on. Raises ProjectError where there is no program yet."""
+        return applying.work(self, None)[:2]
 
     # After the program
 

@@ -8,19 +8,22 @@ from collections.abc import Mapping, Sequence
 from meshforge.batch.report.asset import ReportAsset, Status
 from meshforge.batch.report.html import Node, tag
 from meshforge.batch.report.words import change, duration
+from meshforge.batch.summary import Summary
 from meshforge.views import DIFFERENCE_COLORS, UNSURE
 
 STATUSES: tuple[Status, ...] = ("edited", "unchanged", "skipped", "failed")
 
 
-def headline(title: str, assets: Sequence[ReportAsset], seconds: float | None, about: str | None) -> Node:
-    """Title and figures."""
-    found = Counter(a.status for a in assets)
-    figures = [_figure("assets", f"{len(assets):,}")]
+def headline(
+    title: str, assets: Sequence[ReportAsset], seconds: float | None, about: str | None, summary: Summary | None = None
+) -> Node:
+    """Title and figures; summary: of the whole run, where only some of its assets are on the page."""
+    found: Counter[Status] = summary.counts if summary else Counter(a.status for a in assets)
+    figures = [_figure("assets", f"{found.total():,}")]
     figures += [_figure(s, f"{found[s]:,}", s) for s in STATUSES if found[s]]
     known = [a.counts for a in assets if a.counts]
-    if known:
-        before, after = (sum(c[k] for c in known) for k in (0, 1))
+    before, after = (summary.before, summary.after) if summary else (sum(c[k] for c in known) for k in (0, 1))
+    if before or after:
         figures.append(_figure("hulls", f"{before:,} → {after:,}", extra=change(before, after)))
     if seconds is not None:
         figures.append(_figure("run time", duration(seconds)))
@@ -29,9 +32,18 @@ def headline(title: str, assets: Sequence[ReportAsset], seconds: float | None, a
         "header",
         tag("h1", title),
         tag("p", about, class_="about") if about else None,
+        tag("p", _some(len(assets), found), class_="about") if len(assets) < found.total() else None,
         tag("dl", *figures, class_="figures"),
         tag("div", *parts, class_="bar", aria_hidden="true"),
     )
+
+
+def _some(shown: int, found: Mapping[Status, int]) -> str:
+    """Which of very many assets are on the page."""
+    first = (
+        "Those that failed are shown first, then the first of the others" if found["failed"] else "The first are shown"
+    )
+    return f"{first}: {shown:,} of {sum(found.values()):,}."
 
 
 def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str) -> Node:

@@ -13,6 +13,7 @@ from meshforge.batch.report.html import Node, document, tag
 from meshforge.batch.report.pictures import pictures
 from meshforge.batch.report.program_panel import program_panel
 from meshforge.batch.report.tools import tools
+from meshforge.batch.summary import Summary
 from meshforge.files import write_atomically
 from meshforge.language import Program
 from meshforge.views import UNLABELLED, label_colors
@@ -30,13 +31,14 @@ def write_report(
     assets: Sequence[ReportAsset],
     seconds: float | None = None,
     about: str | None = None,
+    summary: Summary | None = None,
     pictured: int = PICTURED,
     progress: Callable[[], None] | None = None,
 ) -> None:
     """Write the report of a batch: figures, the program, and every asset before and after, with what each rule did.
 
-    about: a line below the title; pictured: how many assets get pictures, demonstrated and failed ones first;
-    progress: called for each asset done. The page refers to no other file.
+    about: a line below the title; summary: of the whole run, of which `assets` are then some; pictured: how many get
+    pictures, demonstrated and failed ones first; progress: called for each asset. The page refers to no other file.
     """
     vocabulary = _vocabulary(program, assets)
     colors = label_colors(vocabulary)
@@ -48,7 +50,7 @@ def write_report(
             progress()
     main = tag(
         "main",
-        headline(title, assets, seconds, about),
+        headline(title, assets, seconds, about, summary),
         program_panel(program, assets, colors),
         tag(
             "section",

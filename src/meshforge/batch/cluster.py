@@ -1,0 +1,113 @@
+"""Work on many items on a Ray cluster: chunks of them, each run by the supervised workers of the node that it is on."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections import deque
+from collections.abc import Callable, Generator, Sequence
+from typing import Any, TypeVar
+
+from meshforge.batch.memory import share
+from meshforge.batch.pool import OFTEN, Lost, heed, isolated
+from meshforge.errors import MeshForgeError
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+CHUNK = 32
+"""Items for each processor of a chunk: a node that dies costs the work on so many, which another one does again."""
+_AHEAD = 2  # chunks handed out for each that can be worked on
+_AGAIN = 5  # nodes that may die under one chunk
+
+
+def on_cluster(
+    function: Callable[[Item], Result],
+    items: Sequence[Item],
+    *,
+    workers: int | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    done: Callable[[], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> Generator[Result | Lost, None, None]:
+    """The results of `function` on the items, in their order, as of `isolated`, computed on all nodes of a cluster.
+
+    The cluster is that of RAY_ADDRESS, else one that runs on this machine, else one that is started here for as long as
+    this takes. MeshForge and the files of the assets have to be on every node, under the same paths. workers: processes
+    in all; memory: bytes for each, an even share of its node's when None. A chunk whose node dies is done again on
+    another. Raises MeshForgeError where Ray is not installed or no cluster answers, and what `isolated` raises.
+    """
+    ray, ours = _joined()
+    waiting: deque[tuple[Any, int]] = deque()
+    try:
+        cores, every = _cores(ray)
+        cores = min(cores, workers or cores)
+        at_once = max(1, (min(workers, every) if workers else every) // cores)
+        remote = ray.remote(_chunk).options(num_cpus=cores, max_retries=_AGAIN, scheduling_strategy="SPREAD")
+        length = max(1, min(CHUNK * cores, math.ceil(len(items) / (at_once * _AHEAD))))
+        starts = iter(range(0, len(items), length))
+        while True:
+            while len(waiting) < at_once * _AHEAD and (start := next(starts, None)) is not None:
+                chunk = list(items[start : start + length])
+                waiting.append((remote.remote(function, chunk, cores, timeout, memory), len(chunk)))
+            if not waiting:
+                break
+            task, count = waiting[0]
+            while not ray.wait([task], timeout=OFTEN)[0]:
+                heed(stop)
+            waiting.popleft()
+            for result in _results(ray, task, count):
+                if done:
+                    done()
+                yield result
+    finally:  # also when the caller stops early, or on Ctrl-C
+        for task, _ in waiting:
+            ray.cancel(task, force=True)
+        if ours:
+            ray.shutdown()
+
+
+def _joined() -> tuple[Any, bool]:
+    """Ray, connected to a cluster, and whether this connection was made here."""
+    try:
+        import ray
+    except ImportError as error:
+        remedy = "Install it: pip install 'meshforge[ray]'."
+        raise MeshForgeError("the backend ray needs Ray, which is not installed", remedy=remedy) from error
+    if ray.is_initialized():
+        return ray, False
+    try:
+        ray.init(log_to_driver=False, logging_level=logging.ERROR, include_dashboard=False)
+    except (ConnectionError, RuntimeError, OSError, ValueError) as error:
+        remedy = "Start one with `ray start --head`, and set RAY_ADDRESS where it is on another machine."
+        raise MeshForgeError(f"no Ray cluster answers: {error}", remedy=remedy) from error
+    return ray, True
+
+
+def _cores(ray: Any) -> tuple[int, int]:
+    """The processors of the smallest node that has any, and of all nodes."""
+    counts = [int(node["Resources"].get("CPU", 0)) for node in ray.nodes() if node["Alive"]]
+    counts = [count for count in counts if count]
+    if not counts:
+        raise MeshForgeError("the Ray cluster has no processors", remedy="Start its nodes with --num-cpus.")
+    return min(counts), sum(counts)
+
+
+def _chunk(
+    function: Callable[[Item], Result], items: list[Item], workers: int, timeout: float | None, memory: int | None
+) -> list[Result | Lost]:
+    """Runs on a node."""
+    bound = memory or share(workers)
+    return list(isolated(function, items, workers=workers, timeout=timeout, memory=bound))
+
+
+def _results(ray: Any, task: Any, count: int) -> list[Any]:
+    """The results of a chunk; all of it is lost where one node after the other died under it."""
+    try:
+        return list(ray.get(task))
+    except MeshForgeError:
+        raise
+    except ray.exceptions.RayError as error:
+        why = str(error).strip().splitlines()[0]
+        return [Lost(f"the nodes of the cluster that worked on it died ({why})")] * count

@@ -1,0 +1,75 @@
+"""What a run over many assets has before it, known before anything is done."""
+
+from __future__ import annotations
+
+import shutil
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.batch.job import AssetJob
+from meshforge.batch.memory import GIB, MIB
+from meshforge.batch.stamp import stamp_path
+from meshforge.words import counted
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """kinds: how many assets have which suffix, `folder` for folders; size: of the assets' own files [bytes], without
+    those that they refer to; labelled: how many have a labels file; earlier: how many an earlier run was at; free: on
+    the disk of the output [bytes].
+    """
+
+    kinds: Mapping[str, int]
+    size: int
+    labelled: int
+    earlier: int
+    out: Path
+    free: int
+
+    @property
+    def count(self) -> int:
+        """How many assets there are."""
+        return sum(self.kinds.values())
+
+    @property
+    def is_tight(self) -> bool:
+        """Whether the disk may not hold as much again as the assets that no earlier run was at."""
+        return self.free < self.size * (self.count - self.earlier) / max(self.count, 1)
+
+    def __str__(self) -> str:
+        kinds = ", ".join(f"{number:,} {kind}" for kind, number in self.kinds.items())
+        told = [f"{counted(self.count, 'asset')} ({kinds}; {size_text(self.size)}), {self.labelled:,} with labels"]
+        known = (
+            f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
+        )
+        told.append(f"into {self.out}{known}; {size_text(self.free)} free")
+        if self.is_tight:
+            told.append("the disk may be too small for all of it; a run that this stops goes on when there is room")
+        return "\n".join(told)
+
+
+def plan(jobs: Iterable[AssetJob], out: Path) -> Plan:
+    """Look at the assets from outside, without reading them."""
+    kinds: Counter[str] = Counter()
+    size = labelled = earlier = 0
+    for job in jobs:
+        kinds[job.path.suffix.lower().lstrip(".").upper() or "folder"] += 1
+        size += _size(job.path)
+        labelled += job.labels is not None
+        earlier += stamp_path(out, job.id).is_file()
+    place = next(folder for folder in (out.absolute(), *out.absolute().parents) if folder.exists())
+    return Plan(dict(kinds.most_common()), size, labelled, earlier, out, shutil.disk_usage(place).free)
+
+
+def size_text(size: int) -> str:
+    """Bytes as people say them: `3.2 MiB`."""
+    return f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
+
+
+def _size(path: Path) -> int:
+    try:
+        return sum(entry.stat().st_size for entry in path.iterdir()) if path.is_dir() else path.stat().st_size
+    except OSError:
+        return 0

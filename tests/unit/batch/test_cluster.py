@@ -1,0 +1,110 @@
+"""The same run on a Ray cluster of several nodes, of which one dies in the midst."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.batch import Failed, apply, expand, jobs, status
+from meshforge.batch.cluster import on_cluster
+from meshforge.batch.pool import Lost
+from meshforge.errors import MeshForgeError, StoppedError
+from meshforge.language import Program
+from tests.unit.batch.families import PROGRAM, tree, write_tables
+
+ray = pytest.importorskip("ray")
+pytestmark = pytest.mark.filterwarnings("ignore")  # Ray's own
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """A head without processors for work, and two nodes of one each."""
+    from ray.cluster_utils import Cluster
+
+    made = Cluster()
+    made.add_node(num_cpus=0, include_dashboard=False)
+    for _ in range(2):
+        made.add_node(num_cpus=1)
+    ray.init(address=made.address, log_to_driver=False)
+    yield made
+    ray.shutdown()
+    made.shutdown()  # type: ignore[no-untyped-call]
+
+
+def square_or_worse(number: int) -> int:
+    if number == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if number == 5:
+        time.sleep(60)
+    return number * number
+
+
+def slow_square(number: int) -> int:
+    time.sleep(0.1)
+    return number * number
+
+
+def test_results_come_in_order_and_a_crash_or_a_hang_loses_one_item(cluster: Any) -> None:
+    count = [0]
+
+    def done() -> None:
+        count[0] += 1
+
+    found = list(on_cluster(square_or_worse, range(40), timeout=2.0, done=done))
+    assert found[3] == Lost("its worker process died (SIGKILL)")
+    assert found[5] == Lost("it took longer than 2 seconds and was stopped", 2.0)
+    assert [(k, n) for k, n in enumerate(found) if k not in (3, 5)] == [
+        (k, k * k) for k in range(40) if k not in (3, 5)
+    ]
+    assert count == [40]
+
+
+def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Path) -> None:
+    """Both nodes work when one of them is killed, and a third one comes."""
+    write_tables(tmp_path / "assets", 60)
+    (tmp_path / "assets/table7/model.obj").write_text("v 1 2\n")
+    program, work = Program.parse(PROGRAM), jobs(expand([tmp_path / "assets"]))
+    here = list(apply(program, work, tmp_path / "here", workers=2))
+    there, killed = [], False
+    for outcome in apply(program, work, tmp_path / "there", backend="ray"):
+        there.append(outcome)
+        if not killed:
+            cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
+            cluster.add_node(num_cpus=1)
+            killed = True
+    assert [(o.asset, status(o)) for o in there] == [(o.asset, status(o)) for o in here]
+    assert [o.asset for o in there if isinstance(o, Failed)] == ["table7/model.obj"]
+    assert tree(tmp_path / "there") == tree(tmp_path / "here")
+    again = apply(program, work, tmp_path / "there", backend="ray")
+    assert {status(o) for o in again} == {"skipped", "failed"}
+
+
+def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
+    results = on_cluster(slow_square, range(64))
+    first = next(results)
+    cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
+    assert [first, *results] == [n * n for n in range(64)]
+    cluster.add_node(num_cpus=1)
+
+
+def test_it_can_be_stopped(cluster: Any) -> None:
+    with pytest.raises(StoppedError):
+        list(on_cluster(slow_square, range(1000), stop=lambda: True))
+
+
+def test_a_cluster_that_does_not_answer_is_one_message(monkeypatch: pytest.MonkeyPatch, cluster: Any) -> None:
+    def refuses(**_: Any) -> None:
+        raise ConnectionError("nobody there")
+
+    monkeypatch.setattr(ray, "is_initialized", lambda: False)
+    monkeypatch.setattr(ray, "init", refuses)
+    with pytest.raises(
+        MeshForgeError, match="no Ray cluster answers: nobody there\n  Start one with `ray start --head`"
+    ):
+        list(on_cluster(slow_square, range(2)))
