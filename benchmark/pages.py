@@ -70,6 +70,13 @@ PAGES = (
         given=("labellers",),
     ),
     Page(
+        "batch",
+        "# Very many assets\n\nWritten by `script/bench` from the JSON beside it.\n",
+        (),
+        ("pebble", "numpy"),
+        aside=("many",),
+    ),
+    Page(
         "studio",
         "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
         ("opening", "moving", "relearning", "scrolling"),
