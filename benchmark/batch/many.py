@@ -91,10 +91,12 @@ def _runs(kind: str, models: Sequence[Path], program: Path, count: int, folder: 
 
 _COLUMNS = ("", "", "assets", "s", "assets a second", "added to the work, %", "MiB, main", "MiB, largest worker", "")
 _NOTES = (
-    "Assets are variants of another size each of two stools of six boxes, or of the 14 bundled tables (26 to 66"
-    " hulls), each variant there 50 times as hard links. The command starts from nothing, then again with all outputs there.",
-    "*Added to the work*: the time that the workers could have worked and did not (start of Python, finding the"
-    " assets, putting outputs in place, waiting for the disk), as a share of what they worked. Memory: largest resident size.",
+    "Assets are variants of another size each of two stools of six boxes, or of the 14 bundled tables (26 to 66 "
+    "hulls), each variant there 50 times as hard links. The command starts from nothing, then again with all outputs "
+    "there.",
+    "*Added to the work*: the time that the workers could have worked and did not (start of Python, finding the "
+    "assets, putting outputs in place, waiting for the disk), as a share of what they worked. Memory: largest "
+    "resident size.",
 )
 
 
