@@ -42,7 +42,8 @@ def heat(
 ) -> Image:
     """Things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
-    most: where the last band begins [m], the first is a quarter of it wide; ghost: what is shown as a grey shell around; mesh: tells what is up.
+    most: where the last band begins [m], the first is a quarter of it wide; ghost: what is shown as a grey shell
+    around; mesh: tells what is up.
     """
     edges = band_edges(most)
     colors = np.array([rgb(color) for color in BANDS])
