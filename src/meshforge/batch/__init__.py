@@ -12,7 +12,7 @@ from meshforge.batch.digests import (
     text_digest,
 )
 from meshforge.batch.edit import inputs_of
-from meshforge.batch.examination import Examination, Wanted, examine
+from meshforge.batch.examination import Examined, Wanted, examine
 from meshforge.batch.expand import Found, asset_id, common_folder, expand
 from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
 from meshforge.batch.job import AssetJob, Task, jobs, labels_for
@@ -31,7 +31,7 @@ __all__ = [
     "AssetJob",
     "Correction",
     "Edited",
-    "Examination",
+    "Examined",
     "Failed",
     "Found",
     "Inputs",

@@ -1,4 +1,4 @@
-"""One asset checked in every way that is asked for."""
+"""One asset of a batch checked in every way that is asked for."""
 
 from __future__ import annotations
 
@@ -6,82 +6,105 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from meshforge.batch.expand import asset_id
 from meshforge.batch.mending import write_mended
-from meshforge.checks import Finding, Fixed, check, engine_named, fix
-from meshforge.errors import MeshForgeError
+from meshforge.checks import Examination, Fixed, Measures, engine_named, examine_mesh, fix, pictures
+from meshforge.errors import AssetError, MeshForgeError
 from meshforge.formats import load
+from meshforge.symbolic import SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What is to be checked; out: the folder for mended assets, None where nothing is to be mended.
+    """What is to be done with each asset.
 
-    tolerance: as of `fix` [m].
+    out: the folder for mended assets, None where nothing is to be mended; tolerance: as of `fix` [m].
+    against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
     """
 
-    engine: str | None = None
+    measures: Measures
     out: Path | None = None
     tolerance: float | None = None
     overwrite: bool = False
+    against: Path | None = None
+    pictures: Path | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Examination:
+class Examined:
     """What was found of one asset; error: the whole message where it could not be read, or not be written.
 
-    written: the file of the mended asset.
+    written: the file of the mended asset; pictures: the files of pictures.
     """
 
     path: Path
     error: str | None = None
-    findings: tuple[Finding, ...] = ()
+    found: Examination | None = None
     fixed: Fixed | None = None
     written: Path | None = None
+    pictures: tuple[Path, ...] = ()
 
     @property
     def failed(self) -> bool:
-        return self.error is not None or any(f.severity == "error" for f in self.findings)
+        """Whether there is an error."""
+        return self.found is None or any(f.severity == "error" for f in self.found.findings)
 
     def to_json(self) -> dict[str, Any]:
-        """The examination as JSON-able data; lengths in metres."""
+        """The examination as JSON-able data; in SI units, volumes in litres."""
         rows = [
             {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
-            for f in self.findings
+            for f in (self.found.findings if self.found else ())
         ]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
         if self.fixed:
-            line["fixed"] = _fixed(self.fixed, self.written)
+            line["fixed"] = {"out": str(self.written)} | self.fixed.to_json()
+        if self.found:
+            line |= self.found.to_json()
+        if self.pictures:
+            line["pictures"] = [str(path) for path in self.pictures]
         return line
 
 
-def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Examination:
+def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Examined:
     """The examination of an asset, which never raises for what is wrong with it; findings are those after mending.
 
     base: the common folder of the assets. Raises UsageError for an engine that is not known.
     """
-    engine = engine_named(wanted.engine) if wanted.engine else None
+    engine = engine_named(wanted.measures.engine) if wanted.measures.engine else None
     fixed, written = None, None
     try:
         mesh = load(path, labels=labels)
+        before = _before(path, base, wanted.against)
         if wanted.out and engine:
             fixed = fix(mesh, engine, wanted.tolerance)
-            mesh = fixed.mesh
+            before, mesh = before or (mesh if fixed.changes else None), fixed.mesh
             written = write_mended(mesh, base, wanted.out, overwrite=wanted.overwrite)
-        return Examination(path, None, check(mesh, wanted.engine), fixed, written)
+        found = examine_mesh(mesh, wanted.measures, before)
+        drawn = _drawn(mesh, found, asset_id(path, base), wanted.pictures)
+        return Examined(path, None, found, fixed, written, drawn)
     except MeshForgeError as problem:
-        return Examination(path, problem.message)
+        return Examined(path, problem.message)
 
 
-def _fixed(fixed: Fixed, written: Path | None) -> dict[str, Any]:
-    changes = [
-        {
-            "hull": change.hull,
-            "made": change.made,
-            "rules": list(change.rules),
-            "error": change.error,
-            "vertices": {"before": change.vertices[0], "after": change.vertices[1]},
-            "polygons": {"before": change.polygons[0], "after": change.polygons[1]},
-        }
-        for change in fixed.changes
-    ]
-    return {"out": str(written), "changes": changes, "left": list(fixed.left)}
+def _before(path: Path, base: Path, against: Path | None) -> SymbolicMesh | None:
+    """The asset as it was."""
+    if against is None:
+        return None
+    place = against / asset_id(path, base) if against.is_dir() else against
+    if not place.exists():
+        raise AssetError("there is no such asset to compare with", where=str(place), remedy="Correct --against.")
+    return load(place)
+
+
+def _drawn(mesh: SymbolicMesh, found: Examination, name: str, folder: Path | None) -> tuple[Path, ...]:
+    """The pictures of an asset, written below a folder."""
+    if folder is None:
+        return ()
+    from meshforge.views import write_png
+
+    paths = []
+    for kind, _, image in pictures(mesh, found):
+        path = folder / f"{name}.{kind}.png"
+        write_png(path, image)
+        paths.append(path)
+    return tuple(paths)

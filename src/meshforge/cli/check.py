@@ -1,4 +1,4 @@
-"""`meshforge check`: whether hulls are legal, and within an engine's limits."""
+"""`meshforge check`: whether hulls are legal, within an engine's limits, fit, leave free what is free, and rest."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 from meshforge.cli.options import AssetFiles, Json, Labels
 
 if TYPE_CHECKING:
-    from meshforge.batch import Examination
+    from meshforge.batch import Examined
 
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 
@@ -18,6 +18,25 @@ EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bul
 def check(
     assets: AssetFiles,
     engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None,
+    fit: Annotated[
+        bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
+    ] = False,
+    clearance: Annotated[
+        bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
+    ] = False,
+    physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False,
+    against: Annotated[
+        Path | None, typer.Option("--against", help="The asset before an edit, or a folder that mirrors the assets'.")
+    ] = None,
+    cell: Annotated[
+        float | None,
+        typer.Option(
+            "--cell", min=1e-9, help="Side of the cells of --fit and --clearance [m]; default diagonal / 112."
+        ),
+    ] = None,
+    pictures: Annotated[
+        Path | None, typer.Option("--pictures", help="Folder for heat maps and pictures of what is closed.")
+    ] = None,
     mend: Annotated[
         bool, typer.Option("--fix", help="Mend what is beyond the engine's limits, as far as safe; write to --out.")
     ] = False,
@@ -36,13 +55,21 @@ def check(
 ) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    Exit code 1 when a check does not hold or a file cannot be read.
+    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
+    file cannot be read.
     """
     from meshforge.batch import Wanted, examine, expand, labels_for
+    from meshforge.checks import Measures
     from meshforge.cli.output import print_json
+    from meshforge.errors import UsageError
 
-    _refuse(engine, mend, out, tolerance, overwrite)
-    wanted = Wanted(engine, out, tolerance, overwrite)
+    if mend and not (engine and out):
+        lacking = "--fix needs --engine and --out"
+        raise UsageError(lacking, remedy="meshforge check ASSETS... --engine NAME --fix --out DIR")
+    _refuse({"--out": out, "--tolerance": tolerance, "--overwrite": overwrite or None}, mend, "--fix")
+    _refuse({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
+    _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
+    wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
     failed = False
     found = expand(assets)
     for path in found:
@@ -55,36 +82,28 @@ def check(
     raise typer.Exit(int(failed))
 
 
-def _refuse(engine: str | None, mend: bool, out: Path | None, tolerance: float | None, overwrite: bool) -> None:
-    """Raise UsageError for options that do not go together."""
+def _refuse(given: dict[str, object], allowed: bool, without: str) -> None:
+    """Raise UsageError for an option that was given without the one that it belongs to."""
     from meshforge.errors import UsageError
 
-    if mend and not (engine and out):
-        raise UsageError(
-            "--fix needs --engine and --out", remedy="meshforge check ASSETS... --engine NAME --fix --out DIR"
-        )
-    for given, option in (
-        (out is not None, "--out"),
-        (tolerance is not None, "--tolerance"),
-        (overwrite, "--overwrite"),
-    ):
-        if given and not mend:
-            raise UsageError(f"{option} says nothing without --fix", remedy="Give --fix too, or leave it out.")
+    for option, value in given.items():
+        if value is not None and not allowed:
+            raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _print(examined: Examination) -> None:
-    path = examined.path
-    if examined.error:
-        typer.echo(f"{path}: cannot be read\n  " + examined.error.replace("\n", "\n  "))
+def _print(examined: Examined) -> None:
+    path, found, fixed = examined.path, examined.found, examined.fixed
+    if found is None:
+        typer.echo(f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  "))
         return
-    typer.echo(f"{path}:" if examined.findings or examined.fixed else f"{path}: legal")
-    if examined.fixed:
-        for change in examined.fixed.changes:
-            typer.echo(f"  fixed: {change.told}")
-        for line in examined.fixed.left:
-            typer.echo(f"  {line}")
-        typer.echo(f"  wrote {examined.written}")
-    for finding in examined.findings:
+    quiet = not (found.findings or found.told or fixed)
+    typer.echo(f"{path}: legal" if quiet else f"{path}:")
+    if fixed:
+        told = [*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}"]
+        typer.echo("\n".join(f"  {line}" for line in told))
+    for line in (*found.told, *(f"wrote {picture}" for picture in examined.pictures)):
+        typer.echo(f"  {line}")
+    for finding in found.findings:
         typer.echo(f"  {finding.severity}: {finding.message}")
         if finding.remedy:
             typer.echo(f"    {finding.remedy}")

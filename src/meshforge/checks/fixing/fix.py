@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from meshforge.checks.engines import Engine, Limit
 from meshforge.checks.fixing.thicken import thickened
@@ -43,6 +44,21 @@ class Fixed:
     mesh: SymbolicMesh
     changes: tuple[Change, ...]
     left: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """The changes as JSON-able data; lengths in metres."""
+        rows = [
+            {
+                "hull": change.hull,
+                "made": change.made,
+                "rules": list(change.rules),
+                "error": change.error,
+                "vertices": {"before": change.vertices[0], "after": change.vertices[1]},
+                "polygons": {"before": change.polygons[0], "after": change.polygons[1]},
+            }
+            for change in self.changes
+        ]
+        return {"changes": rows, "left": list(self.left)}
 
 
 def fix(mesh: SymbolicMesh, engine: Engine, tolerance: float | None = None) -> Fixed:
