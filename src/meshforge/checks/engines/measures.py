@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.geometry import LEVEL, Polytope, neighbours, normals_of, polygon_sizes, principal_extents
+from meshforge.checks.extents import extents
+from meshforge.geometry import LEVEL, Polytope, neighbours, normals_of, polygon_sizes
 
 
 def vertices(hull: Polytope) -> float:
@@ -32,8 +33,8 @@ def polygons_at_a_vertex(hull: Polytope) -> float:
 
 
 def thickness(hull: Polytope) -> float:
-    """The smallest extent along the hull's principal axes [m]."""
-    return float(principal_extents(hull.vertices)[2].min())
+    """The shortest side of a small box around the hull [m]."""
+    return float(extents(hull.vertices)[2])
 
 
 def volume(hull: Polytope) -> float:
@@ -46,4 +47,4 @@ def slenderness(hull: Polytope) -> float:
     normals = normals_of(hull)
     heights = np.einsum("ij,ij->i", hull.vertices[hull.faces[:, 0]] - hull.centroid, normals)
     inner = float(heights[np.linalg.norm(normals, axis=1) > 0.5].min())
-    return float(principal_extents(hull.vertices)[2].max()) / max(inner, np.finfo(float).tiny)
+    return float(extents(hull.vertices)[0]) / max(inner, np.finfo(float).tiny)

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from meshforge.checks.extents import extents
 from meshforge.checks.finding import Finding
-from meshforge.geometry import overlap_volume, principal_extents
+from meshforge.geometry import overlap_volume
 from meshforge.geometry.heights import rises_above
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.words import counted, listed
@@ -35,9 +36,9 @@ def oddities(mesh: SymbolicMesh, faulty: frozenset[str] = frozenset()) -> tuple[
 
 
 def _thin(hulls: Sequence[Hull]) -> Iterator[Finding]:
-    extents = {h.name: principal_extents(h.vertices)[2] for h in hulls}
-    slivers = {name: e[2] / e[1] for name, e in extents.items() if e[2] < SLIVER * e[1]}
-    oblong = {name: e[0] / e[1] for name, e in extents.items() if e[0] > OBLONG * e[1]}
+    sizes = {h.name: extents(h.vertices) for h in hulls}
+    slivers = {name: e[2] / e[1] for name, e in sizes.items() if e[2] < SLIVER * e[1]}
+    oblong = {name: e[0] / e[1] for name, e in sizes.items() if e[0] > OBLONG * e[1]}
     if slivers:
         told = listed([f"{name} ({1 / max(share, 1e-12):.3g} to 1)" for name, share in slivers.items()])
         message = f"{told}: a sliver, much thinner than wide"

@@ -32,7 +32,7 @@ class Skins:
     def distances(self, points: Floats) -> tuple[Floats, Ints]:
         """How far [m] each point (n, 3) is from the surface, and the triangle (n,) nearest to it.
 
-        Exact to the triangles that are looked at: never too small, too large by half the spacing at most.
+        Exact to the triangles that are looked at: never too small, too large by 1.12 of the spacing at most.
         """
         if not len(points):
             return np.zeros(0), np.zeros(0, np.int64)

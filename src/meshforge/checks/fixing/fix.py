@@ -106,19 +106,15 @@ def _broken(engine: Engine, hull: Hull) -> list[Limit]:
 
 def _mended(hull: Hull, engine: Engine, broken: list[Limit]) -> Enclosure | None:
     """A hull around another that keeps to the limits, all of them; None where there is none."""
-    shape = hull.shape.tessellated()
-    error = 0.0
+    made = Enclosure(hull.shape.tessellated(), 0.0)
     for limit in broken:
         if limit.rule == "thin":
-            shape = thickened(shape, limit.number)
-            error = max((limit.number - limit.measure(hull.shape.tessellated())) / 2, 0.0)
+            made = thickened(made.hull, limit.number)
     if any(limit.rule in _COUNTS for limit in broken):
         counts = {_COUNTS[limit.rule]: limit.number for limit in engine.limits if limit.rule in _COUNTS}
-        found = enclosing(shape, Budget(**counts))
-        if found is None:
-            return None
-        shape, error = found.hull, error + found.error
-    return Enclosure(shape, error)
+        found = enclosing(made.hull, Budget(**counts))
+        return Enclosure(found.hull, made.error + found.error) if found else None
+    return made
 
 
 def _unsafe(made: Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]) -> str | None:

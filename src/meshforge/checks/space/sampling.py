@@ -24,7 +24,7 @@ class Samples:
 
 
 def samples_of(corners: Floats, spacing: float) -> Iterator[Samples]:
-    """Points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 0.75 of the spacing [m].
+    """Points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 1.12 of the spacing [m].
 
     Rows along the longest side of each triangle; the corners are always among the points.
     """

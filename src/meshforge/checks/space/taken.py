@@ -11,7 +11,7 @@ from meshforge.checks.space.sampling import samples_of
 from meshforge.geometry import Floats, Shape
 from meshforge.geometry.heights import planes_of
 
-_SPACING = 0.6  # of points on a surface, in cells: nothing slips through between them along the axes
+_SPACING = 0.44  # of points on a surface, in cells: so each point has one within half a cell, and nothing slips through
 _AT_ONCE = 2_000_000  # columns times planes
 _LEVEL = 1e-12
 
