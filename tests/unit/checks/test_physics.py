@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -139,3 +141,14 @@ def test_a_hull_that_mujoco_refuses_is_an_error_with_its_message() -> None:
 def test_the_same_mesh_gives_the_same_figures() -> None:
     mesh = cup(BOTTOM, *WALLS)
     assert physics(mesh).to_json() == physics(mesh).to_json()
+
+
+def test_very_many_bodies_in_a_chain_are_refused_or_simulated_never_more() -> None:
+    def chain(count: int) -> SymbolicMesh:
+        shapes = [box([2 * k, 0, 0], [2 * k + 1, 1, 1]) for k in range(count)]
+        names = [f"b{k}" for k in range(count)]
+        joints = [Joint("", "revolute", a, b, np.zeros(3), np.array([0, 0, 1.0])) for a, b in itertools.pairwise(names)]
+        return cup(*shapes, bodies=names, joints=joints, shown=())
+
+    assert physics(chain(60)).rest is not None
+    assert physics(chain(600)).refused == "more than 500 bodies"

@@ -163,4 +163,5 @@ def _finding(region: Region, found: Clearance) -> Finding:
         message = f"{where}: free and reachable in the {found.reference}, closed{by}"
         return Finding("clearance-closed", "warning", region.hulls, message, remedy)
     message = f"{where}: not reachable in the {found.reference}, open between the hulls"
-    return Finding("clearance-opened", "warning", (), message, "Add hulls there, or grow those beside it.")
+    remedy = "Add hulls there, or grow those beside it; or that is what was wanted."
+    return Finding("clearance-opened", "warning", (), message, remedy)

@@ -37,8 +37,9 @@ def compiled(mesh: SymbolicMesh, tree: Tree, *, neighbours: bool = False) -> Any
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
     shown = _standing(mesh)
-    for root in tree.roots:
-        if _weighs(root, mesh, tree):
+    tops = tree.tops({hull.body for hull in mesh.hulls})
+    for root in tree.bodies:
+        if root in tops:
             _add(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
     return spec.compile()
 
@@ -49,11 +50,6 @@ def _standing(mesh: SymbolicMesh) -> Pose:
     down = -turn.rotation[2]
     lowest = min(float(turn.apply(hull.shape.support(down)[None])[0, 2]) for hull in mesh.hulls)
     return Pose(turn.rotation, [0.0, 0.0, -lowest])
-
-
-def _weighs(body: str, mesh: SymbolicMesh, tree: Tree) -> bool:
-    """Whether a body, or one below it, has hulls."""
-    return any(hull.body == body for hull in mesh.hulls) or any(_weighs(b, mesh, tree) for b in tree.below(body))
 
 
 def _add(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: Tree, shown: Pose) -> None:

@@ -27,6 +27,8 @@ TILT = 15.0
 """Degrees from which on an asset has fallen over."""
 HULLS = 1000
 """Hulls of an asset at most; beyond, a simulation would take minutes."""
+BODIES = 500
+"""Bodies of an asset at most, for the same reason."""
 _GRAVITY = 9.81
 
 
@@ -105,6 +107,8 @@ def physics(mesh: SymbolicMesh) -> Physics:
     if len(sound.hulls) > HULLS:
         return Physics(sound.diagonal, None, (), f"more than {HULLS:,} hulls", doubts)
     tree = Tree.of(sound)
+    if len(tree.bodies) > BODIES:
+        return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", doubts)
     try:
         overlaps = _overlaps(sound, tree)
         rest = _rested(sound, tree)

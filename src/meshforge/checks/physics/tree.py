@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from meshforge.asset import Joint
@@ -16,7 +17,7 @@ WELDED = ("fixed", "planar")
 class Tree:
     """The bodies of a mesh as MuJoCo wants them: nested, each below the one it is joined to.
 
-    joints: of each body with the one above it; roots: bodies that nothing holds, each of them free to fall.
+    joints: of each body with the one above it. A body that nothing holds is free to fall.
     """
 
     bodies: dict[str, Pose]
@@ -45,9 +46,14 @@ class Tree:
             at = self.above.get(at)
         return at is not None
 
-    @property
-    def roots(self) -> list[str]:
-        return [name for name in self.bodies if name not in self.above]
+    def tops(self, bodies: Iterable[str]) -> set[str]:
+        """The roots, which nothing holds, that some bodies hang on."""
+        found = set()
+        for body in bodies:
+            while body in self.above:
+                body = self.above[body]
+            found.add(body)
+        return found
 
     def below(self, body: str) -> list[str]:
         """The bodies joined to one directly."""
