@@ -23,7 +23,7 @@ def test_a_hull_that_sticks_out_is_told_by_how_much() -> None:
     long = box([0, 0, 0], [0.15, 0.1, 0.01])
     found = fit(cup(long, *WALLS))
     by_name = {row.hull: row for row in found.hulls}
-    assert by_name["h0"].out == pytest.approx(0.05, rel=1e-6)
+    assert by_name["h0"].out == pytest.approx(0.05, rel=0.01)
     assert by_name["h0"].out_area == pytest.approx(2 * 0.05 * 0.1 + 2 * 0.05 * 0.01 + 0.1 * 0.01, rel=0.1)
     assert by_name["h1"].out < found.cell
     (finding,) = found.findings

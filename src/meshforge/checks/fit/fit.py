@@ -62,10 +62,12 @@ class Group:
         return found
 
     def bare(self, points: Floats) -> tuple[Floats, Ints]:
-        """How far [m] each point (n, 3) of the visual mesh is from all hulls, and the hull (n,) nearest to it."""
-        gaps, triangle = self.skin.distances(points)
-        gaps[_inside(points, self.hulls)] = 0.0
-        return gaps, self.owner[triangle]
+        """How far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if off."""
+        gaps, nearest = np.zeros(len(points)), np.zeros(len(points), np.int64)
+        off = np.flatnonzero(~_inside(points, self.hulls))
+        gaps[off], triangle = self.skin.distances(points[off])
+        nearest[off] = self.owner[triangle]
+        return gaps, nearest
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -17,8 +17,8 @@ from meshforge.geometry import Floats
 from meshforge.symbolic import SymbolicMesh
 from meshforge.words import counted, listed
 
-SETTLING, WATCHED = 2.0, 0.5
-"""Seconds that an asset has to come to rest, and then is watched."""
+SETTLING, WATCHED = 6.0, 0.5
+"""Seconds that an asset has at most to come to rest, and then is watched."""
 JITTER = 0.005
 """Of the speed of a fall from the asset's own height, the share that counts as jitter at rest."""
 DEEP = 0.005
@@ -30,6 +30,7 @@ HULLS = 1000
 BODIES = 500
 """Bodies of an asset at most, for the same reason."""
 _GRAVITY = 9.81
+_STEPS, _START = round(WATCHED / STEP), round(0.2 / STEP)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +98,8 @@ def physics(mesh: SymbolicMesh) -> Physics:
     """How a mesh behaves on a plane, with the masses of its file, or the density of water where there are none.
 
     The lowest point is put on the plane; roots may fall, joints move within their limits, damped. What a file says of
-    friction, and of pairs that shall not touch, is left out. Deterministic: two seconds of simulation and no clock.
+    friction, and of pairs that shall not touch, is left out. Deterministic: six seconds of simulation
+    at most, and no clock.
     """
     faulty, _ = legality(mesh)
     doubts = tuple(masses(mesh))
@@ -149,15 +151,20 @@ def _rested(mesh: SymbolicMesh, tree: Tree) -> Rest | None:
     moving = np.arange(1, model.nbody)
     start, upright = data.xipos[moving].copy(), data.xmat[moving].reshape(-1, 3, 3).copy()
     size = np.array([_size(model, body) for body in moving])
-    fastest, watched = 0.0, []
-    for step in range(round((SETTLING + WATCHED) / STEP)):
+    quiet = JITTER * np.sqrt(_GRAVITY * mesh.diagonal)
+    fastest, restless = 0.0, 0
+    watched: list[Floats] = []
+    for step in range(round(SETTLING / STEP) + _STEPS):
         mujoco.mj_step(model, data)
         if any(data.warning[w].number for w in (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQACC)):
             return None
-        if step < 0.2 / STEP:
-            fastest = max(fastest, float(np.linalg.norm(data.cvel[moving, 3:], axis=1).max()))
-        if step >= SETTLING / STEP:
-            watched.append(_speeds(data.cvel[moving], size))
+        speeds = _speeds(data.cvel[moving], size)
+        highest = float(np.abs(speeds).max())
+        restless = step if highest > quiet else restless
+        fastest = max(fastest, highest) if step < _START else fastest
+        watched = [*watched[1 - _STEPS :], speeds]
+        if step - restless >= _STEPS and step >= 2 * _STEPS:
+            break
     shake = np.array(watched)
     jitter = float(np.sqrt(((shake - shake.mean(axis=0)) ** 2).sum(axis=2).mean(axis=0)).max())
     roots = [k for k, body in enumerate(moving) if model.body_parentid[body] == 0]

@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.geometry import Floats, Ints
 
 MOST = 30_000_000
-"""Points at most, over all chunks; a spacing that would give more is made wider."""
+"""Points at most by default, over all chunks; a spacing that would give more is made wider."""
 _CHUNK = 1_000_000
 
 
@@ -23,7 +23,7 @@ class Samples:
     area: Floats
 
 
-def samples_of(corners: Floats, spacing: float) -> Iterator[Samples]:
+def samples_of(corners: Floats, spacing: float, most: int = MOST) -> Iterator[Samples]:
     """Points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 1.12 of the spacing [m].
 
     Rows along the longest side of each triangle; the corners are always among the points.
@@ -36,7 +36,7 @@ def samples_of(corners: Floats, spacing: float) -> Iterator[Samples]:
     altitude = 2 * area / np.maximum(length, np.finfo(float).tiny)
     while True:
         counts = (altitude / spacing + 2) * (length / spacing + 2)
-        if counts.sum() <= MOST or spacing > length.max():
+        if counts.sum() <= most or spacing > length.max():
             break
         spacing *= 1.25
     ends = np.flatnonzero(np.diff(np.floor(np.cumsum(counts) / _CHUNK))) + 1
