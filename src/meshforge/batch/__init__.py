@@ -12,6 +12,7 @@ from meshforge.batch.digests import (
     text_digest,
 )
 from meshforge.batch.edit import inputs_of
+from meshforge.batch.examination import Examined, Wanted, examine, examine_all
 from meshforge.batch.expand import Found, asset_id, common_folder, expand
 from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
 from meshforge.batch.job import AssetJob, Task, jobs, labels_for
@@ -33,6 +34,7 @@ __all__ = [
     "Backend",
     "Correction",
     "Edited",
+    "Examined",
     "Failed",
     "Found",
     "Inputs",
@@ -46,10 +48,13 @@ __all__ = [
     "Summary",
     "Task",
     "Unchanged",
+    "Wanted",
     "apply",
     "asset_digests",
     "asset_id",
     "common_folder",
+    "examine",
+    "examine_all",
     "expand",
     "file_digest",
     "inputs_of",

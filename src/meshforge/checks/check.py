@@ -1,10 +1,10 @@
-"""All checks of a mesh, in a fixed order."""
+"""All checks of a mesh by itself, in a fixed order."""
 
 from __future__ import annotations
 
+from meshforge.checks.engines import ENGINES, Engine, limits_of
 from meshforge.checks.finding import Finding
 from meshforge.checks.legality import legality
-from meshforge.checks.limits import ENGINES, limits_of
 from meshforge.errors import UsageError, nearest
 from meshforge.symbolic import SymbolicMesh
 
@@ -14,9 +14,15 @@ def check(mesh: SymbolicMesh, engine: str | None = None) -> tuple[Finding, ...]:
 
     Raises UsageError for an engine that is not known.
     """
-    if engine is not None and engine not in ENGINES:
-        like = nearest(engine, ENGINES)
-        hint = f"Did you mean {like!r}? " if like else ""
-        raise UsageError(f"there is no engine {engine!r}", remedy=f"{hint}Known are: {', '.join(ENGINES)}.")
+    known = None if engine is None else engine_named(engine)
     faulty, findings = legality(mesh)
-    return findings if engine is None else (*findings, *limits_of(engine, mesh, faulty))
+    return findings if known is None else (*findings, *limits_of(known, mesh, faulty))
+
+
+def engine_named(name: str) -> Engine:
+    """The engine of a name. Raises UsageError for one that is not known."""
+    if name not in ENGINES:
+        like = nearest(name, ENGINES)
+        hint = f"Did you mean {like!r}? " if like else ""
+        raise UsageError(f"there is no engine {name!r}", remedy=f"{hint}Known are: {', '.join(ENGINES)}.")
+    return ENGINES[name]

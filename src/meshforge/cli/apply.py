@@ -14,6 +14,7 @@ from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.batch import AssetJob, Outcome, Summary
+    from meshforge.checks import Measures
     from meshforge.language import Program
     from meshforge.symbolic import SymbolicMesh
 
@@ -40,6 +41,13 @@ def apply(
     report: Annotated[
         Path | None, typer.Option("--report", help="An HTML page with pictures before and after, failures first.")
     ] = None,
+    check: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--check",
+            help="fit, clearance, physics or an engine: checks for the report, of what it shows. May be repeated.",
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
@@ -53,6 +61,9 @@ def apply(
     from meshforge.cli.output import print_json, progress, remark
     from meshforge.errors import UsageError
 
+    measures = _measures(check) if check else None
+    if measures and not report:
+        raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if report and dry_run:
         raise UsageError("with --dry-run there is nothing to show", remedy="Leave out --report.")
     work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
@@ -70,8 +81,21 @@ def apply(
     if not json:
         typer.echo(f"{summary}{' (nothing was written)' if dry_run else ''}")
     if report:
-        _write_report(report, work, summary, perf_counter() - started)
+        _write_report(report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0))
+
+
+def _measures(names: Sequence[str]) -> Measures:
+    from meshforge.checks import ENGINES, Measures
+    from meshforge.errors import UsageError
+
+    known = ("fit", "clearance", "physics", *ENGINES)
+    if odd := [name for name in names if name not in known]:
+        raise UsageError(f"there is no check {odd[0]!r}", remedy=f"There are {', '.join(known)}.")
+    engines = [name for name in names if name in ENGINES]
+    if len(engines) > 1:
+        raise UsageError(f"two engines for one report: {', '.join(engines)}", remedy="Choose one of them.")
+    return Measures(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,13 +160,13 @@ def told(outcome: Outcome) -> str:
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
 
 
-def _write_report(path: Path, work: _Work, summary: Summary, seconds: float) -> None:
+def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, measures: Measures | None) -> None:
     from meshforge.batch import write_report
     from meshforge.cli.compared import compared
     from meshforge.cli.output import progress, remark
 
     with progress(len(summary.shown), "drawing") as advance:
-        assets = list(compared(summary.shown, work.program, work.mesh, work.demonstrated))
+        assets = list(compared(summary.shown, work.program, work.mesh, work.demonstrated, measures))
         write_report(
             path,
             title=work.out.resolve().name,

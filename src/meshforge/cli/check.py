@@ -1,70 +1,120 @@
-"""`meshforge check`: whether hulls are legal, and within an engine's limits."""
+"""`meshforge check`: whether hulls are legal, within an engine's limits, fit, leave free what is free, and rest."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import AssetFiles, Json, Labels
+from meshforge.cli.options import AssetFiles, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
-    from meshforge.checks import Finding
+    from meshforge.batch import Examined
+
+EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
+_FEW = 5  # assets whose results one sees at a glance
 
 
 def check(
     assets: AssetFiles,
-    engine: Annotated[
-        Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"] | None,
-        typer.Option("--engine", help="Also check the limits of this engine."),
+    engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None,
+    fit: Annotated[
+        bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
+    ] = False,
+    clearance: Annotated[
+        bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
+    ] = False,
+    physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False,
+    against: Annotated[
+        Path | None, typer.Option("--against", help="The asset before an edit, or a folder that mirrors the assets'.")
     ] = None,
+    cell: Annotated[
+        float | None,
+        typer.Option(
+            "--cell", min=1e-9, help="Side of the cells of --fit and --clearance [m]; default diagonal / 112."
+        ),
+    ] = None,
+    pictures: Annotated[
+        Path | None, typer.Option("--pictures", help="Folder for heat maps and pictures of what is closed.")
+    ] = None,
+    mend: Annotated[
+        bool, typer.Option("--fix", help="Mend what is beyond the engine's limits, as far as safe; write to --out.")
+    ] = False,
+    out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for the mended assets.")] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            "--tolerance",
+            min=0.0,
+            help="How far a mended hull may stick out of the old one [m]; default 1% of the diagonal.",
+        ),
+    ] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False,
     labels: Labels = None,
+    workers: Workers = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
     json: Json = False,
 ) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    Exit code 1 when a check does not hold or a file cannot be read.
+    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
+    file cannot be read.
     """
-    from meshforge.batch import expand, labels_for
-    from meshforge.checks import check as findings_of
-    from meshforge.cli.output import print_json
-    from meshforge.errors import MeshForgeError
-    from meshforge.formats import load
+    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand
+    from meshforge.checks import Measures
+    from meshforge.cli.output import print_json, progress
+    from meshforge.errors import UsageError
+    from meshforge.words import counted
 
-    failed = False
+    if mend and not (engine and out):
+        lacking = "--fix needs --engine and --out"
+        raise UsageError(lacking, remedy="meshforge check ASSETS... --engine NAME --fix --out DIR")
+    _refuse({"--out": out, "--tolerance": tolerance, "--overwrite": overwrite or None}, mend, "--fix")
+    _refuse({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
+    _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
+    wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
+    failed = 0
     found = expand(assets)
-    for path in found:
-        error: str | None = None
-        findings: tuple[Finding, ...] = ()
-        try:
-            findings = findings_of(load(path, labels=labels_for(path, labels, found.base)), engine)
-        except MeshForgeError as problem:
-            error = problem.message
-        failed |= error is not None or any(f.severity == "error" for f in findings)
-        if json:
-            print_json(_line(path, error, findings), compact=True)
-        else:
-            _print(path, error, findings)
-    raise typer.Exit(int(failed))
+    seconds = TIMEOUT if timeout is None else timeout or None
+    if len(found) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
+        workers = 0  # starting a process would take longer than the work
+    with progress(len(found), "checking") as advance:
+        results = examine_all(found, labels, wanted, workers=workers, timeout=seconds, memory=memory, done=advance)
+        for examined in results:
+            failed += examined.failed
+            if json:
+                print_json(examined.to_json(), compact=True)
+            else:
+                _print(examined)
+    if not json and len(found) > _FEW:
+        typer.echo(f"{counted(len(found), 'asset')}, {failed:,} with errors")
+    raise typer.Exit(int(failed > 0))
 
 
-def _line(path: Path, error: str | None, findings: tuple[Finding, ...]) -> dict[str, Any]:
-    rows = [
-        {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
-        for f in findings
-    ]
-    return {"asset": str(path), "error": error, "findings": rows}
+def _refuse(given: dict[str, object], allowed: bool, without: str) -> None:
+    """Raise UsageError for an option that was given without the one that it belongs to."""
+    from meshforge.errors import UsageError
+
+    for option, value in given.items():
+        if value is not None and not allowed:
+            raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _print(path: Path, error: str | None, findings: tuple[Finding, ...]) -> None:
-    if error:
-        typer.echo(f"{path}: cannot be read\n  {error}")
-    elif not findings:
-        typer.echo(f"{path}: legal")
-    else:
-        typer.echo(f"{path}:")
-    for finding in findings:
+def _print(examined: Examined) -> None:
+    path, found, fixed = examined.path, examined.found, examined.fixed
+    if found is None:
+        typer.echo(f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  "))
+        return
+    quiet = not (found.findings or found.told or fixed)
+    typer.echo(f"{path}: legal" if quiet else f"{path}:")
+    if fixed:
+        told = [*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}"]
+        typer.echo("\n".join(f"  {line}" for line in told))
+    for line in (*found.told, *(f"wrote {picture}" for picture in examined.pictures)):
+        typer.echo(f"  {line}")
+    for finding in found.findings:
         typer.echo(f"  {finding.severity}: {finding.message}")
         if finding.remedy:
             typer.echo(f"    {finding.remedy}")

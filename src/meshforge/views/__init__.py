@@ -4,6 +4,7 @@ from meshforge.views.camera import VIEWS, Up, View
 from meshforge.views.coloring import COLOR_BY, UNSURE, ColorBy, label_colors
 from meshforge.views.compare import before_after, compare, difference, joint_bounds
 from meshforge.views.encode import png, webp, write_png
+from meshforge.views.heat import heat
 from meshforge.views.labelling import Shot, numbers, shots
 from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, UNLABELLED, label_color
 from meshforge.views.picture import render
@@ -11,6 +12,7 @@ from meshforge.views.roundness import Skin, skin
 from meshforge.views.sheet import sheet
 from meshforge.views.thumbnail import thumbnail
 from meshforge.views.visibility import id_buffer, visible_hulls
+from meshforge.views.volumes import volumes
 
 __all__ = [
     "COLOR_BY",
@@ -27,6 +29,7 @@ __all__ = [
     "before_after",
     "compare",
     "difference",
+    "heat",
     "id_buffer",
     "joint_bounds",
     "label_color",
@@ -39,6 +42,7 @@ __all__ = [
     "skin",
     "thumbnail",
     "visible_hulls",
+    "volumes",
     "webp",
     "write_png",
 ]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from meshforge.geometry import Ints
+from meshforge.geometry import Floats, Ints
 from meshforge.views.camera import Camera, Singles
 from meshforge.views.corners import sky
 from meshforge.views.film import Film, Painted, spots
@@ -55,6 +55,8 @@ def _draw_solid(film: Film, layer: Layer, hits: Hits, stage: Stage, camera: Came
 def _surface(layer: Layer, hits: Hits, stage: Stage, camera: Camera, rows: Ints, columns: Ints) -> Singles:
     """The lit colours (n, 3) of what some pixels show; flat triangles are lit once, round ones at every pixel."""
     scene = hits.scene
+    if layer.tint is not None:
+        return _tinted(layer.tint, hits, stage, camera, rows, columns)
     base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     triangle = hits.triangle[rows, columns]
     color = lit(base, scene.normals, camera, stage.upright)[triangle]
@@ -64,6 +66,15 @@ def _surface(layer: Layer, hits: Hits, stage: Stage, camera: Camera, rows: Ints,
         normals = scene.bent_normals(triangle[bent], points)
         color[bent] = lit(base[triangle[bent]], normals, camera, stage.upright)
     return color
+
+
+def _tinted(
+    tint: Callable[[Floats, Ints], Floats], hits: Hits, stage: Stage, camera: Camera, rows: Ints, columns: Ints
+) -> Singles:
+    """The lit colours (n, 3) of pixels whose colours depend on the place that they show."""
+    triangle = hits.triangle[rows, columns]
+    points = stage.unplaced(hits.points(camera, rows, columns))
+    return lit(tint(points, hits.scene.item[triangle]), hits.scene.normals[triangle], camera, stage.upright)
 
 
 def _shares(layer: Layer, hits: Hits, solid: Hits, camera: Camera) -> Singles:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +21,7 @@ class Layer:
 
     solid things hide what is behind them. Shells do not: `before` and `behind` are how much of them shows before and
     behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched: which skins
-    are striped.
+    are striped. tint: colours (n, 3) of points (n, 3) [m] that some skins (n,) show, instead of `colors`.
     """
 
     skins: Sequence[Skin]
@@ -31,6 +31,7 @@ class Layer:
     behind: float = 0.0
     hatched: frozenset[int] = frozenset()
     drawn_over: frozenset[int] = frozenset()
+    tint: Callable[[Floats, Ints], Floats] | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -46,6 +47,9 @@ class Stage:
 
     def placed(self, points: Floats) -> Floats:
         return (points - self.bounds.center) / self.unit
+
+    def unplaced(self, points: Floats) -> Floats:
+        return points * self.unit + self.bounds.center
 
     @property
     def level(self) -> list[int]:

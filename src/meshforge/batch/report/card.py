@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from meshforge.batch.report.asset import ReportAsset
+from meshforge.batch.report.checked import checked
 from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
 from meshforge.batch.report.pictures import SIZE, Pictures
@@ -17,17 +18,18 @@ _NAMES = 60  # of hulls in one cell of the table; the rest is counted
 
 def card(asset: ReportAsset, program: Program, pictures: Pictures | None, colors: Mapping[str, str]) -> Node:
     """The article about one asset; colors: of the labels."""
-    marks = "demonstrated" if asset.demonstrated else ""
+    marks = [word for word, holds in (("demonstrated", asset.demonstrated), ("doubtful", asset.doubtful)) if holds]
     return tag(
         "article",
         tag("h3", tag("span", tag("bdi", asset.name), title=asset.name), *_badges(asset)),
         _stage(asset, pictures) if pictures else None,
         tag("p", asset.error, class_="error") if asset.error else None,
         *(tag("p", note, class_="note") for note in asset.notes),
+        checked(asset, pictures is not None),
         _details(asset, program, colors),
         class_="asset",
         data_name=asset.name.lower(),
-        data_kind=f"{asset.status} {marks}".strip(),
+        data_kind=" ".join([asset.status, *marks]),
     )
 
 

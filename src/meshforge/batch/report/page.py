@@ -37,9 +37,13 @@ def write_report(
 ) -> None:
     """Write the report of a batch: figures, the program, and every asset before and after, with what each rule did.
 
+    Where assets were checked, those that failed come first, then those with findings.
+
     about: a line below the title; summary: of the whole run, of which `assets` are then some; pictured: how many get
     pictures, demonstrated and failed ones first; progress: called for each asset. The page refers to no other file.
     """
+    if any(asset.checked for asset in assets):
+        assets = sorted(assets, key=lambda asset: (not asset.broken, not asset.doubtful))
     vocabulary = _vocabulary(program, assets)
     colors = label_colors(vocabulary)
     chosen = _pictured(assets, pictured)
@@ -87,5 +91,5 @@ def _vocabulary(program: Program, assets: Sequence[ReportAsset]) -> list[str]:
 
 
 def _pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].status == "failed"))
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].broken))
     return frozenset(order[:count])

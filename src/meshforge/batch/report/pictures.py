@@ -34,11 +34,12 @@ def pictures(asset: ReportAsset, vocabulary: Sequence[str]) -> Pictures | None:
     color_by: ColorBy = "label" if labelled else "hull"
     if after is None or after is before or asset.status == "unchanged":
         image = render(before, color_by=color_by, size=SIZE, vocabulary=vocabulary, background=None, legend=False)
-        return Pictures(_data(image))
+        return Pictures(address(image))
     pair = compare(before, after, color_by=color_by, size=SIZE, vocabulary=vocabulary, background=None)
     changes = difference(before, after, size=SIZE, background=None, legend=False)
-    return Pictures(_data(pair[0]), _data(pair[1]), _data(changes))
+    return Pictures(address(pair[0]), address(pair[1]), address(changes))
 
 
-def _data(image: Image) -> str:
+def address(image: Image) -> str:
+    """A picture as an address `data:…` that holds it."""
     return f"data:image/webp;base64,{base64.b64encode(webp(image)).decode()}"

@@ -1,0 +1,144 @@
+"""One asset of a batch checked in every way that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from meshforge.batch.expand import Found, asset_id
+from meshforge.batch.job import jobs
+from meshforge.batch.memory import share
+from meshforge.batch.mending import write_mended
+from meshforge.batch.pool import Lost, isolated, processors
+from meshforge.checks import Examination, Fixed, Measures, engine_named, examine_mesh, fix, pictures
+from meshforge.errors import AssetError, MeshForgeError, UsageError, told
+from meshforge.formats import load
+from meshforge.symbolic import SymbolicMesh
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is to be done with each asset.
+
+    out: the folder for mended assets, None where nothing is to be mended; tolerance: as of `fix` [m].
+    against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
+    """
+
+    measures: Measures
+    out: Path | None = None
+    tolerance: float | None = None
+    overwrite: bool = False
+    against: Path | None = None
+    pictures: Path | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Examined:
+    """What was found of one asset; error: the whole message where it could not be read, or not be written.
+
+    written: the file of the mended asset; pictures: the files of pictures.
+    """
+
+    path: Path
+    error: str | None = None
+    found: Examination | None = None
+    fixed: Fixed | None = None
+    written: Path | None = None
+    pictures: tuple[Path, ...] = ()
+
+    @property
+    def failed(self) -> bool:
+        """Whether there is an error."""
+        return self.found is None or any(f.severity == "error" for f in self.found.findings)
+
+    def to_json(self) -> dict[str, Any]:
+        """The examination as JSON-able data; in SI units, volumes in litres."""
+        rows = [
+            {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
+            for f in (self.found.findings if self.found else ())
+        ]
+        line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
+        if self.fixed:
+            line["fixed"] = {"out": str(self.written)} | self.fixed.to_json()
+        if self.found:
+            line |= self.found.to_json()
+        if self.pictures:
+            line["pictures"] = [str(path) for path in self.pictures]
+        return line
+
+
+def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Examined:
+    """The examination of an asset, which never raises for what is wrong with it; findings are those after mending.
+
+    base: the common folder of the assets. Raises UsageError for an engine that is not known.
+    """
+    engine = engine_named(wanted.measures.engine) if wanted.measures.engine else None
+    fixed, written = None, None
+    try:
+        mesh = load(path, labels=labels)
+        before = _before(path, base, wanted.against)
+        if wanted.out and engine:
+            fixed = fix(mesh, engine, wanted.tolerance)
+            before, mesh = before or (mesh if fixed.changes else None), fixed.mesh
+            written = write_mended(mesh, base, wanted.out, overwrite=wanted.overwrite)
+        found = examine_mesh(mesh, wanted.measures, before)
+        drawn = _drawn(mesh, found, asset_id(path, base), wanted.pictures)
+        return Examined(path, None, found, fixed, written, drawn)
+    except MeshForgeError as problem:
+        return Examined(path, problem.message)
+
+
+def examine_all(
+    found: Found,
+    labels: Path | None,
+    wanted: Wanted,
+    *,
+    workers: int | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    done: Callable[[], None] | None = None,
+) -> Iterator[Examined]:
+    """The examinations of many assets, in their order, in worker processes; bounds as of `isolated`.
+
+    labels: as of `jobs`. One that crashes, takes too long or too much memory is an error of its own.
+    """
+    work = [(job.path, job.base, job.labels, wanted) for job in jobs(found, labels)]
+    bound = memory or share(min(workers or processors(), len(work)))
+    results = isolated(_examine, work, workers=workers, timeout=timeout, memory=bound, done=done)
+    for (path, *_), result in zip(work, results, strict=True):
+        yield Examined(path, f"{path}: {result.why}") if isinstance(result, Lost) else result
+
+
+def _examine(work: tuple[Path, Path, Path | None, Wanted]) -> Examined:
+    try:
+        return examine(*work)
+    except UsageError:
+        raise
+    except Exception as error:  # an asset that fails never stops the others
+        return Examined(work[0], told(error, str(work[0])))
+
+
+def _before(path: Path, base: Path, against: Path | None) -> SymbolicMesh | None:
+    """The asset as it was."""
+    if against is None:
+        return None
+    place = against / asset_id(path, base) if against.is_dir() else against
+    if not place.exists():
+        raise AssetError("there is no such asset to compare with", where=str(place), remedy="Correct --against.")
+    return load(place)
+
+
+def _drawn(mesh: SymbolicMesh, found: Examination, name: str, folder: Path | None) -> tuple[Path, ...]:
+    """The pictures of an asset, written below a folder."""
+    if folder is None:
+        return ()
+    from meshforge.views import write_png
+
+    paths = []
+    for kind, _, image in pictures(mesh, found):
+        path = folder / f"{name}.{kind}.png"
+        write_png(path, image)
+        paths.append(path)
+    return tuple(paths)

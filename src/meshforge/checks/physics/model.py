@@ -1,0 +1,144 @@
+"""A model of MuJoCo's of the hulls of a mesh on a plane, made from the mesh itself, whatever its format."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from meshforge.asset import Inertial, Joint
+from meshforge.checks.physics.masses import broken
+from meshforge.checks.physics.tree import WELDED, Tree
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
+from meshforge.symbolic import Hull, SymbolicMesh
+
+DENSITY = 1000.0
+"""Of hulls of bodies without a mass that can be [kg/m^3]."""
+STEP = 0.002
+"""Seconds of a step."""
+FLOOR = "the plane"
+_DAMPING = 5.0  # of joints, [1/s] times mass or inertia: what swings comes to rest within a second
+_LEAST = 1e-3  # [kg], of a moving body that has neither hulls nor mass
+_UPRIGHT = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])  # z-up_T_y-up
+
+
+def compiled(mesh: SymbolicMesh, tree: Tree, *, neighbours: bool = False) -> Any:
+    """MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
+
+    neighbours: whether bodies that a joint holds together touch, which they do not else. Joints are damped, so that
+    what swings comes to rest. Raises ValueError where MuJoCo refuses the model.
+    """
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    spec.option.timestep = STEP
+    spec.compiler.balanceinertia = False
+    if neighbours:
+        spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
+    shown = _standing(mesh)
+    tops = tree.tops({hull.body for hull in mesh.hulls})
+    for root in tree.bodies:
+        if root in tops:
+            _add(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
+    return spec.compile()
+
+
+def _standing(mesh: SymbolicMesh) -> Pose:
+    """The pose shown_T_root that puts the lowest point of all hulls on the plane, with Z up."""
+    turn = _UPRIGHT if mesh.asset and mesh.asset.up == "y" else Pose.identity()
+    down = -turn.rotation[2]
+    lowest = min(float(turn.apply(hull.shape.support(down)[None])[0, 2]) for hull in mesh.hulls)
+    return Pose(turn.rotation, [0.0, 0.0, -lowest])
+
+
+def _add(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: Tree, shown: Pose) -> None:
+    """Add a body and all below it; above: the pose world_T_parent."""
+    pose = shown @ tree.bodies[name]
+    local = above.inverse() @ pose
+    body = parent.add_body(name=f"body {name}", pos=local.translation, quat=local.to_quaternion())
+    if name not in tree.above:
+        body.add_freejoint()
+    for joint in tree.joints.get(name, ()):
+        if joint.kind not in WELDED:
+            _join(body, joint, pose.inverse() @ shown, _reach(joint, mesh, tree))
+    hulls = [(k, hull) for k, hull in enumerate(mesh.hulls) if hull.body == name]
+    given = next((i for i in mesh.asset.mechanism.inertials if i.body == name), None) if mesh.asset else None
+    _weigh(body, given, pose.inverse() @ shown, bool(hulls), name in tree.joints)
+    for k, hull in hulls:
+        _shape(spec, body, f"hull {k}", hull, pose.inverse() @ shown)
+    for child in tree.below(name):
+        _add(spec, body, child, pose, mesh, tree, shown)
+
+
+def _weigh(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, moves: bool) -> None:
+    """Give a body its mass; without one that can be, its hulls have the density of water."""
+    if given is not None and broken(given) is None:
+        turned = local.rotation @ given.inertia @ local.rotation.T
+        body.explicitinertial = True
+        body.mass = given.mass
+        body.ipos = local.apply(given.centre[None])[0]
+        body.fullinertia = [turned[0, 0], turned[1, 1], turned[2, 2], turned[0, 1], turned[0, 2], turned[1, 2]]
+    elif not has_hulls and moves:
+        body.explicitinertial = True
+        body.mass = _LEAST
+        body.ipos = np.zeros(3)
+        body.inertia = np.full(3, _LEAST * 1e-3)
+
+
+def _join(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> None:
+    import mujoco
+
+    mass, length = reach
+    kinds = {
+        "revolute": (mujoco.mjtJoint.mjJNT_HINGE, mass * length**2),
+        "prismatic": (mujoco.mjtJoint.mjJNT_SLIDE, mass),
+        "ball": (mujoco.mjtJoint.mjJNT_BALL, mass * length**2),
+    }
+    kind, weight = kinds[joint.kind]
+    added = body.add_joint(type=kind, pos=local.apply(joint.anchor[None])[0], axis=local.rotation @ joint.axis)
+    added.damping = [max(joint.damping, _DAMPING * weight), 0.0, 0.0]
+    if joint.limits is not None and joint.limits[0] < joint.limits[1] and joint.kind != "ball":
+        factor = 180 / np.pi if joint.kind == "revolute" else 1.0
+        added.limited = True
+        added.range = [limit * factor for limit in joint.limits]
+
+
+def _reach(joint: Joint, mesh: SymbolicMesh, tree: Tree) -> tuple[float, float]:
+    """What hangs on a joint: about how heavy [kg] that is, and how far [m] it reaches from the anchor."""
+    names = [joint.child]
+    for body in names:
+        names += tree.below(body)
+    hulls = [hull for hull in mesh.hulls if hull.body in names]
+    inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
+    told = {i.body: i.mass for i in inertials if broken(i) is None}
+    mass = sum(told.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
+    ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
+    length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
+    return max(mass, _LEAST), length
+
+
+def _shape(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
+    """Add a hull: a native shape as itself, any other as a mesh."""
+    import mujoco
+
+    geoms = mujoco.mjtGeom
+    shape: Shape = hull.shape.moved(local)
+    match shape:
+        case Box():
+            kind, size = geoms.mjGEOM_BOX, list(shape.half)
+        case Sphere():
+            kind, size = geoms.mjGEOM_SPHERE, [shape.radius, 0, 0]
+        case Capsule():
+            kind, size = geoms.mjGEOM_CAPSULE, [shape.radius, shape.half_length, 0]
+        case Cylinder():
+            kind, size = geoms.mjGEOM_CYLINDER, [shape.radius, shape.half_length, 0]
+        case Ellipsoid():
+            kind, size = geoms.mjGEOM_ELLIPSOID, list(shape.radii)
+        case _:
+            spec.add_mesh(name=name, uservert=shape.vertices.ravel().tolist())
+            body.add_geom(type=geoms.mjGEOM_MESH, meshname=name, name=name, density=DENSITY)
+            return
+    pose = shape.pose
+    quaternion = pose.to_quaternion()
+    body.add_geom(type=kind, size=size, pos=pose.translation, quat=quaternion, name=name, density=DENSITY)

@@ -1,0 +1,74 @@
+"""Points spread evenly over triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.geometry import Floats, Ints
+
+MOST = 30_000_000
+"""Points at most by default, over all chunks; a spacing that would give more is made wider."""
+_CHUNK = 1_000_000
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Samples:
+    """Points (n, 3) on triangles; triangle: (n,), whose each is; area: (n,), how much of it each stands for [m^2]."""
+
+    points: Floats
+    triangle: Ints
+    area: Floats
+
+
+def samples_of(corners: Floats, spacing: float, most: int = MOST) -> Iterator[Samples]:
+    """Points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 1.12 of the spacing [m].
+
+    Rows along the longest side of each triangle; the corners are always among the points.
+    """
+    if not len(corners):
+        return
+    base, spacing = _along_longest(corners), max(spacing, np.finfo(float).tiny)
+    length = np.linalg.norm(base[:, 1] - base[:, 0], axis=1)
+    area = 0.5 * np.linalg.norm(np.cross(base[:, 1] - base[:, 0], base[:, 2] - base[:, 0]), axis=1)
+    altitude = 2 * area / np.maximum(length, np.finfo(float).tiny)
+    while True:
+        counts = (altitude / spacing + 2) * (length / spacing + 2)
+        if counts.sum() <= most or spacing > length.max():
+            break
+        spacing *= 1.25
+    ends = np.flatnonzero(np.diff(np.floor(np.cumsum(counts) / _CHUNK))) + 1
+    for part in np.split(np.arange(len(base)), ends):
+        if len(part):
+            yield _sampled(base[part], length[part], altitude[part], area[part], part, spacing)
+
+
+def _sampled(base: Floats, length: Floats, altitude: Floats, area: Floats, names: Ints, spacing: float) -> Samples:
+    rows = np.ceil(altitude / spacing).astype(np.int64) + 1
+    owner = np.repeat(np.arange(len(base)), rows)
+    up = _counted(rows) / np.maximum(rows - 1, 1)[owner]
+    steps = np.ceil(length[owner] * (1 - up) / spacing).astype(np.int64) + 1
+    row = np.repeat(np.arange(len(owner)), steps)
+    along = _counted(steps) / np.maximum(steps - 1, 1)[row]
+    owner, up = owner[row], up[row]
+    a, b, c = base[owner, 0], base[owner, 1], base[owner, 2]
+    start, end = a + (c - a) * up[:, None], b + (c - b) * up[:, None]
+    share = (area / np.bincount(owner, minlength=len(base)))[owner]
+    return Samples(start + (end - start) * along[:, None], names[owner], share)
+
+
+def _counted(counts: Ints) -> Ints:
+    """0, 1, .., k - 1 for each count k, in a row."""
+    ends = np.cumsum(counts)
+    return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+
+
+def _along_longest(corners: Floats) -> Floats:
+    """The triangles with their corners turned so that the first side is the longest."""
+    sides = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
+    first = sides.argmax(axis=1)
+    order = (first[:, None] + np.arange(3)) % 3
+    turned: Floats = corners[np.arange(len(corners))[:, None], order]
+    return turned

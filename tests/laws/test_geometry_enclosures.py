@@ -1,0 +1,101 @@
+"""Laws of simpler hulls around hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import nnls
+
+from meshforge.geometry import (
+    Budget,
+    Floats,
+    Polytope,
+    convex_hull,
+    enclosing,
+    is_closed,
+    is_convex,
+    outward,
+    polygon_sizes,
+)
+from tests.shape_strategies import clouds, generators
+
+_BUDGETS = st.builds(Budget, st.integers(8, 64), st.integers(6, 64), st.integers(4, 32))
+
+
+def heights(points: Floats, hull: Polytope) -> Floats:
+    """How far (n,) each point lies above the highest face plane of a hull; needles of faces left out."""
+    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    wide = lengths > 1e-8 * np.ptp(hull.vertices, axis=0).max() ** 2
+    units = normals[wide] / lengths[wide, None]
+    found: Floats = (points @ units.T - np.einsum("ij,ij->i", a[wide], units)).max(axis=1)
+    return found
+
+
+def distance_to(point: Floats, vertices: Floats) -> float:
+    """The distance of a point from the convex hull of points (n, 3), as a quadratic programme."""
+    scale = np.abs(vertices - point).max()
+    rows = np.vstack([(vertices - point).T / scale, np.full((1, len(vertices)), 1e3)])
+    weights, _ = nnls(rows, np.array([0, 0, 0, 1e3]), maxiter=100 * len(vertices))
+    return float(np.linalg.norm(weights / weights.sum() @ (vertices - point)))
+
+
+@settings(deadline=None, max_examples=150)
+@given(clouds(), _BUDGETS)
+def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(cloud: Floats, budget: Budget) -> None:
+    hull = convex_hull(cloud)
+    found = enclosing(hull, budget)
+    if found is None:
+        return
+    made, size = found.hull, float(np.ptp(hull.vertices, axis=0).max())
+    assert is_closed(made.faces) and outward(made.vertices, made.faces) and is_convex(made.vertices, made.faces, 1e-7)
+    assert heights(hull.vertices, made).max() <= 1e-9 * size + 1e-13 * np.abs(hull.vertices).max()
+    assert len(made.vertices) <= budget.vertices
+    sizes = polygon_sizes(made)
+    assert len(sizes) <= budget.polygons and max(sizes) <= budget.polygon_vertices
+
+
+@settings(deadline=None, max_examples=60)
+@given(generators(), st.integers(8, 40))
+def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generator, vertices: int) -> None:
+    hull = convex_hull(rng.normal(size=(60, 3)) * 10.0 ** rng.uniform(-1, 0, size=3))
+    found = enclosing(hull, Budget(vertices))
+    assert found is not None
+    farthest = max(distance_to(vertex, hull.vertices) for vertex in found.hull.vertices)
+    assert found.error == pytest.approx(farthest, rel=1e-4, abs=1e-5)
+
+
+@settings(deadline=None, max_examples=40)
+@given(generators())
+def test_there_is_always_a_box(rng: np.random.Generator) -> None:
+    hull = convex_hull(rng.normal(size=(30, 3)) * 10.0 ** rng.uniform(-3, 3, size=3))
+    found = enclosing(hull, Budget(8, 6, 4))
+    assert found is not None and len(found.hull.vertices) == 8
+
+
+def test_a_budget_below_a_box_is_refused() -> None:
+    cube = convex_hull(np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float))
+    assert enclosing(cube, Budget(vertices=7)) is None
+
+
+@pytest.mark.parametrize(("vertices", "share"), [(32, 0.09), (64, 0.05), (255, 0.015)])
+def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> None:
+    points = np.random.default_rng(1).normal(size=(2000, 3))
+    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
+    found = enclosing(ball, Budget(vertices))
+    assert found is not None and found.error < share * ball.aabb.diagonal
+
+
+def test_more_vertices_never_stick_out_more_by_much() -> None:
+    hull = convex_hull(np.random.default_rng(2).normal(size=(400, 3)))
+    errors = [found.error for n in (16, 32, 64) if (found := enclosing(hull, Budget(n)))]
+    assert errors[0] > errors[1] > errors[2] >= 0
+
+
+def test_the_same_hull_gives_the_same_bytes() -> None:
+    points = np.random.default_rng(3).normal(size=(200, 3))
+    first, second = (enclosing(convex_hull(points), Budget(24)) for _ in range(2))
+    assert first and second and first.hull.vertices.tobytes() == second.hull.vertices.tobytes()

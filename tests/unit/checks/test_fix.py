@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.checks import check, engine_named, fix
+from meshforge.geometry import Aabb, Box, Polytope, Pose, Shape, convex_hull, polygon_sizes
+from meshforge.symbolic import Hull, Label, SymbolicMesh
+from tests.unit.cli.in_process import Run, runner
+
+
+def ball(vertices: int, radius: float = 0.1) -> Polytope:
+    points = np.random.default_rng(0).normal(size=(vertices, 3))
+    return convex_hull(radius * points / np.linalg.norm(points, axis=1, keepdims=True))
+
+
+def mesh(*shapes: Shape) -> SymbolicMesh:
+    return SymbolicMesh(
+        tuple(Hull(f"h{k}", f"b{k}", shape, Label("knob", 1.0, "user")) for k, shape in enumerate(shapes))
+    )
+
+
+def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() -> None:
+    before = mesh(ball(300), Box.filling(Aabb([1, 0, 0], [2, 1, 1])))
+    fixed = fix(before, engine_named("physx-gpu"))
+    (change,) = fixed.changes
+    assert (change.hull, change.made, change.rules) == ("h0", "h0~1", ("vertices", "polygons"))
+    made = fixed.mesh.named("h0~1")
+    assert (made.parent, made.label, made.body) == ("h0", "knob", "b0")
+    assert change.vertices == (300, len(made.vertices)) and len(made.vertices) <= 64
+    assert len(polygon_sizes(made.shape.tessellated())) <= 64
+    assert fixed.mesh.hulls[1] is before.hulls[1]
+    assert check(fixed.mesh, "physx-gpu") == ()
+    assert not fixed.left
+
+
+def test_what_would_stick_out_too_far_is_left_and_told() -> None:
+    before = mesh(ball(300))
+    fixed = fix(before, engine_named("physx-gpu"), tolerance=0.001)
+    assert fixed.mesh is before and not fixed.changes
+    assert fixed.left[0].startswith("h0: left as it is, since a hull within the limits would stick out by 0.0")
+
+
+def test_what_would_come_to_overlap_another_body_is_left() -> None:
+    beside = Box.filling(Aabb([0.0995, -1, -1], [1, 1, 1]))
+    around = ball(300).moved(Pose.of_translation([-0.0005, 0, 0]))
+    fixed = fix(mesh(around, beside), engine_named("unreal"), tolerance=0.1)
+    assert fixed.left == ("h0: left as it is, since it would come to overlap h1 of body b1",)
+
+
+def test_a_hull_that_is_too_thin_is_thickened_to_both_sides() -> None:
+    plate = Box.filling(Aabb([0, 0, 0], [1, 1, 0.0004])).tessellated()
+    fixed = fix(mesh(plate), engine_named("physx-gpu"))
+    made = fixed.mesh.hulls[0].aabb
+    assert made.size[2] == pytest.approx(0.001, rel=1e-5)
+    assert made.center[2] == pytest.approx(0.0002)
+    assert fixed.changes[0].error == pytest.approx(0.0003, rel=1e-5)
+    assert [f.rule for f in check(fixed.mesh, "physx-gpu")] == ["physx-gpu-oblong"]  # of that nothing safe is known
+
+
+def test_a_mesh_within_the_limits_stays_the_same_object() -> None:
+    before = mesh(ball(20))
+    assert fix(before, engine_named("physx-gpu")).mesh is before
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    hull = ball(300)
+    rows = [f"v {x} {y} {z}" for x, y, z in hull.vertices.tolist()] + [f"f {a} {b} {c}" for a, b, c in hull.faces + 1]
+    Path("in").mkdir()
+    Path("in/ball.obj").write_text("\n".join(["o ball", *rows, ""]))
+    return runner(monkeypatch, capsys)
+
+
+def test_the_command_line_writes_mended_files_and_leaves_the_input(run: Run) -> None:
+    source = Path("in/ball.obj").read_bytes()
+    words = ("check", "in", "--engine", "physx-gpu", "--fix", "--out", "out", "--tolerance", "0.02", "--json")
+    told = run(*words)
+    assert told.code == 0
+    line = json.loads(told.out)
+    assert line["fixed"]["changes"][0]["vertices"]["before"] == 300
+    assert line["findings"] == []
+    written = Path("out/ball.obj").read_bytes()
+    assert Path("in/ball.obj").read_bytes() == source != written
+    assert run("check", "out", "--engine", "physx-gpu").code == 0
+    assert run(*words).code == 0 and Path("out/ball.obj").read_bytes() == written  # once more: the same
+    assert [path.name for path in Path("out").iterdir()] == ["ball.obj"]
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (("--fix",), "--fix needs --engine and --out"),
+        (("--fix", "--out", "out"), "--fix needs --engine and --out"),
+        (("--engine", "unreal", "--out", "out"), "--out says nothing without --fix"),
+        (("--engine", "unreal", "--tolerance", "1"), "--tolerance says nothing without --fix"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(run: Run, words: tuple[str, ...], problem: str) -> None:
+    told = run("check", "in", *words)
+    assert told.code == 2 and problem in told.err
+
+
+def test_the_folder_of_the_assets_is_no_output(run: Run) -> None:
+    before = Path("in/ball.obj").read_bytes()
+    told = run("check", "in", "--engine", "unreal", "--fix", "--out", "in")
+    assert told.code == 1 and "the output folder is the folder of the assets" in told.out
+    assert Path("in/ball.obj").read_bytes() == before
