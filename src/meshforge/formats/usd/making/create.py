@@ -107,15 +107,14 @@ class _Creator:
 
     def _opaque(self, piece: Opaque) -> None:
         """A piece as its triangles, or as a plane; one that is neither is told in the report."""
+        if piece.plane is not None:  # which USD does not let move
+            spec = new_prim(self.root, prim_name(piece.name.rsplit("/", 1)[-1], self._children(self.root)), "Plane")
+            place(spec, piece.plane.translation, piece.plane.rotation)
+            collider(spec, None)
+            return
         holder, name = self._place(piece.name, piece.body)
         space = self._space(piece.body)
-        if piece.plane is not None:
-            spec = new_prim(holder, name, "Plane")
-            found = space.split(piece.plane)
-            assert found is not None  # spaces of bodies are rigid
-            place(spec, found[0], found[1])
-            collider(spec, None)
-        elif piece.surface is not None and len(piece.surface.faces):
+        if piece.surface is not None and len(piece.surface.faces):
             spec = mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
             collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
 

@@ -67,7 +67,7 @@ def _joint(scene: Scene, prim: Any, bodies: Bodies) -> Joint | None:
     damping = told(scene, prim, f"drive:{drive}:physics:damping") if drive else None
     still = drive and not told(scene, prim, f"drive:{drive}:physics:stiffness")
     return Joint(
-        scene.short(str(prim.GetPath())),
+        prim.GetName(),
         kind,
         parent,
         child,

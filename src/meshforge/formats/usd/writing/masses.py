@@ -76,8 +76,7 @@ def author(spec: Any, inertial: Inertial, body: Space, unit: Unit) -> None:
 
     centre = tidy(body.points(inertial.centre[None])[0], 1.0)
     turn = rotation_of(body.linear).T
-    moments, axes = np.linalg.eigh(tidy(turn @ inertial.inertia @ turn.T))
-    axes = axes * np.sign(np.linalg.det(axes))
+    moments, axes = _principal(tidy(turn @ inertial.inertia @ turn.T))
     moments = moments / (unit.kilograms * unit.metres**2)
     apply_schemas(spec, ["PhysicsMassAPI"])
     value(spec, "physics:mass", "Float", inertial.mass / unit.kilograms)
@@ -86,6 +85,14 @@ def author(spec: Any, inertial: Inertial, body: Space, unit: Unit) -> None:
         w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
         value(spec, "physics:diagonalInertia", "Float3", Gf.Vec3f(*moments.tolist()))
         value(spec, "physics:principalAxes", "Quatf", Gf.Quatf(w, x, y, z))
+
+
+def _principal(inertia: Floats) -> tuple[Floats, Floats]:
+    """The principal moments (3,) and their axes, a rotation (3, 3); the given axes where these are principal."""
+    if not (inertia - np.diag(np.diag(inertia))).any():
+        return np.diag(inertia).copy(), np.eye(3)
+    moments, axes = np.linalg.eigh(inertia)
+    return moments, axes * np.sign(np.linalg.det(axes))
 
 
 def _says_all(scene: Scene, prim: Any) -> bool:

@@ -17,7 +17,8 @@ from meshforge.formats.usd.library import usd
 from meshforge.formats.usd.reading.bodies import Bodies
 from meshforge.formats.usd.reading.read import sources_of
 from meshforge.formats.usd.reading.stage import Scene
-from meshforge.formats.usd.writing.bytes import layer_bytes, wants_crate
+from meshforge.formats.usd.text import has_comments, patched
+from meshforge.formats.usd.writing.bytes import is_crate, layer_bytes, wants_crate
 from meshforge.formats.usd.writing.edit import Edit
 from meshforge.formats.usd.writing.masses import keep_masses
 from meshforge.formats.usd.writing.package import packed, unpacked
@@ -54,11 +55,33 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
                 notes += keep_masses(edit, sources)
             notes += [*edit.notes, *renaming(edit.names)]
             names = edit.names
-        return _output(layer, asset, document, name, copies, notes, names)
+        return _output(layer, scene.stage.GetRootLayer(), asset, document, name, copies, notes, names)
+
+
+def _text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
+    """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
+    from pxr import Sdf, Tf
+
+    after = layer.ExportToString()
+    if is_crate(source):
+        return bytes(after.encode())
+    text = source.decode("utf-8", "replace")
+    made = patched(text, original.ExportToString(), after)
+    if made is not None and "\ufffd" not in text:
+        check = Sdf.Layer.CreateAnonymous(".usda")
+        try:
+            if check.ImportFromString(made) and check.ExportToString() == after:
+                return made.encode()
+        except Tf.ErrorException:
+            pass
+    if has_comments(text):
+        notes.append("comments in its text are not kept")
+    return bytes(after.encode())
 
 
 def _output(
     layer: Any,
+    original: Any,
     asset: Asset,
     document: UsdDocument,
     name: str,
@@ -72,11 +95,13 @@ def _output(
     first = next(iter(inside), "")
     root = inside.pop(first) if first else document.source
     if suffix != PACKAGE:
-        main = layer_bytes(layer, crate=wants_crate(suffix, root))
+        crate = wants_crate(suffix, root)
+        main = layer_bytes(layer, crate=True) if crate else _text(layer, original, root, notes)
         return Output(main, inside, dict(copies), tuple(notes), names)
     if not was_package:
         inside, first = _beside(copies, asset), f"{PurePosixPath(name).stem}.usdc"
-    main = layer_bytes(layer, crate=wants_crate(PurePosixPath(first).suffix.lower(), root))
+    crate = wants_crate(PurePosixPath(first).suffix.lower(), root)
+    main = layer_bytes(layer, crate=True) if crate else _text(layer, original, root, notes)
     return Output(packed({first: main, **inside}), {}, dict(copies) if was_package else {}, tuple(notes), names)
 
 
