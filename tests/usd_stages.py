@@ -81,8 +81,17 @@ def Xform "World"
             {mesh("bottom", api=COLLIDES, more=CONVEX + chr(10) + 'uniform token purpose = "guide"')}
         }}
         {mesh("visual", more="color3f[] primvars:displayColor = [(1, 0, 0)]")}
-        {mesh("both", api=COLLIDES, more=CONVEX + chr(10) + "double3 xformOp:translate = (9, 0, 0)" + chr(10)
-              + 'uniform token[] xformOpOrder = ["xformOp:translate"]')}
+        {
+        mesh(
+            "both",
+            api=COLLIDES,
+            more=CONVEX
+            + chr(10)
+            + "double3 xformOp:translate = (9, 0, 0)"
+            + chr(10)
+            + 'uniform token[] xformOpOrder = ["xformOp:translate"]',
+        )
+    }
     }}
     def Material "Rubber" ( prepend apiSchemas = ["PhysicsMaterialAPI"] )
     {{
@@ -162,3 +171,17 @@ def specs(path: Path) -> dict[str, Any]:
 
     own.Traverse("/", take)
     return found
+
+
+def physics_shapes(path: Path) -> dict[str, Any]:
+    """The collision shapes of a stage as USD's own reader hands them to engines, by path."""
+    from pxr import Usd, UsdPhysics
+
+    stage = Usd.Stage.Open(str(path))
+    found = UsdPhysics.UsdPhysicsLoadStageFromPrimRange(stage, ["/"])
+    return {
+        str(prim): told
+        for prims, each in found.values()
+        for prim, told in zip(prims, each, strict=True)
+        if hasattr(told, "localPos") and told.isValid
+    }

@@ -8,11 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
+
 from meshforge.errors import AssetError
 
 _LOCK = threading.RLock()
 """Layers are shared in a process: while one asset is edited in memory, nobody may read it."""
 _STAGE = re.compile(r"\s*\((?:instantiating|recomposing) stage on stage .*\)\s*$", re.S)
+_DAMAGE = (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError)
+_REMEDY = "Mend the file, or export it anew."
 _LONGEST = 300  # characters of a complaint in a message
 
 
@@ -38,10 +42,14 @@ def usd(where: str) -> Iterator[list[str]]:
     with _LOCK:
         delegate = UsdUtils.CoalescingDiagnosticDelegate()
         try:
-            yield told
+            with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and told
+                yield told
         except Tf.ErrorException as error:
             problem = f"USD cannot read it: {_first(error.args, where)}"
-            raise AssetError(problem, where=where, remedy="Mend the file, or export it anew.") from None
+            raise AssetError(problem, where=where, remedy=_REMEDY) from None
+        except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
+            problem = f"this USD file is damaged: {shortened(str(error), where)}"
+            raise AssetError(problem, where=where, remedy=_REMEDY) from error
         finally:
             said = [shortened(item.commentary, where) for item in delegate.TakeUncoalescedDiagnostics()]
             told += dict.fromkeys(said)

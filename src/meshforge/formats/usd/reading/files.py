@@ -17,7 +17,9 @@ def files_of(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     places = [*(layer.realPath for layer in layers), *assets]
     own = path.resolve()
     found = [file for file in map(_file, places) if file is not None and file.resolve() != own]
-    return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(unresolved))
+    return tuple(dict.fromkeys(found)), tuple(
+        dict.fromkeys(text.removeprefix(f"{path.absolute().parent}/") for text in unresolved)
+    )
 
 
 def digests_of(scene: Scene) -> tuple[tuple[Path, str], ...]:

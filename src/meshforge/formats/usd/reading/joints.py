@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -33,7 +33,9 @@ def read_mechanism(scene: Scene, bodies: Bodies, geoms: Sequence[Geom]) -> Mecha
     hulls: dict[str, list[Any]] = {}
     for geom in geoms:
         hulls.setdefault(geom.body, []).append(geom.shape)
-    found = (inertial_of(scene, prim, bodies.names[p], hulls.get(bodies.names[p], [])) for p, prim in bodies.prims.items())
+    found = (
+        inertial_of(scene, prim, bodies.names[p], hulls.get(bodies.names[p], [])) for p, prim in bodies.prims.items()
+    )
     inertials = tuple(inertial for inertial in found if inertial is not None)
     joints = _trees(joint for prim in joint_prims(scene) if (joint := _joint(scene, prim, bodies)))
     bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
@@ -139,8 +141,8 @@ def _force(scene: Scene, kind: JointKind) -> float:
     return scene.kilograms * scene.metres ** (2 if kind == "revolute" else 1)
 
 
-def _trees(joints: Iterable[Joint]) -> Iterator[Joint] | list[Joint]:
-    """The joints that make trees, in order; one whose child hangs elsewhere already is turned round where that helps."""
+def _trees(joints: Iterable[Joint]) -> list[Joint]:
+    """The joints that make trees, in order; where its child hangs elsewhere already, one is turned round."""
     root: dict[str, str] = {}
     parents: dict[str, str] = {}
 

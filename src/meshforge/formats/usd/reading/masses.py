@@ -71,5 +71,3 @@ def turn_of(quaternion: Any) -> Floats:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-

@@ -17,9 +17,9 @@ from meshforge.formats.usd.reading.bodies import Bodies, piece_names
 from meshforge.formats.usd.reading.colliders import collides, has_physics, is_seen
 from meshforge.formats.usd.reading.contact import contact_attributes
 from meshforge.formats.usd.reading.files import digests_of, files_of
-from meshforge.formats.usd.reading.guard import refuse_harmful
 from meshforge.formats.usd.reading.instancers import instanced_part
 from meshforge.formats.usd.reading.joints import read_mechanism
+from meshforge.formats.usd.reading.layers import refuse_harmful_layers
 from meshforge.formats.usd.reading.mentions import prim_mentions
 from meshforge.formats.usd.reading.notes import scene_notes
 from meshforge.formats.usd.reading.shapes import parts_of
@@ -47,8 +47,8 @@ def read_usd(path: Path) -> Asset:
     Raises AssetError: damaged, more than memory holds, or there is nothing in it.
     """
     source = contents(path)
-    refuse_harmful(path)
     with usd(str(path)) as told:
+        refuse_harmful_layers(path, source)
         scene = Scene.opened(path)
         asset = _asset(scene, source)
     with usd(str(path)):  # which tells of missing files once more
@@ -88,9 +88,8 @@ def sources_of(scene: Scene, bodies: Bodies, physics: bool, notes: list[str]) ->
         if prim.IsA(UsdGeom.PointInstancer):
             if part := instanced_part(scene, prim, physics, notes):
                 yield Source(prim, bodies.of(prim), [part], "is made many times by a point instancer")
-        elif collides(scene, prim) if physics else is_seen(scene, prim):
-            if parts := parts_of(scene, prim, notes):
-                yield Source(prim, bodies.of(prim), parts)
+        elif (collides if physics else is_seen)(scene, prim) and (parts := parts_of(scene, prim, notes)):
+            yield Source(prim, bodies.of(prim), parts)
 
 
 def authored_of(sources: Sequence[Source], bodies: Bodies) -> tuple[Authored, ...]:

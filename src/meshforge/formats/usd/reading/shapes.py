@@ -15,6 +15,7 @@ from meshforge.formats.usd.reading.triangles import mesh_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere, convex_hull, pieces
 
 _FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
+_LEAST = 1e-100  # of any stretch; below, its square is zero
 _SHEAR = 1e-6
 _RING = 32  # corners of each end of a cone or a tapered cylinder
 _TO_Z = {
@@ -163,4 +164,4 @@ def _is_regular(linear: Floats, offset: Floats) -> bool:
     if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)
-    return bool(stretch[-1] > _FLAT * stretch[0] and np.abs(offset).max() <= FARTHEST)
+    return bool(stretch[-1] > max(_FLAT * stretch[0], _LEAST) and np.abs(offset).max() <= FARTHEST)

@@ -19,7 +19,7 @@ _TOKEN = re.compile(
 _COMMENTS = ("#", "//", "/*")
 _OPEN, _CLOSE = "([{", ")]}"
 _SPECIFIERS = ("def", "over", "class")
-_QUALIFIERS = frozenset("custom uniform varying config prepend append add delete reorder".split())
+_QUALIFIERS = frozenset(["custom", "uniform", "varying", "config", "prepend", "append", "add", "delete", "reorder"])
 
 
 class UnscannableError(Exception):

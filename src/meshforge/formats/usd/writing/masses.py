@@ -18,6 +18,7 @@ from meshforge.formats.usd.writing.edit import Edit
 from meshforge.formats.usd.writing.specs import Space, apply_schemas, value
 from meshforge.geometry import Floats, Polytope, Pose, Shape, inertia, is_closed
 
+
 class Unit(Protocol):
     """What a stage measures in."""
 
@@ -53,10 +54,8 @@ def weighed(scene: Scene, prim: Any, body: str, sources: Sequence[Source]) -> In
     solids = [(source, shapes) for source, shapes in pieces if shapes]
     if not solids or any(shapes is None for _, shapes in pieces):
         return None
-    weights = [
-        inertia(shapes, _mass(scene, prim, source, shapes)) + (_mass(scene, prim, source, shapes),)
-        for source, shapes in solids
-    ]
+    masses = [_mass(scene, prim, source, shapes) for source, shapes in solids]
+    weights = [(*inertia(shapes, mass), mass) for (_, shapes), mass in zip(solids, masses, strict=True)]
     total = sum(mass for _, _, mass in weights)
     said = told(scene, prim, "physics:mass")
     mass = said * scene.kilograms if said is not None and said > 0 else total

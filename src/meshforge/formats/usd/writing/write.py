@@ -24,6 +24,7 @@ from meshforge.formats.usd.writing.masses import keep_masses
 from meshforge.formats.usd.writing.package import packed, unpacked
 
 PACKAGE = ".usdz"
+LAYERS = (".usd", ".usda", ".usdc")
 
 
 def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Output:
@@ -118,13 +119,28 @@ def _beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
 
 
 def _copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
-    """The files that go along, by their place beside the main one; those of other disks stay where they are."""
+    """The files that go along, by their place beside the main one; notes on those that stay where they are."""
     folder = Path(os.path.normpath(asset.path.absolute())).parent
-    copies, notes = {}, []
+    copies: dict[str, Path] = {}
+    notes: list[str] = []
+    outside = [file for file in asset.files if not file.is_relative_to(folder)]
+    absolute = _absolute(asset) if outside else frozenset()
     for file in asset.files:
-        place = Path(os.path.relpath(file, folder)).as_posix()
-        copies[place] = file
+        if file in absolute:
+            notes.append(f"{file.name} is referred to by an absolute path: it is used where it is, not copied")
+        else:
+            copies[Path(os.path.relpath(file, folder)).as_posix()] = file
     return copies, notes
+
+
+def _absolute(asset: Asset) -> frozenset[Path]:
+    """The files that the layers of an asset refer to by absolute paths."""
+    with usd(str(asset.path)):
+        from pxr import UsdUtils
+
+        layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYERS)]
+        texts = [text for layer in layers for kind in UsdUtils.ExtractExternalReferences(str(layer)) for text in kind]
+    return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
 
 
 def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
