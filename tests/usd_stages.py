@@ -185,3 +185,11 @@ def physics_shapes(path: Path) -> dict[str, Any]:
         for prim, told in zip(prims, each, strict=True)
         if hasattr(told, "localPos") and told.isValid
     }
+
+
+def complaints(path: Path) -> list[str]:
+    """What USD's own validators have against a file."""
+    from pxr import Usd, UsdValidation
+
+    context = UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators())
+    return [error.GetMessage() for error in context.Validate(Usd.Stage.Open(str(path)))]
