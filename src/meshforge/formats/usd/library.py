@@ -17,6 +17,7 @@ _LOCK = threading.RLock()
 _STAGE = re.compile(r"\s*\((?:instantiating|recomposing) stage on stage .*\)\s*$", re.S)
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError)
 _REMEDY = "Mend the file, or export it anew."
+_INSIDE = re.compile(r"\bpxrInternal\w*::|@anon:0x[0-9a-f]+:[^@]*@,?")  # the library's names for parts of its own
 _LONGEST = 300  # characters of a complaint in a message
 
 
@@ -58,7 +59,7 @@ def usd(where: str) -> Iterator[list[str]]:
 
 def shortened(text: str, where: str) -> str:
     """A complaint in one line, of a long one the beginning; files are told from the folder of the asset."""
-    line = " ".join(_STAGE.sub("", text).replace(f"{Path(where).absolute().parent}/", "").split())
+    line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
 
 

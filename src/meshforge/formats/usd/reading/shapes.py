@@ -87,25 +87,25 @@ def _primitive(scene: Scene, prim: Any, kind: str, linear: Floats, offset: Float
     across = scales if kind == "Sphere" else along[:2]
     if kind not in ("Cube",) and np.ptp(across) > _SHEAR * across.max():
         notes.append(f"{prim.GetPath()} is scaled unevenly: its radius counts by the largest factor, as in engines")
-    return _described(scene, prim, kind, rotation_of(turn), offset, scales)
+    return _described(scene, prim, kind, turn, offset, scales)
 
 
 def _described(scene: Scene, prim: Any, kind: str, turn: Floats, offset: Floats, scales: Floats) -> MeshPart:
-    """A shape of a prim's own sizes times scales (3,), turned and put in its place."""
+    """A shape of a prim's own sizes times scales (3,), turned or mirrored and put in its place."""
 
     def size(name: str) -> float:
         return float(scene.get(prim.GetAttribute(name)) or 0.0)
 
     axis = _axis(scene, prim)
     wide, long = scales @ np.abs(axis)[:, :2], float(scales @ np.abs(axis)[:, 2])
-    pose = Pose(turn @ axis, offset)
+    pose = Pose(_proper(turn @ axis), offset)
     match kind:
         case "Cube":
             sides = size("size") * scales
-            return _solid(kind, sides, lambda: Box(Pose(turn, offset), sides / 2))
+            return _solid(kind, sides, lambda: Box(Pose(_proper(turn), offset), sides / 2))
         case "Sphere":
             radius = size("radius") * float(scales.max())
-            return _solid(kind, [radius], lambda: Sphere(Pose(turn, offset), radius))
+            return _solid(kind, [radius], lambda: Sphere(pose, radius))
         case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
             return _round(kind, pose, _radii(kind, size) * float(wide.max()), size("height") * long / 2)
     return MeshPart(None, f"a collider of type {kind or 'none'} is not known")
@@ -157,6 +157,13 @@ def _solid(kind: str, sizes: Sequence[float] | Floats, make: Any) -> MeshPart:
 def _axis(scene: Scene, prim: Any) -> Floats:
     """The rotation (3, 3) that takes Z to the axis that a prim says."""
     return _TO_Z.get(str(scene.get(prim.GetAttribute("axis")) or "Z"), _TO_Z["Z"])
+
+
+def _proper(turn: Floats) -> Floats:
+    """A rotation (3, 3) that takes shapes about Z to where a rotation, or a reflection, takes them."""
+    nearly: Floats = turn * np.array([np.sign(np.linalg.det(turn)), 1.0, 1.0])
+    left, _, right = np.linalg.svd(nearly)
+    return np.asarray(left @ right)
 
 
 def _is_regular(linear: Floats, offset: Floats) -> bool:

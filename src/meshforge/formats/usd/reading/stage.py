@@ -107,9 +107,10 @@ class Scene:
 
 
 def rotation_of(linear: Floats) -> Floats:
-    """The rotation (3, 3) nearest to a map, which may mirror, scale and shear."""
-    left, _, right = np.linalg.svd(linear)
+    """The rotation (3, 3) nearest to a map, which may scale and shear; of one that mirrors, to its opposite.
+
+    That is how the library, and engines with it, take a reflection apart.
+    """
+    left, _, right = np.linalg.svd(linear * np.sign(np.linalg.det(linear) or 1.0))
     rotation: Floats = left @ right
-    if np.linalg.det(rotation) < 0:
-        rotation = left @ np.diag([1.0, 1.0, -1.0]) @ right
     return rotation
