@@ -12,7 +12,7 @@ from meshforge.formats import read, save
 from meshforge.formats.usd.document import BODY
 from meshforge.geometry import Box, Capsule, Cylinder, Sphere
 from tests.conversion_samples import SAMPLES
-from tests.usd_stages import complaints, physics_shapes
+from tests.usd_stages import complaints, physics_shapes, stage, written
 
 KINDS = (".usda", ".usdc", ".usd", ".usdz")
 
@@ -90,3 +90,13 @@ def test_a_hull_that_is_drawn_goes_for_good(tmp_path: Path) -> None:
     out = save(asset.with_geoms(asset.geoms[1:]), tmp_path / "out" / "a.usda")
     assert Counter(g.body for g in read(out.path).geoms) == {"left": 1, "right": 2, "base": 1}
     assert '"part"' not in out.path.read_text().split('def Xform "right"')[0]
+
+
+def test_a_stage_with_y_up_stands_upright_in_other_formats(tmp_path: Path) -> None:
+    tall = stage(
+        'def Cylinder "World" ( prepend apiSchemas = ["PhysicsCollisionAPI"] )\n{\nuniform token axis = "Y"\n}', up="Y"
+    )
+    saved = save(read(written(tmp_path, tall)), tmp_path / "out" / "a.urdf")
+    (geom,) = read(saved.path).geoms
+    assert isinstance(geom.shape, Cylinder) and np.allclose(np.abs(geom.shape.pose.rotation[:, 2]), [0, 0, 1])
+    assert "stand upright" in saved.notes[0]

@@ -36,6 +36,8 @@ COULD = frozenset(
         What.VERTEX_COLORS,
         What.CONTACT,
         What.PAIRS,
+        What.ACTUATORS,
+        What.DYNAMICS,
         What.CAMERAS,
         What.LIGHTS,
         What.ANIMATIONS,

@@ -57,7 +57,6 @@ class _Creator:
         self.bodies: dict[str, Any] = {}
         self.names: dict[str, str] = {}
         self.lost: list[Loss] = []
-        self.notes: list[str] = []
         self.drawn = not len(asset.visuals)
 
     def output(self) -> Output:
@@ -163,7 +162,6 @@ class _Creator:
         return any(joint.parent == link for joint in self.links.joints)
 
     def _told(self) -> Iterator[str]:
-        yield from self.notes
         held = {joint.child for joint in self.links.joints if joint.kind != "floating"}
         loose = [link for link in self.bodies if link not in held]
         if loose:
@@ -171,8 +169,11 @@ class _Creator:
                 f"{counted(len(loose), 'body', 'bodies')} free to fall ({listed(loose, 3)}): for one that stands fast, "
                 "join it to the world with a PhysicsFixedJoint"
             )
-        many = [joint.name or joint.child for joint in self.links.joints if joint.kind in ("planar", "floating")]
-        many = [name for name in many if name not in loose]
+        many = [
+            joint.name or joint.child
+            for joint in self.links.joints
+            if joint.kind == "planar" or (joint.kind == "floating" and joint.parent in self.bodies)
+        ]
         if many:
             yield f"joints of several degrees of freedom ({listed(many, 3)}) are written, and not read again"
         if self.links.between:
