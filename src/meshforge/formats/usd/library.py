@@ -52,7 +52,7 @@ def usd(where: str) -> Iterator[list[str]]:
             problem = f"this USD file is damaged: {shortened(str(error), where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from error
         finally:
-            said = [shortened(item.commentary, where) for item in delegate.TakeUncoalescedDiagnostics()]
+            said = [shortened(_words(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
             told += dict.fromkeys(said)
             del delegate
 
@@ -65,5 +65,13 @@ def shortened(text: str, where: str) -> str:
 
 def _first(errors: tuple[object, ...], where: str) -> str:
     """The commentary of the first of the library's errors."""
-    said = [getattr(error, "commentary", "") for error in errors]
+    said = [_words(error) for error in errors]
     return shortened(next((text for text in said if text), "it gives no reason"), where)
+
+
+def _words(complaint: object) -> str:
+    """The text of a complaint; of one that repeats damaged text, that it does."""
+    try:
+        return str(getattr(complaint, "commentary", ""))
+    except UnicodeDecodeError:
+        return "it has names that are no text"

@@ -18,7 +18,7 @@ _DENSEST = 2048  # numbers that a byte can stand for where integers are coded tw
 _DENSEST_TEXT = 255  # bytes that one byte can stand for, by LZ4
 _COUNTED = (b"TOKENS", b"FIELDS", b"FIELDSETS", b"PATHS", b"SPECS", b"STRINGS")
 _QUIET = re.compile(rb'"""(?:[^\\]|\\.)*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|@[^@\n]*@|#[^\n]*', re.S)
-_REMEDY = "Fetch or export it anew."
+REMEDY = "Fetch or export it anew."
 
 
 def refuse_harmful(data: bytes, where: str) -> None:
@@ -30,7 +30,7 @@ def refuse_harmful(data: bytes, where: str) -> None:
     elif data.lstrip().startswith(_TEXT):
         _refuse_deep(data, where)
     else:
-        raise AssetError("this is no USD file, neither text nor crate nor package", where=where, remedy=_REMEDY)
+        raise AssetError("this is no USD file, neither text nor crate nor package", where=where, remedy=REMEDY)
 
 
 def _refuse_deep(data: bytes, where: str) -> None:
@@ -42,7 +42,7 @@ def _refuse_deep(data: bytes, where: str) -> None:
 
 def _refuse_crate(data: bytes, where: str) -> None:
     """Raise AssetError where a table of a binary layer lies outside of it, or counts more than it can hold."""
-    damaged = AssetError("it is damaged or cut off: its table of contents does not fit it", where=where, remedy=_REMEDY)
+    damaged = AssetError("it is damaged or cut off: its table of contents does not fit it", where=where, remedy=REMEDY)
     place = _number(data, _TOC_PLACE)
     count = _number(data, place) if place is not None else None
     if place is None or count is None or count > _MOST_SECTIONS or place + 8 + count * _SECTION > len(data):
@@ -73,18 +73,18 @@ def _refuse_package(data: bytes, where: str) -> None:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             entries = archive.infolist()
             if not entries or sum(entry.file_size for entry in entries) > len(data):
-                raise AssetError("its files do not fit into it", where=where, remedy=_REMEDY)
+                raise AssetError("its files do not fit into it", where=where, remedy=REMEDY)
             for entry in entries:
                 if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & 1:
                     problem = f"{entry.filename} in it is compressed or encrypted, which USDZ does not allow"
                     raise AssetError(problem, where=where, remedy="Pack it with usdzip.")
                 parts = Path(entry.filename.replace("\\", "/")).parts
                 if ".." in parts or entry.filename.startswith(("/", "\\")) or ":" in parts[:1]:
-                    raise AssetError(f"{entry.filename} in it leads out of the package", where=where, remedy=_REMEDY)
+                    raise AssetError(f"{entry.filename} in it leads out of the package", where=where, remedy=REMEDY)
             first = archive.read(entries[0])
             nested = [archive.read(e) for e in entries[1:] if e.filename.lower().endswith((".usd", ".usda", ".usdc"))]
     except (zipfile.BadZipFile, NotImplementedError, OSError, ValueError, RuntimeError, EOFError) as error:
-        raise AssetError(f"its archive is damaged: {error}", where=where, remedy=_REMEDY) from error
+        raise AssetError(f"its archive is damaged: {error}", where=where, remedy=REMEDY) from error
     for layer in (first, *nested):
         if layer.startswith(_ZIP):
             raise AssetError("a package in a package is not read", where=where, remedy="Unpack it first.")

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.errors import AssetError
-from meshforge.formats.usd.reading.guard import refuse_harmful
+from meshforge.formats.usd.reading.guard import REMEDY, refuse_harmful
 
+_TEXT = "usda"
 _MOST_PRIMS = 1_000_000
 _MOST_LAYERS = 10_000
 
@@ -27,6 +28,7 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
             continue
         refuse_harmful(content, str(file))
         layers[key] = _opened(file)
+        _refuse_broken(layers[key], str(file))
         if len(layers) > _MOST_LAYERS:
             raise AssetError(f"it refers to more than {_MOST_LAYERS:,} layers", where=str(path))
         waiting += _referred(layers[key], file)
@@ -37,6 +39,20 @@ def _opened(file: Path) -> Any:
     from pxr import Sdf
 
     return Sdf.Layer.FindOrOpen(str(file))
+
+
+def _refuse_broken(layer: Any, where: str) -> None:
+    """Raise AssetError where a damaged binary layer lists things that it does not hold; asked for, they crash it."""
+    broken: list[str] = []
+
+    def look(path: Any) -> None:
+        if not path.IsTargetPath() and not layer.GetObjectAtPath(path):
+            broken.append(str(path))
+
+    if layer.fileFormat.formatId != _TEXT:
+        layer.Traverse("/", look)
+    if broken:
+        raise AssetError(f"it is damaged: it lists {broken[0]} and does not hold it", where=where, remedy=REMEDY)
 
 
 def _referred(layer: Any, file: Path) -> Iterator[tuple[Path, bytes]]:
