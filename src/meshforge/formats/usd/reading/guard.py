@@ -10,7 +10,8 @@ import numpy as np
 
 from meshforge.errors import AssetError
 
-_CRATE, _TEXT, _ZIP = b"PXR-USDC", b"#usda", b"PK\x03\x04"
+TEXT = b"#usda"
+_CRATE, _ZIP = b"PXR-USDC", b"PK\x03\x04"
 _DEEPEST = 1000  # brackets within brackets; the library's parser overflows its stack at some ten thousands
 _TOC_PLACE, _SECTION, _MOST_SECTIONS = 16, 32, 64
 _NAME = 16  # bytes of a section's name
@@ -27,7 +28,7 @@ def refuse_harmful(data: bytes, where: str) -> None:
         _refuse_crate(data, where)
     elif data.startswith(_ZIP):
         _refuse_package(data, where)
-    elif data.lstrip().startswith(_TEXT):
+    elif data.lstrip().startswith(TEXT):
         _refuse_deep(data, where)
     else:
         raise AssetError("this is no USD file, neither text nor crate nor package", where=where, remedy=REMEDY)

@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.errors import AssetError
-from meshforge.formats.usd.reading.guard import REMEDY, refuse_harmful
+from meshforge.formats.usd.reading.guard import REMEDY, TEXT, refuse_harmful
 
-_TEXT = "usda"
 _MOST_PRIMS = 1_000_000
 _MOST_LAYERS = 10_000
 
@@ -28,7 +27,8 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
             continue
         refuse_harmful(content, str(file))
         layers[key] = _opened(file)
-        _refuse_broken(layers[key], str(file))
+        if not content.lstrip().startswith(TEXT):
+            _refuse_broken(layers[key], str(file))
         if len(layers) > _MOST_LAYERS:
             raise AssetError(f"it refers to more than {_MOST_LAYERS:,} layers", where=str(path))
         waiting += _referred(layers[key], file)
@@ -49,8 +49,7 @@ def _refuse_broken(layer: Any, where: str) -> None:
         if not path.IsTargetPath() and not layer.GetObjectAtPath(path):
             broken.append(str(path))
 
-    if layer.fileFormat.formatId != _TEXT:
-        layer.Traverse("/", look)
+    layer.Traverse("/", look)
     if broken:
         raise AssetError(f"it is damaged: it lists {broken[0]} and does not hold it", where=where, remedy=REMEDY)
 
