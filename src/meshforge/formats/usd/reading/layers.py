@@ -51,7 +51,7 @@ def _refuse_broken(layer: Any, where: str) -> None:
 
     layer.Traverse("/", look)
     if broken:
-        raise AssetError(f"it is damaged: it lists {broken[0]} and does not hold it", where=where, remedy=REMEDY)
+        raise AssetError("it is damaged: it lists prims that it does not hold", where=where, remedy=REMEDY)
 
 
 def _referred(layer: Any, file: Path) -> Iterator[tuple[Path, bytes]]:
