@@ -26,6 +26,8 @@ WHOLE = {
     "gltf": ("gltf/cube.gltf", "gltf/physics_box.gltf", "gltf/sparse_of_zeros.gltf", "gltf/unreal_names.gltf"),
     "glb": ("glb/cube.glb",),
     "urdf": ("urdf/mesh_beside.urdf", "urdf/two_roots.urdf", "urdf/joint_without_limits.urdf", "urdf/box.urdf"),
+    "usda": ("usd/cube.usda", "usd/reference_beside.usda", "usd/mesh_index_beyond.usda"),
+    "usdc": ("usd/cube.usdc", "usd/cube.usdz"),
     "mjcf": ("mjcf/mesh_good.xml", "mjcf/box.xml", "mjcf/default_type.xml", "mjcf/include_good.xml"),
 }
 DAE = ("dae/parts/cube.dae", "dae/parts/mirrored.dae")

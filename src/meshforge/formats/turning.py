@@ -18,7 +18,7 @@ def stood_up(asset: Asset, source: Format | None, target: Format) -> tuple[Asset
 
     A format that does not say what is up takes coordinates as they are.
     """
-    up, wanted = source.up if source else None, target.up
+    up, wanted = asset.up or (source.up if source else None), target.up
     if source is None or up == wanted:
         return asset, ()
     if up is None:

@@ -20,7 +20,7 @@ from tests.soups import box
 from tests.urdf_sample import THREE
 
 GOLDEN = Path(__file__).parents[2] / "golden" / "reports"
-SUFFIXES = (".obj", ".stl", ".ply", "", ".urdf", ".xml", ".glb")
+SUFFIXES = (".obj", ".stl", ".ply", "", ".urdf", ".xml", ".glb", ".usda")
 
 BUSY_URDF = """\
 <robot name="busy">

@@ -1,0 +1,1 @@
+"""A stage of an asset of another format."""

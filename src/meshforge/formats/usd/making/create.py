@@ -1,0 +1,188 @@
+"""Making a USD stage of an asset of another format: a prim for each body, below it its hulls and what it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from meshforge.asset import Asset, Geom, Inertial, Opaque, What
+from meshforge.formats.base import Output
+from meshforge.formats.losses import Loss
+from meshforge.formats.usd.document import BODY
+from meshforge.formats.usd.library import usd
+from meshforge.formats.usd.making.joints import joint_prim
+from meshforge.formats.usd.making.shown import show
+from meshforge.formats.usd.making.tree import Links
+from meshforge.formats.usd.writing.bytes import layer_bytes, wants_crate
+from meshforge.formats.usd.writing.masses import author
+from meshforge.formats.usd.writing.package import packed
+from meshforge.formats.usd.writing.specs import Space, apply_schemas, collider, mesh, native, new_prim, place, prim_name
+from meshforge.formats.visual_files import visuals_of
+from meshforge.formats.visuals import Visual
+from meshforge.geometry import Pose
+from meshforge.words import counted, listed
+
+_ROOT = Space(np.eye(3), np.zeros(3))
+_LIGHT = 1e-3  # [kg] of a link that stands between joints; engines cannot do with much less beside others
+
+
+def create_usd(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies become rigid bodies side by side, hulls native shapes or convex meshes below them, in metres with Z up; what
+    is part of no moving body collides without one. Hulls are hidden, unless the asset shows nothing else.
+    """
+    with usd(name):
+        return _Creator(asset, PurePosixPath(name)).output()
+
+
+@dataclass(frozen=True, slots=True)
+class _Metric:
+    metres: float = 1.0
+    kilograms: float = 1.0
+
+
+class _Creator:
+    def __init__(self, asset: Asset, name: PurePosixPath) -> None:
+        from pxr import Sdf
+
+        self.asset, self.name = asset, name
+        self.links = Links.of(asset)
+        self.layer = Sdf.Layer.CreateAnonymous(".usda")
+        self.root = new_prim(self.layer.pseudoRoot, prim_name(name.stem, ()), "Xform")
+        self.bodies: dict[str, Any] = {}
+        self.names: dict[str, str] = {}
+        self.lost: list[Loss] = []
+        self.drawn = not len(asset.visuals)
+
+    def output(self) -> Output:
+        self._head()
+        for link, pose in self.links.poses.items():
+            self._body(link, pose)
+        for geom in self.asset.geoms:
+            self._hull(geom)
+        for piece in self.asset.opaque:
+            self._opaque(piece)
+        self._visuals()
+        self._joints()
+        suffix, stem = self.name.suffix.lower(), self.name.stem
+        main = layer_bytes(self.layer, crate=wants_crate(suffix, None))
+        main = packed({f"{stem}.usdc": main}) if suffix == ".usdz" else main
+        return Output(main, notes=tuple(self._told()), names=self.names, lost=tuple(self.lost))
+
+    def _head(self) -> None:
+        self.layer.defaultPrim = self.root.name
+        for key, said in (("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0), ("upAxis", "Z")):
+            self.layer.pseudoRoot.SetInfo(key, said)
+
+    def _body(self, link: str, pose: Pose) -> None:
+        spec = new_prim(self.root, prim_name(link, self._children(self.root)), "Xform")
+        place(spec, pose.translation, pose.rotation)
+        apply_schemas(spec, ["PhysicsRigidBodyAPI"])
+        self.bodies[link] = spec
+        inertial = next((known for known in self.asset.mechanism.inertials if known.body == link), None)
+        if link in self.links.between:
+            inertial = Inertial(link, _LIGHT, pose.translation, _LIGHT * 1e-3 * np.eye(3))
+        if inertial is not None and inertial.mass > 0:
+            author(spec, inertial, self._space(link), _Metric())
+
+    def _hull(self, geom: Geom) -> None:
+        holder, name = self._place(geom.name, geom.body)
+        space = self._space(geom.body)
+        spec, approximation = native(holder, name, geom.shape, space), None
+        if spec is None:
+            points = np.asarray(geom.shape.vertices)
+            spec, approximation = mesh(holder, name, points, geom.shape.faces, space), "convexHull"
+        collider(spec, approximation, drawn=self.drawn)
+        body = self.bodies.get(geom.body)
+        own = str(spec.path).removeprefix(f"{body.path if body else self.root.path}/")
+        read = f"{body.name if body else BODY}/{own}" if self.bodies else own
+        if read != geom.name:
+            self.names[geom.name] = read
+
+    def _opaque(self, piece: Opaque) -> None:
+        """A piece as its triangles, or as a plane; one that is neither is told in the report."""
+        if piece.plane is not None:  # which USD does not let move
+            spec = new_prim(self.root, prim_name(piece.name.rsplit("/", 1)[-1], self._children(self.root)), "Plane")
+            place(spec, piece.plane.translation, piece.plane.rotation)
+            collider(spec, None)
+            return
+        holder, name = self._place(piece.name, piece.body)
+        space = self._space(piece.body)
+        if piece.surface is not None and len(piece.surface.faces):
+            spec = mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
+            collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
+
+    def _place(self, name: str, body: str) -> tuple[Any, str]:
+        """The spec below which a hull goes, and its name there; what its name has of folders becomes scopes."""
+        holder = self.bodies.get(body, self.root)
+        *above, own = name.removeprefix(f"{body}/").split("/")
+        for k, part in enumerate(above):
+            found = holder.nameChildren.get(prim_name(part, ()))
+            if found is not None and found.typeName != "Scope":
+                own = "_".join([*above[k:], own])
+                break
+            holder = found or new_prim(holder, prim_name(part, ()), "Scope")
+        return holder, prim_name(own, self._children(holder))
+
+    def _visuals(self) -> None:
+        refused = []
+        for body, visual in visuals_of(self.asset):
+            surfaces = [s for s in (visual.surfaces() if isinstance(visual, Visual) else [visual]) if len(s.faces)]
+            holder = self.bodies.get(body, self.root)
+            for surface in surfaces:
+                show(holder, prim_name("visual", self._children(holder)), surface, visual.rgba, self._space(body))
+            if not surfaces:
+                refused.append(body)
+        if refused:
+            self.lost.append(Loss(What.VISUALS, tuple(dict.fromkeys(refused)), "their files cannot be read"))
+
+    def _joints(self) -> None:
+        paths = {link: str(spec.path) for link, spec in self.bodies.items()}
+        joints = [j for j in self.links.joints if not (j.kind == "floating" and j.parent not in paths)]
+        if not joints:
+            return
+        holder = new_prim(self.root, prim_name("joints", self._children(self.root)), "Scope")
+        for joint in joints:
+            name = prim_name(joint.name or f"{joint.child}_joint", self._children(holder))
+            spec = joint_prim(holder, name, joint, paths, dict(self.links.poses))
+            if joint.kind == "fixed" and joint.parent not in paths and self._moves(joint.child):
+                apply_schemas(spec, ["PhysicsArticulationRootAPI"])
+        held = {joint.child for joint in joints}
+        for link in self.bodies.keys() - held:
+            if self._moves(link):
+                apply_schemas(self.bodies[link], ["PhysicsArticulationRootAPI"])
+
+    def _moves(self, link: str) -> bool:
+        """Whether something hangs on a link."""
+        return any(joint.parent == link for joint in self.links.joints)
+
+    def _told(self) -> Iterator[str]:
+        held = {joint.child for joint in self.links.joints if joint.kind != "floating"}
+        loose = [link for link in self.bodies if link not in held]
+        if loose:
+            yield (
+                f"{counted(len(loose), 'body', 'bodies')} free to fall ({listed(loose, 3)}): for one that stands fast, "
+                "join it to the world with a PhysicsFixedJoint"
+            )
+        many = [
+            joint.name or joint.child
+            for joint in self.links.joints
+            if joint.kind == "planar" or (joint.kind == "floating" and joint.parent in self.bodies)
+        ]
+        if many:
+            yield f"joints of several degrees of freedom ({listed(many, 3)}) are written, and not read again"
+        if self.links.between:
+            yield f"links of {_LIGHT:g} kg stand between joints of one body ({listed(self.links.between, 3)})"
+
+    def _space(self, body: str) -> Space:
+        pose = self.links.poses.get(body)
+        return Space(pose.rotation, pose.translation) if pose else _ROOT
+
+    @staticmethod
+    def _children(spec: Any) -> list[str]:
+        return [child.name for child in spec.nameChildren]

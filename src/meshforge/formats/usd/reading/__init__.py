@@ -1,0 +1,1 @@
+"""From a USD stage to an asset: colliders, shapes, bodies, joints, masses, visuals."""

@@ -1,0 +1,168 @@
+"""The joints of a stage, as far as they make trees of its bodies, in the root frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from meshforge.asset import Geom, Joint, JointKind, Mechanism
+from meshforge.formats.usd.document import BODY
+from meshforge.formats.usd.reading.bodies import Bodies
+from meshforge.formats.usd.reading.masses import inertial_of, told, turn_of
+from meshforge.formats.usd.reading.stage import Scene, rotation_of
+from meshforge.geometry import Floats, Pose
+
+_KINDS: dict[str, JointKind] = {
+    "PhysicsRevoluteJoint": "revolute",
+    "PhysicsPrismaticJoint": "prismatic",
+    "PhysicsFixedJoint": "fixed",
+    "PhysicsSphericalJoint": "ball",
+}
+_AXES = {"X": np.eye(3)[0], "Y": np.eye(3)[1], "Z": np.eye(3)[2]}
+_TURNS = {"rotX": "X", "rotY": "Y", "rotZ": "Z"}
+_SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
+
+
+def read_mechanism(scene: Scene, bodies: Bodies, geoms: Sequence[Geom]) -> Mechanism:
+    """Joints and masses; a joint that would close a loop, or is of a kind that no tree has, is left out."""
+    if not bodies.prims:
+        return Mechanism()
+    hulls: dict[str, list[Any]] = {}
+    for geom in geoms:
+        hulls.setdefault(geom.body, []).append(geom.shape)
+    found = (
+        inertial_of(scene, prim, bodies.names[p], hulls.get(bodies.names[p], [])) for p, prim in bodies.prims.items()
+    )
+    inertials = tuple(inertial for inertial in found if inertial is not None)
+    joints = _trees(joint for prim in joint_prims(scene) if (joint := _joint(scene, prim, bodies)))
+    bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
+    return Mechanism(tuple(joints), inertials)
+
+
+def joint_prims(scene: Scene) -> list[Any]:
+    """The prims that are joints and switched on."""
+    from pxr import UsdPhysics
+
+    found = [prim for prim in scene.prims() if prim.IsA(UsdPhysics.Joint)]
+    return [prim for prim in found if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
+
+
+def _joint(scene: Scene, prim: Any, bodies: Bodies) -> Joint | None:
+    """A joint; None for one to the world that only holds a body in its place, and for kinds that no tree has."""
+    ends = [_end(scene, prim, side, bodies) for side in "01"]
+    kind, axis, limits = _freedom(scene, prim)
+    (parent, first), (child, second) = ends
+    if kind is None or parent == child or (kind == "fixed" and BODY in (parent, child)):
+        return None
+    if child == BODY:
+        parent, child, first, second = child, parent, second, first
+        axis = -axis
+    unit = np.pi / 180 if kind == "revolute" else scene.metres
+    if limits is not None:
+        now = _position(kind, axis, first, second, scene.metres)
+        limits = limits[0] * unit - now, limits[1] * unit - now
+    drive = {"revolute": "angular", "prismatic": "linear"}.get(kind, "")
+    effort = told(scene, prim, f"drive:{drive}:physics:maxForce") if drive else None
+    damping = told(scene, prim, f"drive:{drive}:physics:damping") if drive else None
+    still = drive and not told(scene, prim, f"drive:{drive}:physics:stiffness")
+    return Joint(
+        prim.GetName(),
+        kind,
+        parent,
+        child,
+        second.translation,
+        first.rotation @ axis,
+        limits,
+        damping=damping * _force(scene, kind) / unit if damping and still and np.isfinite(damping) else 0.0,
+        effort=effort * _force(scene, kind) if effort else None,
+    )
+
+
+def _end(scene: Scene, prim: Any, side: str, bodies: Bodies) -> tuple[str, Pose]:
+    """The body at an end of a joint, and root_T_joint as this end has it."""
+    targets = prim.GetRelationship(f"physics:body{side}").GetForwardedTargets()
+    body, root_t_end, linear, offset = BODY, Pose.identity(), scene.metres * np.eye(3), np.zeros(3)
+    target = scene.stage.GetPrimAtPath(targets[0]) if targets else None
+    if target:
+        body, root_t_end = bodies.of_joint(target), scene.pose(target)
+        linear, offset = scene.placement(target)
+    place, turn = (scene.get(prim.GetAttribute(f"physics:local{what}{side}")) for what in ("Pos", "Rot"))
+    at = linear @ np.array(place or (0, 0, 0), dtype=np.float64) + offset
+    rotation = root_t_end.rotation @ (turn_of(turn) if turn is not None else np.eye(3))
+    return body, Pose(rotation_of(rotation), at)
+
+
+def _freedom(scene: Scene, prim: Any) -> tuple[JointKind | None, Floats, tuple[float, float] | None]:
+    """The kind of a joint, its axis (3,) in its own frame, and its limits in the units of the file."""
+    kind = _KINDS.get(str(prim.GetTypeName()))
+    axis = _AXES.get(str(scene.get(prim.GetAttribute("physics:axis")) or "X"), _AXES["X"])
+    if kind is not None:
+        low, high = (told(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
+        limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
+        return kind, axis, (low, high) if limited and low is not None and high is not None else None
+    return _of_limits(scene, prim) if str(prim.GetTypeName()) == "PhysicsJoint" else (None, axis, None)
+
+
+def _of_limits(scene: Scene, prim: Any) -> tuple[JointKind | None, Floats, tuple[float, float] | None]:
+    """The same of a joint of six degrees of freedom, by the limits on each; low above high locks one."""
+    bounds = {name: tuple(told(scene, prim, f"limit:{name}:physics:{e}") for e in ("low", "high")) for name in _ALL}
+    free = [name for name, (low, high) in bounds.items() if low is None or high is None or low < high]
+    if not free:
+        return "fixed", _AXES["X"], None
+    if len(free) == 1:
+        low, high = bounds[free[0]]
+        kind: JointKind = "revolute" if free[0] in _TURNS else "prismatic"
+        axis = _AXES[(_TURNS | _SLIDES)[free[0]]]
+        return kind, axis, (low, high) if low is not None and high is not None else None
+    return ("ball", _AXES["X"], None) if set(free) == set(_TURNS) else (None, _AXES["X"], None)
+
+
+_ALL = (*_TURNS, *_SLIDES)
+
+
+def _position(kind: JointKind, axis: Floats, first: Pose, second: Pose, metres: float) -> float:
+    """Where a joint is in the stage, [rad] or [m] from the zero of its limits."""
+    if kind == "prismatic":
+        return float((first.rotation @ axis) @ (second.translation - first.translation))
+    turn = first.rotation.T @ second.rotation
+    sine = axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+    angle = float(np.arctan2(sine, (np.trace(turn) - 1) / 2))
+    return angle if abs(angle) > _STILL else 0.0
+
+
+_STILL = 1e-6  # rad, below which a turn is the rounding of single precision
+
+
+def _force(scene: Scene, kind: JointKind) -> float:
+    """The newtons, or newton metres, of the stage's unit."""
+    return scene.kilograms * scene.metres ** (2 if kind == "revolute" else 1)
+
+
+def _trees(joints: Iterable[Joint]) -> list[Joint]:
+    """The joints that make trees, in order; where its child hangs elsewhere already, one is turned round."""
+    root: dict[str, str] = {}
+    parents: dict[str, str] = {}
+
+    def top(name: str) -> str:
+        while name in root:
+            name = root[name]
+        return name
+
+    kept = []
+    for joint in joints:
+        if parents.get(joint.child) == joint.parent:
+            kept.append(joint)
+            continue
+        if top(joint.parent) == top(joint.child):
+            continue
+        if joint.child in parents or joint.child == BODY:
+            joint = replace(joint, parent=joint.child, child=joint.parent, axis=-joint.axis)
+        if joint.child in parents or joint.child == BODY:
+            continue
+        parents[joint.child] = joint.parent
+        root[top(joint.child)] = top(joint.parent)
+        kept.append(joint)
+    return kept

@@ -1,0 +1,116 @@
+"""An open stage: its prims in order, and where they are in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from meshforge.errors import AssetError
+from meshforge.geometry import Floats, Pose
+
+_CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
+
+
+@dataclass(eq=False)
+class Scene:
+    """A stage, to be used within `usd` only; all of it at the first moment of its time line."""
+
+    stage: Any
+    path: Path
+    _placed: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)
+
+    @staticmethod
+    def opened(path: Path) -> Scene:
+        """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
+        from pxr import Usd
+
+        scene = Scene(Usd.Stage.Open(str(path)), path)
+        if not np.isfinite(scene.metres) or scene.metres <= 0:
+            raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
+        return scene
+
+    @cached_property
+    def metres(self) -> float:
+        """The metres of the stage's unit."""
+        from pxr import UsdGeom
+
+        said = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        return float(UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
+
+    @cached_property
+    def kilograms(self) -> float:
+        """The kilograms of the stage's unit of mass."""
+        from pxr import UsdPhysics
+
+        return float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
+
+    @property
+    def up(self) -> Literal["y", "z"]:
+        from pxr import UsdGeom
+
+        return "z" if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else "y"
+
+    @cached_property
+    def time(self) -> Any:
+        from pxr import Usd
+
+        return Usd.TimeCode.EarliestTime()
+
+    @cached_property
+    def _cache(self) -> Any:
+        from pxr import UsdGeom
+
+        return UsdGeom.XformCache(self.time)
+
+    def prims(self) -> Iterator[Any]:
+        """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
+        from pxr import Usd, UsdGeom
+
+        predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+        below = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
+        for prim in below:
+            yield prim
+            if prim.IsA(UsdGeom.PointInstancer):
+                below.PruneChildren()
+
+    def placement(self, prim: Any) -> tuple[Floats, Floats]:
+        """The map (3, 3), (3,) from the space of a prim, in units of the stage, to the root frame in metres."""
+        matrix = np.array(self._cache.GetLocalToWorldTransform(prim), dtype=np.float64)
+        return self.metres * matrix[:3, :3].T, self.metres * matrix[3, :3]
+
+    def pose(self, prim: Any) -> Pose:
+        """root_T_prim without its scale: the rotation nearest to its map."""
+        linear, offset = self.placement(prim)
+        return Pose(rotation_of(linear), offset)
+
+    def get(self, attribute: Any) -> Any:
+        """The value of an attribute, None where it has none."""
+        return attribute.Get(self.time) if attribute else None
+
+    @cached_property
+    def base(self) -> str:
+        """The path that names leave out: of the default prim, else the root."""
+        prim = self.stage.GetDefaultPrim()
+        return str(prim.GetPath()) if prim else "/"
+
+    def short(self, path: str, base: str = "") -> str:
+        """A path as names have it: below another one, or the default prim; that prim's own name for itself."""
+        base = base or self.base
+        if path == base:
+            return path.rsplit("/", 1)[-1]
+        return path.removeprefix(base.rstrip("/") + "/").lstrip("/")
+
+
+def rotation_of(linear: Floats) -> Floats:
+    """The rotation (3, 3) nearest to a map, which may scale and shear; of one that mirrors, to its opposite.
+
+    That is how the library, and engines with it, take a reflection apart.
+    """
+    left, _, right = np.linalg.svd(linear * np.sign(np.linalg.det(linear) or 1.0))
+    rotation: Floats = left @ right
+    return rotation
