@@ -8,16 +8,16 @@ import numpy as np
 
 from meshforge.asset import Asset, Opaque, What
 from meshforge.formats.base import Output
+from meshforge.formats.chain import Chain, chain_of
+from meshforge.formats.element_names import settle
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.losses import Loss
 from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
-from meshforge.formats.urdf.chain import Chain, chain_of
 from meshforge.formats.urdf.elements import fresh, mesh_tag
 from meshforge.formats.urdf.features import MESHES
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
-from meshforge.formats.urdf.slots import settle
 from meshforge.formats.visual_files import VisualFiles, visuals_of
 from meshforge.formats.xml import escaped
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere

@@ -8,15 +8,17 @@ from pathlib import Path
 from meshforge.asset import Asset, Body, Geom, Mentions, Opaque
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
+from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.companions import companions
+from meshforge.formats.element_names import piece_names
+from meshforge.formats.element_plan import Authored
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.references import Resolver
 from meshforge.formats.triangles import contents
-from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
+from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.mechanism import read_mechanism
 from meshforge.formats.urdf.mentions import element_mentions
-from meshforge.formats.urdf.meshes import Meshes
 from meshforge.formats.urdf.notes import notes
 from meshforge.formats.urdf.numbers import origin
 from meshforge.formats.urdf.robot import collisions, references, robot_of
@@ -36,11 +38,13 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     robot = robot_of(Text.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
-    meshes = Meshes(resolver, where)
+    meshes = CollisionMeshes()
     found = list(collisions(robot))
-    parts = _parts(found, links, meshes, where)
+    uses = _uses(found, resolver, where)
+    refuse_missing(use for use in uses if use)
+    parts = _parts(found, uses, links, meshes, where)
     authored = _authored(found, [len(own) for own in parts])
-    told = _mentions(found, links, meshes, parts)
+    told = _mentions(found, links, [meshes.groups(use) for use in uses], parts)
     files, missing = _files(robot, resolver)
     return Asset(
         path=path,
@@ -63,33 +67,51 @@ def _authored(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tu
     return tuple(Authored(link, names) for (link, _, _), names in zip(own, piece_names(own), strict=True))
 
 
-def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, where: str) -> list[list[MeshPart]]:
+def _uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: str) -> list[MeshUse | None]:
+    """The mesh file of each collision element, None where it has another geometry or none."""
+    uses: list[MeshUse | None] = []
+    for element, (_, collision) in zip(_authored(found, [1] * len(found)), found, strict=True):
+        kind = geometry_of(collision)
+        is_mesh = kind is not None and kind.tag == "mesh"
+        reference = kind.attributes.get("filename", "").strip() if kind else ""
+        place = f"{where}:{kind.line}" if kind else where
+        uses.append(MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
+    return uses
+
+
+def _parts(
+    found: Sequence[tuple[str, Element]],
+    uses: Sequence[MeshUse | None],
+    links: Links,
+    meshes: CollisionMeshes,
+    where: str,
+) -> list[list[MeshPart]]:
     """The pieces of each collision element, in the root frame; none where it has no geometry."""
-    labels = [element.names[0] for element in _authored(found, [1] * len(found))]
-    kinds = [geometry_of(collision) for _, collision in found]
-    meshes.refuse_missing((label, k) for label, k in zip(labels, kinds, strict=True) if k and k.tag == "mesh")
     parts: list[list[MeshPart]] = []
-    for (link, collision), kind, label in zip(found, kinds, labels, strict=True):
+    for (link, collision), use in zip(found, uses, strict=True):
+        kind = geometry_of(collision)
         pose = links.poses[link] @ origin(collision, where)
         if kind is None:
             parts.append([])
-        elif kind.tag == "mesh":
-            linear = pose.rotation * mesh_scale(kind, where, label)
-            parts.append(mesh_parts(meshes.pieces(label, kind), linear, pose.translation))
+        elif use is not None:
+            linear = pose.rotation * mesh_scale(kind, where, use.label)
+            parts.append(mesh_parts(meshes.pieces(use), linear, pose.translation))
         else:
             parts.append([primitive(kind, pose, where)])
     return parts
 
 
 def _mentions(
-    found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, parts: Sequence[Sequence[MeshPart]]
+    found: Sequence[tuple[str, Element]],
+    links: Links,
+    groups: Sequence[Sequence[str | None]],
+    parts: Sequence[Sequence[MeshPart]],
 ) -> list[list[Mentions]]:
     """What else is said of each piece of each collision element."""
     told = []
-    for (link, collision), own in zip(found, parts, strict=True):
+    for (link, collision), named, own in zip(found, groups, parts, strict=True):
         common = element_mentions(links.elements[link], collision)
-        groups = meshes.groups(geometry_of(collision)) or [None] * len(own)
-        told.append([(("group", group), *common) if group else common for group in groups])
+        told.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
     return told
 
 

@@ -2,22 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
 
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError, nearest
-from meshforge.formats.hull_files import folder_of
-from meshforge.formats.mesh_parts import is_flat
-from meshforge.formats.slots import Slot, lead_inside
-from meshforge.formats.triangles import pieces_of, read_triangles
-from meshforge.formats.urdf.document import UrdfDocument, digest_of
-from meshforge.formats.urdf.elements import refiled
-from meshforge.formats.urdf.made import Maker
-from meshforge.formats.urdf.robot import collisions
-from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.xml import Element
-from meshforge.geometry import Piece
+from meshforge.formats.slots import Slot, at_end, in_place, lead_inside
+from meshforge.formats.xml import Element, Splice
+from meshforge.geometry import Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Authored:
+    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and opaque ones."""
+
+    link: str
+    names: tuple[str, ...]
+
+
+class Maker(Protocol):
+    """Makes elements for one document of a format; data: its text."""
+
+    @property
+    def data(self) -> bytes: ...
+
+    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+
+        lead: the blanks before an element without a template.
+        """
+
+    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+        """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
 
 
 class Plan:
@@ -27,14 +44,20 @@ class Plan:
     no collision element.
     """
 
-    def __init__(self, asset: Asset, document: UrdfDocument, robot: Element, maker: Maker) -> None:
-        self.asset, self.document, self.maker = asset, document, maker
-        self.links: Mapping[str, Element] = {link.attributes["name"]: link for link in robot.each("link")}
+    def __init__(
+        self,
+        asset: Asset,
+        authored: Sequence[Authored],
+        elements: Sequence[Element],
+        links: Mapping[str, Element],
+        maker: Maker,
+    ) -> None:
+        self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
         self.places: list[tuple[Element, list[Slot]]] = []
         self.ends: dict[str, list[Slot]] = {}
-        self._pieces: dict[Path, list[Piece]] = {}
-        self._owner = {name: k for k, authored in enumerate(document.authored) for name in authored.names}
-        self._elements = [element for _, element in collisions(robot)]
+        self._owner = {name: k for k, one in enumerate(authored) for name in one.names}
+        self._elements = elements
+        self._poses = asset.body_poses
         self._place_authored()
         for geom in asset.geoms:
             if geom.parent is not None or geom.name not in self._owner:
@@ -44,15 +67,23 @@ class Plan:
     def slots(self) -> list[Slot]:
         """All collision elements in the order of the output."""
         by_link: dict[str, list[Slot]] = {name: [] for name in self.links}
-        for (_, slots), authored in zip(self.places, self.document.authored, strict=True):
+        for (_, slots), authored in zip(self.places, self.authored, strict=True):
             by_link[authored.link] += slots
         for link, slots in self.ends.items():
             by_link[link] += slots
         return [slot for slots in by_link.values() for slot in slots]
 
+    @property
+    def splices(self) -> list[Splice]:
+        """The edits of the document's text."""
+        data = self.maker.data
+        edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].untouched))
+        edits = [in_place(data, element, slots) for element, slots in edited]
+        return edits + [at_end(data, self.links[link], slots) for link, slots in self.ends.items()]
+
     def _place_authored(self) -> None:
         kept = {g.name for g in self.asset.geoms if g.parent is None} | {o.name for o in self.asset.opaque}
-        for element, authored in zip(self._elements, self.document.authored, strict=True):
+        for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
                 slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
@@ -64,37 +95,17 @@ class Plan:
 
     def _parted(self, element: Element, link: str, name: str, k: int) -> Slot:
         """An element for one piece of a mesh, its triangles as authored in a file of their own."""
-        mesh = geometry_of(element)
-        assert mesh is not None  # only meshes have several pieces
-        reference = mesh.attributes["filename"]
-        piece = self._pieces_in(reference)[k]
-        made = self.maker.files.add(name, folder_of(reference), piece.vertices, piece.faces)
-        if piece.shape is None and is_flat(piece.vertices):
-            self.maker.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
-        edits = refiled(self.maker.data, element, made)
+        edits = self.maker.part(element, name, k)
         return Slot(link, (name,), element.attributes.get("name"), element, edits)
-
-    def _pieces_in(self, reference: str) -> list[Piece]:
-        """The pieces of a mesh file as they were when the asset was read. Raises AssetError where it has changed."""
-        path = self.document.resolver.find(reference)
-        if path is None or digest_of(path) != dict(self.document.digests).get(path):
-            raise AssetError(
-                f"the mesh {reference!r} has changed since the asset was read",
-                where=str(self.asset.path),
-                remedy="Read the asset again.",
-            )
-        if path not in self._pieces:
-            self._pieces[path] = pieces_of(read_triangles(path), name=str(path))
-        return self._pieces[path]
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
         link = self._link_of(geom)
-        own = [k for k, authored in enumerate(self.document.authored) if authored.link == geom.body]
+        own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
         lead = lead_inside(self.maker.data, link)
-        slot = self.maker.slot(geom, self.asset.body_poses[geom.body], template, lead)
+        slot = self.maker.slot(geom, self._poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
         else:
