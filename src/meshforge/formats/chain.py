@@ -1,13 +1,13 @@
-"""The links and joints of a URDF that is made: one link after another, each with its frame on its joint."""
+"""The links and joints of a URDF or SDF that is made: one after another, each with its frame on its joint."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from meshforge.asset import Asset, Joint, What
+from meshforge.asset import Asset, Joint, JointKind, What
 from meshforge.formats.body_tree import BodyTree, free_name
 from meshforge.formats.losses import Loss
 from meshforge.geometry import Floats, Pose
@@ -27,6 +27,17 @@ class LinkJoint:
     axis: Floats
 
 
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What a format makes of joints; kinds: those that it has, others are made of simpler ones.
+
+    world: whether links can be joined to a world that is no link. Without one, the root link stands for it.
+    """
+
+    kinds: Collection[JointKind]
+    world: bool = False
+
+
 @dataclass(slots=True)
 class Chain:
     """The links, and what leads to them.
@@ -43,22 +54,23 @@ class Chain:
     notes: list[str] = field(default_factory=list)
 
 
-def chain_of(asset: Asset, bare: Iterable[str]) -> Chain:
+def chain_of(asset: Asset, bare: Iterable[str], rules: Rules) -> Chain:
     """The chain of an asset's bodies; bare: those that have nothing, of which a root can be left out.
 
     The root link is in the root frame: the first body that is a root there, else a link of its own.
     """
-    return _Builder(asset, set(bare)).chain
+    return _Builder(asset, set(bare), rules).chain
 
 
 class _Builder:
-    def __init__(self, asset: Asset, bare: set[str]) -> None:
+    def __init__(self, asset: Asset, bare: set[str], rules: Rules) -> None:
+        self.rules = rules
         self.poses: Mapping[str, Pose] = asset.body_poses
         self.tree = BodyTree.of(asset)
         self.chain = Chain()
         self.links = set(self.poses)
         self.joint_names = self.tree.joint_names
-        self.dropped = self._idle_root(bare)
+        self.dropped = None if rules.world else self._idle_root(bare)
         self.root = self._root()
         for body in self.tree.order:
             if body != self.dropped and body not in self.chain.frames:
@@ -125,13 +137,25 @@ class _Builder:
         self.chain.frames[link] = frame
 
     def _parts(self, joint: Joint) -> Sequence[Joint]:
-        """The joints of a URDF that move as one does: a ball is three that turn about one point."""
-        if joint.kind != "ball":
+        """The joints of the format that move as one does: a ball is three that turn about one point."""
+        if joint.kind in self.rules.kinds or joint.kind not in ("ball", "planar"):
             return [joint]
-        name = joint.name or f"{joint.child}_ball"
-        axes = self.poses[joint.child].rotation.T
-        turns = [replace(joint, kind="revolute", axis=axes[k], limits=None) for k in range(3)]
-        return [replace(j, name=free_name(f"{name}_{'xyz'[k]}", self.joint_names)) for k, j in enumerate(turns)]
+        if joint.kind == "planar":
+            across = across_of(joint.axis)
+            parts: list[tuple[str, JointKind, Floats]] = [
+                ("x", "prismatic", across),
+                ("y", "prismatic", np.cross(joint.axis, across)),
+                ("turn", "revolute", joint.axis),
+            ]
+        else:
+            axes = self.poses[joint.child].rotation.T
+            parts = [(letter, "revolute", axes[k]) for k, letter in enumerate("xyz")]
+        name = joint.name or f"{joint.child}_{joint.kind}"
+        bare = replace(joint, limits=None)
+        return [
+            replace(bare, name=free_name(f"{name}_{part}", self.joint_names), kind=kind, axis=axis)
+            for part, kind, axis in parts
+        ]
 
 
 def _origin(joint: Joint, pose: Pose) -> Floats:
@@ -142,6 +166,13 @@ def _origin(joint: Joint, pose: Pose) -> Floats:
     elif joint.kind != "ball":
         return pose.translation
     return pose.translation + away if np.linalg.norm(away) > _NEAR else pose.translation
+
+
+def across_of(axis: Floats) -> Floats:
+    """A unit vector (3,) across an axis."""
+    side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    length: Floats = side / np.linalg.norm(side)
+    return length
 
 
 def _is_identity(pose: Pose) -> bool:

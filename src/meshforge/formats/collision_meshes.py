@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,12 +18,16 @@ _SHOWN = 120  # characters of a reference in a message
 
 @dataclass(frozen=True, slots=True)
 class MeshUse:
-    """A collision element that refers to a mesh file; label: its name in messages; place: `file:line`."""
+    """A collision element that refers to a mesh file; label: its name in messages; place: `file:line`.
+
+    part: what of the file it uses, which `CollisionMeshes` was told how to find; empty for all of it.
+    """
 
     label: str
     reference: str
     place: str
     resolver: Resolver
+    part: tuple[str, ...] = ()
 
     @property
     def path(self) -> Path:
@@ -50,45 +54,60 @@ def refuse_missing(uses: Iterable[MeshUse]) -> None:
         )
 
 
-class CollisionMeshes:
-    """The mesh files of one asset."""
+Chosen = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[RawSurface]]
+"""What a `MeshUse.part` stands for among the surfaces of a file."""
 
-    def __init__(self) -> None:
-        self._surfaces: dict[Path, Sequence[RawSurface]] = {}
-        self._pieces: dict[Path, list[Piece]] = {}
+
+def _all(surfaces: Sequence[RawSurface], _: tuple[str, ...]) -> Sequence[RawSurface]:
+    return surfaces
+
+
+class CollisionMeshes:
+    """The mesh files of one asset; chosen: what elements use of them."""
+
+    def __init__(self, chosen: Chosen = _all) -> None:
+        self._chosen = chosen
+        self._files: dict[Path, Sequence[RawSurface]] = {}
+        self._surfaces: dict[tuple[Path, tuple[str, ...]], Sequence[RawSurface]] = {}
+        self._pieces: dict[tuple[Path, tuple[str, ...]], list[Piece]] = {}
 
     def surfaces(self, use: MeshUse) -> Sequence[RawSurface]:
-        """What is in a file that is there. Raises AssetError naming the element and the file: it cannot be read."""
-        if use.path not in self._surfaces:
-            try:
-                self._surfaces[use.path] = read_triangles(use.path)
-            except MeshForgeError as error:
-                raise _named(error, use) from error
-        return self._surfaces[use.path]
-
-    def pieces(self, use: MeshUse) -> list[Piece]:
-        """The pieces of a file that is there, in the unit of the file.
+        """What an element uses of a file that is there.
 
         Raises AssetError naming the element and the mesh file: it cannot be read, or a number in it is not finite.
         """
-        if use.path not in self._pieces:
+        key = use.path, use.part
+        if key not in self._surfaces:
+            try:
+                if use.path not in self._files:
+                    self._files[use.path] = read_triangles(use.path)
+                self._surfaces[key] = self._chosen(self._files[use.path], use.part)
+            except MeshForgeError as error:
+                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
+        return self._surfaces[key]
+
+    def pieces(self, use: MeshUse) -> list[Piece]:
+        """The pieces of the same, in the unit of the file. Raises AssetError as `surfaces`."""
+        key = use.path, use.part
+        if key not in self._pieces:
             surfaces = self.surfaces(use)
             try:
-                self._pieces[use.path] = pieces_of(surfaces, name=str(use.path))
+                self._pieces[key] = pieces_of(surfaces, name=str(use.path))
             except MeshForgeError as error:
-                raise _named(error, use) from error
-        return self._pieces[use.path]
+                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
+        return self._pieces[key]
 
     def groups(self, use: MeshUse | None) -> list[str | None]:
         """The name of the group or node of each piece of a file that was cut; none for others."""
-        if use is None or use.path not in self._pieces:
+        if use is None or (use.path, use.part) not in self._pieces:
             return []
-        names = [surface.name for surface in self._surfaces[use.path]]
-        return [names[piece.group] for piece in self._pieces[use.path]]
+        names = [surface.name for surface in self._surfaces[use.path, use.part]]
+        return [names[piece.group] for piece in self._pieces[use.path, use.part]]
 
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""
-        return tuple((path, digest_of(path)) for path, pieces in self._pieces.items() if len(pieces) > 1)
+        several = dict.fromkeys(path for (path, _), pieces in self._pieces.items() if len(pieces) > 1)
+        return tuple((path, digest_of(path)) for path in several)
 
 
 class KeptMeshes:
@@ -115,10 +134,6 @@ class KeptMeshes:
 def digest_of(path: Path) -> str:
     """A digest of a file's bytes."""
     return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
-
-
-def _named(error: MeshForgeError, use: MeshUse) -> AssetError:
-    return AssetError(f"collision {use.label!r}: {error.message}", where=use.place)
 
 
 def _short(reference: str) -> str:

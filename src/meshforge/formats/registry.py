@@ -9,6 +9,7 @@ from meshforge.formats.base import Format
 from meshforge.formats.gltf import GltfFormat
 from meshforge.formats.mjcf import MjcfFormat
 from meshforge.formats.plain import Folder, Obj, Ply, Stl, Wrl
+from meshforge.formats.sdf import SdfFormat
 from meshforge.formats.segmented.places import is_segmented
 from meshforge.formats.urdf import UrdfFormat
 
@@ -16,7 +17,7 @@ _HEAD = 4096  # bytes by which a format tells its assets from other files of its
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
 FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
-FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), GltfFormat(), *FOLDER.members, FOLDER)
+FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), SdfFormat(), GltfFormat(), *FOLDER.members, FOLDER)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.asset import Asset, Opaque, What
 from meshforge.formats.base import Output
-from meshforge.formats.chain import Chain, chain_of
+from meshforge.formats.chain import Chain, Rules, chain_of
 from meshforge.formats.element_names import settle
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.losses import Loss
@@ -24,6 +24,7 @@ from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 from meshforge.words import counted, listed
 
 _LEAD = b"    "
+_RULES = Rules(("fixed", "revolute", "prismatic", "floating", "planar"))
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
@@ -46,7 +47,7 @@ class _Creator:
         self.visuals.gather(shown)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
         bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
-        self.chain: Chain = chain_of(asset, bare)
+        self.chain: Chain = chain_of(asset, bare, _RULES)
         self.slots = self._slots()
         self.shown = {link: self._visuals(link) for link in self.chain.frames}
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from meshforge.asset import Geom
 from meshforge.formats.collision_meshes import KeptMeshes
-from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
 from meshforge.formats.triangles import pieces_of
@@ -55,7 +55,7 @@ class Maker:
         if reference not in self._pieces:
             self._pieces[reference] = pieces_of(self.meshes.surfaces(reference, resolver), name=reference)
         piece = self._pieces[reference][k]
-        made = self.files.add(name, folder_of(reference), piece.vertices, piece.faces)
+        made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
         if piece.shape is None and is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
         return refiled(self.data, element, made)
@@ -68,5 +68,5 @@ class Maker:
             )
         mesh = geometry_of(template) if template else None
         beside = mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
-        folder = folder_of(beside) if beside else self.folder
+        folder = self.files.folder_of(beside) if beside else self.folder
         return self.files.add(geom.name, folder, shape.vertices, shape.faces)

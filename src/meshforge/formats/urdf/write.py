@@ -12,7 +12,7 @@ from meshforge.formats.collision_meshes import KeptMeshes
 from meshforge.formats.companions import companions
 from meshforge.formats.element_names import settle
 from meshforge.formats.element_plan import Plan
-from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.references import Resolver, placement
 from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.made import Maker
@@ -31,7 +31,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     files = HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
     meshes = KeptMeshes(document.digests, str(asset.path))
-    maker = Maker(text.data, newline(text.data), files, _mesh_folder(robot), meshes)
+    maker = Maker(text.data, newline(text.data), files, files.folder_of(_first_mesh(robot)), meshes)
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = Plan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
     names = settle(plan.slots)
@@ -41,11 +41,11 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
-def _mesh_folder(robot: Element) -> str:
-    """The folder of the first collision mesh, as its reference has it, where hulls of no mesh's kin go."""
+def _first_mesh(robot: Element) -> str | None:
+    """The reference of the first collision mesh, in whose folder hulls of no mesh's kin go."""
     kinds = (geometry_of(collision) for _, collision in collisions(robot))
     meshes = (kind.attributes.get("filename") for kind in kinds if kind is not None and kind.tag == "mesh")
-    return folder_of(next(meshes, None))
+    return next(meshes, None)
 
 
 def _copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
