@@ -130,17 +130,15 @@ class _Composer:
     def _frame_of(self, around: Scope, element: Element, include: Element | None, where: str) -> Frame:
         """The frame of a model in the scope around it; what an include tells goes before what the model does."""
         placement = element.attributes.get("placement_frame", "")
-        teller, told_in = element, where
+        teller = element
         if include is not None:
-            told_in = self.sources[around.source].path.as_posix()
             own = text_of(include, "placement_frame")
             if include.first("pose") is not None:
                 teller, placement = include, own
+                where = str(self.sources[around.source].path)
             placement = own or placement
-        at = pose_of(teller, told_in if teller is include else where)
-        return Frame(
-            around, at.pose, at.base, f"{told_in if teller is include else where}:{at.line}", placement=placement
-        )
+        at = pose_of(teller, where)
+        return Frame(around, at.pose, at.base, f"{where}:{at.line}", placement=placement)
 
     def _refuse_too_many(self, around: Scope, element: Element, where: str) -> None:
         self.count += 1
@@ -196,7 +194,7 @@ class _Composer:
                 self._add(scope, name, child, "", False)
 
     def _mend_old(self, scope: Scope) -> None:
-        """Let frames of old files, in which `frame` meant nothing to most readers, count from what they did count from."""
+        """Let frames of old files whose `frame`, which few readers saw, is not there count from their usual base."""
         if scope.version < RELATIVE:
             for name, frame in scope.frames.items():
                 if not scope.knows(frame.base):

@@ -81,7 +81,7 @@ def _leads_to(parents: dict[str, str], body: str, wanted: str) -> bool:
 
 
 def _body(scope: Scope, name: str, links: Links) -> str | None:
-    """The body that a name in a joint stands for: a link's, or that which a frame moves with; None where it is not there."""
+    """The body that a name in a joint stands for: a link, or what a frame moves with; None where it is not there."""
     if name == WORLD:
         return WORLD if WORLD not in links.by_body else None
     seen = set()

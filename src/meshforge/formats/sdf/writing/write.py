@@ -68,7 +68,7 @@ class _Edit:
     @property
     def made(self) -> dict[str, bytes]:
         """The mesh files of all files' hulls, from the main one."""
-        found = {}
+        found: dict[str, bytes] = {}
         for maker, source in zip(self.makers, self.document.sources, strict=True):
             folder = posixpath.dirname(source.place or "")
             found |= {posixpath.normpath(posixpath.join(folder, key)): v for key, v in maker.files.made.items()}
