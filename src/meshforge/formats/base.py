@@ -109,6 +109,10 @@ class Format(ABC):
         """The highest folder that the references of an asset name on their way, from that of its file upwards."""
         return asset.path.parent
 
+    def is_main(self, path: Path) -> bool:
+        """Whether a file of this format is an asset of its own, and not what stands in for one in older programs."""
+        return True
+
     def sniffs(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True

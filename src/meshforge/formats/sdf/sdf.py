@@ -11,6 +11,7 @@ from meshforge.errors import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.sdf.document import SdfDocument
 from meshforge.formats.sdf.features import COULD, HOLDS, MESHES, features_of
+from meshforge.formats.sdf.files.config import is_main
 from meshforge.formats.sdf.making.create import create_sdf
 from meshforge.formats.sdf.reading.read import read_sdf
 from meshforge.formats.sdf.writing.write import write_sdf
@@ -27,6 +28,9 @@ class SdfFormat(Format):
     holds: ClassVar[frozenset[What]] = HOLDS
     could: ClassVar[frozenset[What]] = COULD
     shown_files: ClassVar[tuple[str, ...]] = MESHES
+
+    def is_main(self, path: Path) -> bool:
+        return is_main(path)
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_sdf(path, options)

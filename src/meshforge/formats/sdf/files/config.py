@@ -25,6 +25,15 @@ def main_file(folder: Path) -> Path | None:
     return next((path for path in found if path.is_file()), None)
 
 
+def is_main(path: Path) -> bool:
+    """Whether a file is the one of its folder's model, or none of those that `model.config` names."""
+    try:
+        named = versions(path.parent)
+        return path.name not in named.values() or main_file(path.parent) == path
+    except AssetError:
+        return True
+
+
 def versions(folder: Path) -> dict[tuple[int, int], str]:
     """The files that a folder's `model.config` names, by the version of SDF they are in; none where there is none."""
     path = folder / CONFIG

@@ -31,7 +31,7 @@ class ModelResolver(Resolver):
 
     def stands_for(self, name: str) -> bool:
         """Whether the folder is taken for the model of a name that no folder around has."""
-        return (self.folder / CONFIG).is_file() and not any(home.is_dir() for home in self._homes(name))
+        return not any(home.is_dir() for home in self._homes(name))
 
     def place(self, reference: str) -> str | None:
         """Where the file goes in an output: what is in the model's own folder stays there."""

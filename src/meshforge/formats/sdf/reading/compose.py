@@ -132,11 +132,9 @@ class _Composer:
         placement = element.attributes.get("placement_frame", "")
         teller = element
         if include is not None:
-            own = text_of(include, "placement_frame")
+            placement = text_of(include, "placement_frame") or placement
             if include.first("pose") is not None:
-                teller, placement = include, own
-                where = str(self.sources[around.source].path)
-            placement = own or placement
+                teller, where = include, str(self.sources[around.source].path)
         at = pose_of(teller, where)
         return Frame(around, at.pose, at.base, f"{where}:{at.line}", placement=placement)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from meshforge.formats.sdf.files.config import CONFIG, main_file, versions
+from meshforge.formats.sdf.files.config import CONFIG, is_main, main_file
 from meshforge.formats.sdf.files.elements import geometry_of
 from meshforge.formats.sdf.reading.compose import Composed
 from meshforge.formats.sdf.reading.links import Links
@@ -24,9 +24,8 @@ def _worlds(composed: Composed) -> Iterator[str]:
 def _older(composed: Composed) -> Iterator[str]:
     """A note where the folder's `model.config` names another file for newer versions."""
     path = composed.sources[0].path
-    named = versions(path.parent)
-    newest = main_file(path.parent) if named else None
-    if newest is not None and newest != path and path.name in named.values():
+    newest = None if is_main(path) else main_file(path.parent)
+    if newest is not None:
         yield f"{CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
 
 
