@@ -9,7 +9,7 @@ from meshforge.errors import AssetError
 from meshforge.formats.sdf.files.values import pose_of
 from meshforge.formats.sdf.files.version import RELATIVE
 from meshforge.formats.sdf.reading.compose import Composed
-from meshforge.formats.sdf.reading.frames import Places, Scope
+from meshforge.formats.sdf.reading.frames import MODEL, Places, Scope
 from meshforge.formats.xml import Element
 from meshforge.geometry import Pose
 
@@ -74,7 +74,10 @@ def place_in(places: Places, link: Link, element: Element) -> Pose:
     at = pose_of(element, link.where)
     if not at.base or (link.scope.version < RELATIVE and not link.scope.knows(at.base)):
         return link.pose @ at.pose
-    return places.of(link.scope, at.base, f"{link.where}:{at.line}") @ at.pose
+    scope = link.scope
+    while at.base == MODEL and scope.merged and scope.frame is not None:  # of all poses, libsdformat keeps these as said
+        scope = scope.frame.scope
+    return places.of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
 
 
 def _links(composed: Composed, places: Places) -> Iterator[Link]:
