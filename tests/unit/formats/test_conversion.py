@@ -16,9 +16,9 @@ from tests.gltf_files import KHR, SceneFile
 from tests.soups import box
 
 PLAIN = (".obj", ".stl", ".ply", "")
-SUFFIXES = (*PLAIN, ".urdf", ".xml", ".glb")
+SUFFIXES = (*PLAIN, ".urdf", ".xml", ".sdf", ".glb")
 PAIRS = [pair for pair in itertools.product(SUFFIXES, SUFFIXES) if pair[0] != pair[1]]
-UP = {".urdf": "z", ".xml": "z", ".glb": "y"}
+UP = {".urdf": "z", ".xml": "z", ".sdf": "z", ".glb": "y"}
 TURNS = {("y", "z"): [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ("z", "y"): [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}
 SINGLE = 3e-6  # share of the diagonal: STL, glTF and MuJoCo's meshes are in single precision
 
