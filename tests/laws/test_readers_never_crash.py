@@ -26,6 +26,7 @@ WHOLE = {
     "gltf": ("gltf/cube.gltf", "gltf/physics_box.gltf", "gltf/sparse_of_zeros.gltf", "gltf/unreal_names.gltf"),
     "glb": ("glb/cube.glb",),
     "urdf": ("urdf/mesh_beside.urdf", "urdf/two_roots.urdf", "urdf/joint_without_limits.urdf", "urdf/box.urdf"),
+    "sdf": ("sdf/nested.sdf", "sdf/world.sdf", "sdf/geometry_mesh_submesh.sdf", "sdf/two_models.sdf"),
     "mjcf": ("mjcf/mesh_good.xml", "mjcf/box.xml", "mjcf/default_type.xml", "mjcf/include_good.xml"),
 }
 DAE = ("dae/parts/cube.dae", "dae/parts/mirrored.dae")

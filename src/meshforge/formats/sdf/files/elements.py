@@ -29,7 +29,7 @@ def root_of(data: bytes, where: str) -> tuple[Element, Version]:
     root = parsed(data, where)
     place = f"{where}:{root.line}"
     if root.tag not in ("sdf", "gazebo"):
-        remedy = "It is a URDF: name it .urdf." if root.tag == "robot" else None
+        remedy = "It is a URDF: name it .urdf, or convert it first." if root.tag == "robot" else None
         raise AssetError(f"is no SDF: its root element is <{root.tag}>, not <sdf>", where=place, remedy=remedy)
     told = root.attributes.get("version", "")
     version = version_of(told)

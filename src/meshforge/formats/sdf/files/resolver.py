@@ -20,18 +20,14 @@ class ModelResolver(Resolver):
     """Finds what a file refers to, from its folder, upwards, and in the roots."""
 
     def candidates(self, reference: str) -> Iterator[Path]:
-        """The places where the file may be; a model whose folder was renamed is found in that folder all the same."""
+        """The places where the file may be; what no model of that name has may be in this one, under another name."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
             yield self._joined(self.folder, rest)
         yield from Resolver.candidates(self, reference)
-        if (model := _MODEL.fullmatch(reference)) and self.stands_for(model[1]):
+        if model := _MODEL.fullmatch(reference):
             yield self._joined(self.folder, model[2])
-
-    def stands_for(self, name: str) -> bool:
-        """Whether the folder is taken for the model of a name that no folder around has."""
-        return not any(home.is_dir() for home in self._homes(name))
 
     def place(self, reference: str) -> str | None:
         """Where the file goes in an output: what is in the model's own folder stays there."""
@@ -49,7 +45,7 @@ class ModelResolver(Resolver):
         found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if path.is_file()), None)
         if found is not None:
             return found == self._joined(self.folder, rest)
-        return self.folder.name == name or self.stands_for(name)
+        return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))
 
     def model_file(self, reference: str) -> Path | None:
         """The file of a model that an `<include>` names: a file, or the folder of a model; None where it is not there.
@@ -63,6 +59,11 @@ class ModelResolver(Resolver):
             if _is(beside.parent, "dir") and (path := main_file(beside.parent)) is not None:
                 return path
         return None
+
+    def model_advice(self, reference: str) -> str:
+        """Where the model of an `<include>` was looked for, and what to do about it."""
+        is_folder = reference.strip().startswith("model:") and not _MODEL.fullmatch(reference.strip())
+        return self.advice(f"{reference.strip()}/model.sdf" if is_folder else reference)
 
 
 def _is(path: Path, kind: str) -> bool:

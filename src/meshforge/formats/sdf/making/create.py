@@ -51,6 +51,7 @@ class _Creator:
         self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in MESHES)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
+        self.renamed: dict[str, str] = {}
         shown = visuals_of(asset)
         self.visuals.gather(shown)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
@@ -61,7 +62,8 @@ class _Creator:
         self.shown = {link: self._visuals(link) for link in self.links}
 
     def output(self) -> Output:
-        names = settle([slot for own in self.slots.values() for slot in own])
+        settled = settle([slot for own in self.slots.values() for slot in own])
+        names = {was: settled.pop(name, name) for was, name in self.renamed.items()} | settled
         inside = [line for link in self.links for line in self._link(link)]
         if WORLD in self.links:  # what is part of the world does not fall
             still = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
@@ -97,9 +99,16 @@ class _Creator:
             slots[link] += self._opaque(piece, self.chain.frames[link])
         for link, own in slots.items():
             for slot in own:
-                slot.name = attribute_for(slot)
-                slot.body = self.links[link]
+                self._rename(slot, self.links[link])
         return slots
+
+    def _rename(self, slot: Slot, link: str) -> None:
+        """Name the element of a slot, for the link as it is called in the file."""
+        slot.name = attribute_for(slot)
+        if link != slot.body:
+            names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)
+            self.renamed |= dict(zip(slot.names, names, strict=True))
+            slot.body, slot.names = link, names
 
     def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
         """The collision of an opaque piece; none where it has no surface."""

@@ -158,7 +158,7 @@ class _Composer:
         path = None if is_address(uri) else outer.resolver.model_file(uri)
         if path is None:
             problem = f"the included model {uri!r} is not there"
-            raise AssetError(problem, where=where, remedy=outer.resolver.advice(uri))
+            raise AssetError(problem, where=where, remedy=outer.resolver.model_advice(uri))
         if path in files:
             raise AssetError(f"{uri!r} includes itself", where=where, remedy="Take this <include> away.")
         file = self._file(path, _placed(outer, uri, path), uri)

@@ -75,7 +75,7 @@ def place_in(places: Places, link: Link, element: Element) -> Pose:
     if not at.base or (link.scope.version < RELATIVE and not link.scope.knows(at.base)):
         return link.pose @ at.pose
     scope = link.scope
-    while at.base == MODEL and scope.merged and scope.frame is not None:  # of all poses, libsdformat keeps these as said
+    while at.base == MODEL and scope.merged and scope.frame is not None:  # as libsdformat has it
         scope = scope.frame.scope
     return places.of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
 

@@ -64,9 +64,9 @@ def read_joints(composed: Composed, links: Links) -> Joints:
     if any(joint.parent == WORLD for joint in found.joints):
         found.world = (Body(WORLD, Pose.identity()),)
     if passed:
-        found.notes.append(f"{counted(len(passed), 'joint')} not understood ({listed(passed, 3)}): passed over")
+        found.notes.append(f"{counted(len(passed), 'joint')} passed over, not understood ({listed(passed, 3)})")
     if taken:
-        found.notes.append(f"{counted(len(taken), 'joint')} that close rings ({listed(taken, 3)}): passed over")
+        found.notes.append(f"{counted(len(taken), 'joint')} passed over, which would close a ring ({listed(taken, 3)})")
     return found
 
 

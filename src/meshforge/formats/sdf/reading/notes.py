@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from meshforge.formats.sdf.files.config import CONFIG, is_main, main_file
 from meshforge.formats.sdf.files.elements import geometry_of
+from meshforge.formats.sdf.files.version import NEWEST
 from meshforge.formats.sdf.reading.compose import Composed
 from meshforge.formats.sdf.reading.links import Links
 from meshforge.words import counted, listed
@@ -13,12 +14,18 @@ from meshforge.words import counted, listed
 
 def notes(composed: Composed, links: Links) -> tuple[str, ...]:
     """Notes on worlds, older versions of a model, collisions without a shape, and what is decomposed when loaded."""
-    return (*_worlds(composed), *_older(composed), *_actors(composed), *_shapes(links))
+    return (*_worlds(composed), *_newer(composed), *_older(composed), *_actors(composed), *_shapes(links))
 
 
 def _worlds(composed: Composed) -> Iterator[str]:
     if composed.worlds:
         yield f"it is a world of {counted(len(composed.root.inner), 'model')}, which is only read"
+
+
+def _newer(composed: Composed) -> Iterator[str]:
+    if composed.root.version > NEWEST:
+        told, known = (".".join(map(str, version)) for version in (composed.root.version, NEWEST))
+        yield f"SDF {told} is newer than {known}: what is new in it is not understood"
 
 
 def _older(composed: Composed) -> Iterator[str]:
@@ -38,7 +45,7 @@ def _actors(composed: Composed) -> Iterator[str]:
 def _shapes(links: Links) -> Iterator[str]:
     bare = [f"line {c.element.line}" for c in links.collisions if geometry_of(c.element) is None]
     if bare:
-        yield f"{counted(len(bare), 'collision')} without geometry ({listed(bare, 3)}): left as they are"
+        yield f"{counted(len(bare), 'collision')} without geometry ({listed(bare, 3)}): passed over"
     kinds = [geometry_of(collision.element) for collision in links.collisions]
     cut = [k for k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
     if cut:
