@@ -180,7 +180,7 @@ class _Creator:
         if weightless:
             links = counted(len(weightless), "link")
             notes.append(
-                f"{links} without a mass ({listed(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m²"
+                f"{links} without a mass ({listed(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"
             )
         return tuple(notes)
 

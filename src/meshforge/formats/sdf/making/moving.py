@@ -12,6 +12,8 @@ from meshforge.formats.visual_files import Shown
 from meshforge.formats.xml import escaped, shown
 from meshforge.geometry import Pose
 
+_ENDLESS = (-1e16, 1e16)
+"""Limits that stand for none, which PyBullet asks for."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -27,7 +29,7 @@ def joint_lines(made: LinkJoint, parent: str, child: str) -> list[bytes]:
     kind = joint.kind if joint else "fixed"
     inside = [leaf("parent", parent), leaf("child", child)]
     if joint and kind in ("revolute", "prismatic"):
-        limit = [leaf(tag, shown([v])) for tag, v in zip(("lower", "upper"), joint.limits or (), strict=False)]
+        limit = [leaf(tag, shown([v])) for tag, v in zip(("lower", "upper"), joint.limits or _ENDLESS, strict=True)]
         limit += [leaf("effort", shown([joint.effort]))] if joint.effort else []
         limit += [leaf("velocity", shown([joint.velocity]))] if joint.velocity else []
         dynamics = [leaf("damping", shown([joint.damping]))] if joint.damping else []
