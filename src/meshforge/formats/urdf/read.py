@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Geom, Mentions, Opaque
+from meshforge.asset import Asset, Body, Mentions
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.companions import companions
 from meshforge.formats.element_names import piece_names
+from meshforge.formats.element_pieces import geoms_of, opaque_of
 from meshforge.formats.element_plan import Authored
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.references import Resolver
@@ -50,9 +51,9 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=_geoms(authored, parts, told),
+        geoms=geoms_of(authored, parts, told),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=_opaque(authored, parts, told),
+        opaque=opaque_of(authored, parts, told),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
@@ -113,28 +114,6 @@ def _mentions(
         common = element_mentions(links.elements[link], collision)
         told.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
     return told
-
-
-def _geoms(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Geom, ...]:
-    return tuple(
-        Geom(name, element.link, part.shape, mentions=said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is not None
-    )
-
-
-def _opaque(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Opaque, ...]:
-    return tuple(
-        Opaque(name, element.link, part.reason, part.surface, part.plane, said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is None
-    )
 
 
 def _files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:

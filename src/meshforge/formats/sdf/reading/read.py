@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Geom, Mechanism, Mentions, Opaque
+from meshforge.asset import Asset, Body, Mechanism, Mentions
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.element_names import piece_names
+from meshforge.formats.element_pieces import geoms_of, opaque_of
 from meshforge.formats.element_plan import Authored
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.sdf.document import InFile, SdfDocument
@@ -39,8 +40,8 @@ def read_sdf(path: Path, options: ReadOptions) -> Asset:
     parts = [_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
     authored = _authored(links.collisions, [len(own) for own in parts])
     told = [_told(one, meshes.groups(use), own) for one, use, own in zip(links.collisions, uses, parts, strict=True)]
-    geoms = _geoms(authored, parts, told)
-    opaque = _opaque(authored, parts, told)
+    geoms = geoms_of(authored, parts, told)
+    opaque = opaque_of(authored, parts, told)
     joints = read_joints(composed, links)
     elements = {name: one.element for one, own in zip(links.collisions, authored, strict=True) for name in own.names}
     masses = (*read_masses(links), *computed_masses(links, elements, geoms, opaque))
@@ -112,25 +113,3 @@ def _told(collision: Collision, groups: Sequence[str | None], parts: Sequence[Me
     """What else is said of each piece of a collision."""
     common = element_mentions(collision.link.element, collision.element)
     return [(("group", group), *common) if group else common for group in groups or [None] * len(parts)]
-
-
-def _geoms(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Geom, ...]:
-    return tuple(
-        Geom(name, element.link, part.shape, mentions=said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is not None
-    )
-
-
-def _opaque(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Opaque, ...]:
-    return tuple(
-        Opaque(name, element.link, part.reason, part.surface, part.plane, said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is None
-    )

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshforge.errors import AssetError, GeometryError
-from meshforge.formats.mesh_parts import MeshPart
+from meshforge.formats.mesh_parts import MeshPart, facing
 from meshforge.formats.meshfile import RawSurface
 from meshforge.formats.sdf.files.values import floats, is_true, text_of, values
 from meshforge.formats.xml import Element, shown
@@ -44,7 +44,7 @@ def primitive(kind: Element, pose: Pose, where: str) -> MeshPart:
             make = Cylinder if kind.tag == "cylinder" else Capsule
             shape = make(pose, float(extent[0]), float(extent[1]) / 2)
         case "plane":
-            return MeshPart(None, "a plane has no end", plane=pose @ _facing(floats(kind, "normal", where, (0, 0, 1))))
+            return MeshPart(None, "a plane has no end", plane=pose @ facing(floats(kind, "normal", where, (0, 0, 1))))
         case _:
             return MeshPart(None, _PLAIN.get(kind.tag, f"<{kind.tag}> is no geometry that is known"))
     if extent.min() <= 0 or shape.volume == 0:
@@ -99,16 +99,6 @@ def _hull(points: Floats, pose: Pose, reason: str) -> MeshPart:
         return MeshPart(convex_hull(pose.apply(points)))
     except GeometryError:
         return MeshPart(None, reason)
-
-
-def _facing(normal: Floats) -> Pose:
-    """The least turn that takes Z onto a direction (3,)."""
-    length = float(np.linalg.norm(normal))
-    x, y, z = normal / length if length > 0 else np.array([0.0, 0.0, 1.0])
-    if z < -1 + 1e-12:
-        return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
-    cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
-    return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
 
 
 def mesh_scale(mesh: Element, where: str, label: str) -> Floats:
