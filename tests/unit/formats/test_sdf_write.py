@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -142,6 +143,16 @@ def test_an_edit_in_an_included_model_changes_that_file_only(tmp_path: Path) -> 
     assert b"<collision" not in output.made["part/model.sdf"]
     assert output.copies["part/model.config"] == PARTS / "part" / "model.config"
     again(edit, tmp_path / "out")
+
+
+def test_an_included_model_beside_the_folder_goes_beside_the_output(tmp_path: Path) -> None:
+    top = tmp_path / "in" / "top"
+    part = tmp_path / "in" / "part"
+    shutil.copytree(PARTS / "part", part)
+    path = put_text(top, model(link(box()), "<include><uri>../part</uri></include>"))
+    saved = save(without(read(path), "part::p/new"), tmp_path / "out" / "top" / "model.sdf")
+    assert [geom.name for geom in read(saved.path).geoms] == ["a/c0"]
+    assert b"<collision" not in (tmp_path / "out" / "part" / "model.sdf").read_bytes()
 
 
 def test_a_model_that_is_included_twice_is_not_edited_here(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ def copies_of(sources: Sequence[Source], texts: Sequence[bytes], name: str) -> t
             continue
         folder = posixpath.dirname(source.place)
         config = source.path.parent / CONFIG
-        if config.is_file() and (number or source.path.name == name):
+        if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
             _add(copies, posixpath.join(folder, CONFIG), config)
         for reference, path in _referred(source, text):
             place = source.resolver.place(reference)
