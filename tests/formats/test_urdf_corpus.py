@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from tests.corpus_path import corpus
-from tests.urdf_sample import put, read, without, write
+from tests.urdf_sample import assert_reads_back, put, read, without, write
 
 # hulls and opaque pieces of files whose counts are known from elsewhere: their text, or their `o` lines
 KNOWN = {
@@ -49,17 +48,8 @@ def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) ->
         if key in KNOWN:
             assert (len(asset.geoms), len(asset.opaque)) == KNOWN[key], key
         assert write(asset, path.name).main == path.read_bytes(), key
-        _assert_edit_reads_back(asset, tmp_path / key)
-
-
-def _assert_edit_reads_back(asset: Asset, out: Path) -> None:
-    edit = without(asset, *(g.name for g in asset.geoms[::3]))
-    again = read(put(write(edit, out.name), out))
-    assert [g.name for g in again.geoms] == [g.name for g in edit.geoms]
-    assert [o.name for o in again.opaque] == [o.name for o in edit.opaque]
-    for old, new in zip(edit.geoms, again.geoms, strict=True):
-        assert abs(old.shape.aabb.min - new.shape.aabb.min).max() < 1e-9
-        assert abs(old.shape.volume - new.shape.volume) <= 1e-9 * old.shape.volume
+        edit = without(asset, *(geom.name for geom in asset.geoms[::3]))
+        assert_reads_back(edit, read(put(write(edit, path.name), tmp_path / key)))
 
 
 def test_one_cabinet_in_two_encodings_has_the_same_hulls() -> None:

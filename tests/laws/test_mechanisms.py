@@ -122,6 +122,16 @@ def test_from_urdf_to_mjcf_and_back_all_is_what_it_was(asset: Asset) -> None:
 
 @settings(max_examples=40)
 @given(mechanisms())
+def test_from_sdf_to_urdf_and_back_all_is_what_it_was(asset: Asset) -> None:
+    sdf = through(asset, "m.sdf")
+    for other in (sdf, through(sdf, "m.urdf", "m.sdf")):
+        assert_same_joints(asset, other)
+        assert_same_masses(asset, other)
+        assert_same_hulls(asset, other)
+
+
+@settings(max_examples=40)
+@given(mechanisms())
 def test_a_turn_of_the_root_frame_and_back_leaves_a_mechanism_as_it_was(asset: Asset) -> None:
     turn = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])
     moved = replace(asset, mechanism=asset.mechanism.moved(turn).moved(turn.inverse()))

@@ -28,6 +28,7 @@ WHOLE = {
     "urdf": ("urdf/mesh_beside.urdf", "urdf/two_roots.urdf", "urdf/joint_without_limits.urdf", "urdf/box.urdf"),
     "usda": ("usd/cube.usda", "usd/reference_beside.usda", "usd/mesh_index_beyond.usda"),
     "usdc": ("usd/cube.usdc", "usd/cube.usdz"),
+    "sdf": ("sdf/nested.sdf", "sdf/world.sdf", "sdf/geometry_mesh_submesh.sdf", "sdf/two_models.sdf"),
     "mjcf": ("mjcf/mesh_good.xml", "mjcf/box.xml", "mjcf/default_type.xml", "mjcf/include_good.xml"),
 }
 DAE = ("dae/parts/cube.dae", "dae/parts/mirrored.dae")

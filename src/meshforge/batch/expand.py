@@ -37,8 +37,8 @@ class Found:
 def expand(patterns: Iterable[str | Path], root: Path | None = None) -> Found:
     """The assets that files, folders and globs (`**` too) name; relative ones count from `root`, or from here.
 
-    A folder stands for all assets in it, at any depth: its URDF and MJCF, or where there are none its glTF and mesh
-    files. A folder of nothing but mesh files of one hull each is one asset of pieces.
+    A folder stands for all assets in it, at any depth: its URDF, MJCF and SDF, or where there are none its glTF and
+    mesh files. A folder of nothing but mesh files of one hull each is one asset of pieces.
     Neither a folder nor a glob means files that are no assets by themselves, such as included parts of an MJCF.
     What MeshForge itself wrote (projects, outputs of `apply`) is passed over, unless named outright.
     Raises UsageError naming the argument that matches nothing.

@@ -19,7 +19,7 @@ OWN_FOLDERS = ("templates", "labels", "demonstrations", "corrections", "prepared
 def assets_in(folder: Path) -> list[Path]:
     """The assets in a folder, at any depth, sorted.
 
-    A tree with descriptions (URDF, MJCF) has these as its assets, its mesh files being their parts.
+    A tree with descriptions (URDF, MJCF, SDF) has these as its assets, its mesh files being their parts.
     Otherwise every file is an asset, except that a folder of several mesh files of one hull each is one asset of
     pieces. Folders that MeshForge wrote are passed over.
     """

@@ -12,21 +12,29 @@ from typing import ClassVar, Literal
 from meshforge.asset import Asset, Feature, What
 from meshforge.formats.losses import Loss
 
+_PATHS = (
+    "ROS_PACKAGE_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+)
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReadOptions:
-    """How to read: roots in which `package://` references are searched, besides upwards from the file."""
+    """How to read: roots in which `package://` and `model://` are searched, besides upwards from the file."""
 
     package_roots: tuple[Path, ...] = ()
 
     @staticmethod
     def from_environment() -> ReadOptions:
-        """The roots that ROS_PACKAGE_PATH lists, as in ROS: folders, colons between them."""
-        listed = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-        return ReadOptions(tuple(Path(folder) for folder in listed if folder))
+        """The roots that the variables of ROS and Gazebo list: folders, colons between them."""
+        listed = [folder for name in _PATHS for folder in os.environ.get(name, "").split(os.pathsep)]
+        return ReadOptions(tuple(Path(folder) for folder in dict.fromkeys(listed) if folder))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +108,10 @@ class Format(ABC):
     def top(self, asset: Asset) -> Path:
         """The highest folder that the references of an asset name on their way, from that of its file upwards."""
         return asset.path.parent
+
+    def is_main(self, path: Path) -> bool:
+        """Whether a file of this format is an asset of its own, and not what stands in for one in older programs."""
+        return True
 
     def sniffs(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""

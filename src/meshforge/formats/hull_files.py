@@ -29,7 +29,7 @@ class HullFiles:
     made: dict[str, bytes] = field(default_factory=dict)
 
     def avoid(self, references: Iterable[str]) -> None:
-        """Take the names of referenced files, and of all files that are where these and the URDF are."""
+        """Take the names of referenced files, and of all files that are where these and the description are."""
         folders: dict[Path, None] = {self.resolver.folder: None} if self.resolver else {}
         for reference in references:
             self.taken.add(posixpath.splitext(posixpath.basename(reference.replace("\\", "/")))[0].lower())
@@ -39,26 +39,29 @@ class HullFiles:
             self.taken |= {entry.stem.lower() for entry in folder.iterdir()} if folder.is_dir() else set()
 
     def add(self, name: str, folder: str, vertices: Floats, faces: Ints) -> str:
-        """Make the file of a hull in a folder of `folder_of`; the reference to it."""
+        """Make the file of a hull in a folder that `folder_of` gives; the reference to it."""
         safe = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{self.stem}--{name}")[:_LONGEST].strip("._") or "hull"
         stem, number = safe, 2
         while stem.lower() in self.taken:
             stem, number = f"{safe}_{number}", number + 1
         self.taken.add(stem.lower())
         reference = f"{folder}{stem}.obj"
-        self.made[placement(reference) or f"{stem}.obj"] = obj_text(vertices, faces)
+        self.made[self._place(reference) or f"{stem}.obj"] = obj_text(vertices, faces)
         return reference
 
+    def folder_of(self, reference: str | None) -> str:
+        """The folder of a mesh reference as it is written, with a final slash, where hulls may join the mesh.
 
-def folder_of(reference: str | None) -> str:
-    """The folder of a mesh reference as it is written, with a final slash, where hulls may join the mesh.
+        The empty text, which is the folder of the description, where the mesh lies outside of it or at an absolute
+        place.
+        """
+        place = self._place(reference) if reference else None
+        if reference is None or place is None or place.startswith(".."):
+            return ""
+        return reference[: reference.replace("\\", "/").rfind("/") + 1].lstrip()
 
-    The empty text, which is the folder of the URDF, where the mesh lies outside of it or at an absolute place.
-    """
-    place = placement(reference) if reference else None
-    if reference is None or place is None or place.startswith(".."):
-        return ""
-    return reference[: reference.replace("\\", "/").rfind("/") + 1].lstrip()
+    def _place(self, reference: str) -> str | None:
+        return self.resolver.place(reference) if self.resolver else placement(reference)
 
 
 def obj_text(vertices: Floats, faces: Ints) -> bytes:

@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import ReadOptions
-from meshforge.formats.registry import SUFFIXES, format_of, is_asset
+from meshforge.formats.registry import SUFFIXES, asset_at, format_of, is_asset
 from meshforge.formats.units import refuse_beyond, unit_note
 from meshforge.symbolic import SymbolicMesh, follow_labels, read_labels
 
@@ -19,11 +19,11 @@ NO_GEOMETRY = "it has no collision geometry: `meshforge new --decompose` makes h
 
 
 def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
-    """The asset in a file, or in a folder of mesh files. Raises AssetError.
+    """The asset in a file, or in a folder: of mesh files, or of a Gazebo model. Raises AssetError.
 
     options: None takes those of the environment.
     """
-    path = Path(path)
+    path = asset_at(Path(path))
     asset = format_of(path).read(path, options or ReadOptions.from_environment())
     refuse_beyond(asset)
     found = [note for note in (_absence(asset), unit_note(asset)) if note]
@@ -42,7 +42,7 @@ def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:
 
     Raises AssetError: the asset or the labels cannot be read.
     """
-    path = Path(path)
+    path = asset_at(Path(path))
     mesh = SymbolicMesh.of(read(path))
     beside = Path(labels) if labels is not None else labels_beside(path)
     if labels is None and not beside.is_file():

@@ -44,3 +44,13 @@ def is_flat(vertices: Floats) -> bool:
     """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
     extents = principal_extents(vertices)[2]
     return bool(extents.min() <= FLATNESS * extents.max())
+
+
+def facing(normal: Floats) -> Pose:
+    """The least turn that takes Z onto a direction (3,)."""
+    length = float(np.linalg.norm(normal))
+    x, y, z = normal / length if length > 0 else np.array([0.0, 0.0, 1.0])
+    if z < -1 + 1e-12:
+        return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
+    cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
+    return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))

@@ -20,7 +20,7 @@ _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 @dataclass(frozen=True, slots=True)
 class Resolver:
-    """Finds referenced files from the folder of the URDF and the given package roots, both absolute."""
+    """Finds referenced files from the folder of the description and the given package roots, both absolute."""
 
     folder: Path
     roots: tuple[Path, ...] = ()
@@ -40,6 +40,10 @@ class Resolver:
             yield self._joined(self.folder, reference)
             if "\\" in reference:
                 yield self._joined(self.folder, reference.replace("\\", "/"))
+
+    def place(self, reference: str) -> str | None:
+        """Where the file of a reference goes in an output: `placement`."""
+        return placement(reference)
 
     def _in_package(self, package: str, rest: str) -> Iterator[Path]:
         for home in self._homes(package):
@@ -72,10 +76,11 @@ class Resolver:
             homes = [home for home in self._homes(package[1]) if home.is_dir()]
             if homes:
                 return f"The package {package[1]!r} is at {homes[0]}, but holds no such file.{hint}"
+            is_model = reference.startswith("model:")
             roots = f", nor in {', '.join(map(str, self.roots))}" if self.roots else ""
             return (
                 f"No folder {package[1]!r} is in {self.folder} or above it{roots}. "
-                "Put the folder that holds it on ROS_PACKAGE_PATH."
+                f"Put the folder that holds it on {'GZ_SIM_RESOURCE_PATH' if is_model else 'ROS_PACKAGE_PATH'}."
             )
         if odd := next((path for path in looked if os.path.lexists(path)), None):
             return f"{odd} is no file, or a link that leads nowhere."

@@ -9,6 +9,8 @@ from meshforge.formats.base import Format
 from meshforge.formats.gltf import GltfFormat
 from meshforge.formats.mjcf import MjcfFormat
 from meshforge.formats.plain import Folder, Obj, Ply, Stl, Wrl
+from meshforge.formats.sdf import SdfFormat
+from meshforge.formats.sdf.files.config import CONFIG, main_file
 from meshforge.formats.segmented.places import is_segmented
 from meshforge.formats.urdf import UrdfFormat
 from meshforge.formats.usd import UsdFormat
@@ -17,13 +19,30 @@ _HEAD = 4096  # bytes by which a format tells its assets from other files of its
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
 FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
-FORMATS: tuple[Format, ...] = (UrdfFormat(), MjcfFormat(), GltfFormat(), UsdFormat(), *FOLDER.members, FOLDER)
+FORMATS: tuple[Format, ...] = (
+    UrdfFormat(),
+    MjcfFormat(),
+    SdfFormat(),
+    GltfFormat(),
+    UsdFormat(),
+    *FOLDER.members,
+    FOLDER,
+)
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
 """Those of plain mesh files, which may be pieces of a folder."""
 DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
 """Those of files that name mesh files as their parts."""
+
+
+def asset_at(path: Path) -> Path:
+    """The file or folder that is meant: the folder of a Gazebo model (one with a `model.config`) stands for its SDF.
+
+    Raises AssetError: its `model.config` is no XML.
+    """
+    is_model = path.is_dir() and (path / CONFIG).is_file()
+    return (main_file(path) if is_model else None) or path
 
 
 def format_of(path: Path) -> Format:
@@ -46,10 +65,12 @@ def format_of(path: Path) -> Format:
 def is_asset(path: Path) -> bool:
     """Whether a file that a folder or a glob holds is an asset: of a known suffix, and no part of another one.
 
-    `package.xml` of ROS is none, nor an MJCF that other ones include, nor segmented points of an asset,
-    `table.points.ply`; named outright, they say what they are.
+    `package.xml` of ROS is none, nor an MJCF that other ones include, nor an SDF for older versions of Gazebo than that
+    beside it, nor segmented points of an asset, `table.points.ply`; named outright, they say what they are.
     """
-    return path.is_file() and not is_segmented(path) and any(known.sniffs(_head(path)) for known in _of_suffix(path))
+    if not path.is_file() or is_segmented(path):
+        return False
+    return any(known.sniffs(_head(path)) and known.is_main(path) for known in _of_suffix(path))
 
 
 def format_for(path: Path, own: str) -> Format:

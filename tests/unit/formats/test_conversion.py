@@ -16,9 +16,9 @@ from tests.gltf_files import KHR, SceneFile
 from tests.soups import box
 
 PLAIN = (".obj", ".stl", ".ply", "")
-SUFFIXES = (*PLAIN, ".urdf", ".xml", ".glb", ".usda", ".usdz")
+SUFFIXES = (*PLAIN, ".urdf", ".xml", ".sdf", ".glb", ".usda", ".usdz")
 PAIRS = [pair for pair in itertools.product(SUFFIXES, SUFFIXES) if pair[0] != pair[1]]
-UP = {".urdf": "z", ".xml": "z", ".glb": "y", ".usda": "z", ".usdz": "z"}
+UP = {".urdf": "z", ".xml": "z", ".sdf": "z", ".glb": "y", ".usda": "z", ".usdz": "z"}
 TURNS = {("y", "z"): [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ("z", "y"): [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}
 SINGLE = 3e-6  # share of the diagonal: STL, glTF and MuJoCo's meshes are in single precision
 
@@ -59,12 +59,12 @@ def test_every_pair_of_formats_keeps_the_hulls(source: str, target: str, sample:
         assert {bodies[saved.names.get(g.name, g.name)] for g in before.geoms} == {g.body for g in before.geoms}
 
 
-@pytest.mark.parametrize("target", [".urdf", ".xml"])
+@pytest.mark.parametrize("target", [".urdf", ".xml", ".sdf"])
 def test_native_shapes_stay_native_where_the_format_has_them(target: str, tmp_path: Path) -> None:
     asset = SAMPLES["primitives"]()
     after = read(save(asset, tmp_path / f"thing{target}").path)
     kinds = {geom.name: geom.shape.kind for geom in after.geoms}
-    kept = {"box", "sphere", "cylinder"} | ({"capsule", "ellipsoid"} if target == ".xml" else set())
+    kept = {"box", "sphere", "cylinder"} | ({"capsule", "ellipsoid"} if target != ".urdf" else set())
     assert kinds == {g.name: g.shape.kind if g.shape.kind in kept else "polytope" for g in asset.geoms}
 
 
@@ -83,7 +83,7 @@ def test_mujoco_does_not_get_the_convex_hull_of_an_opaque_piece_to_collide_with(
     assert [surface.body for surface in after.visuals] == ["room"]
 
 
-@pytest.mark.parametrize("target", [".urdf", ".xml", ".glb"])
+@pytest.mark.parametrize("target", [".urdf", ".xml", ".sdf", ".glb"])
 def test_what_is_seen_of_a_scene_around_a_moving_body_is_no_part_of_it(target: str, tmp_path: Path) -> None:
     scene = SceneFile()
     scene.node("floor", box((-5, -1, -5), (10, 1, 10)))

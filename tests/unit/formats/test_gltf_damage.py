@@ -180,7 +180,7 @@ def test_a_picture_beside_a_glb_that_is_filled_up_with_zeros_goes_along(tmp_path
     assert sorted(path.name for path in saved.path.parent.iterdir()) == ["a.glb", "wood.png"]
 
 
-@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".urdf", ".xml", ".obj", ".stl", ".ply", ""])
+@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".urdf", ".xml", ".sdf", ".obj", ".stl", ".ply", ""])
 def test_half_a_character_in_a_name_becomes_a_question_mark(tmp_path: Path, suffix: str) -> None:
     scene = SceneFile()
     scene.node("leg\ud800", together(box(), box((3, 0, 0))), extras={"note": "\ud83e\udd14"})

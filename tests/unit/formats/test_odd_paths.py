@@ -25,7 +25,7 @@ def robot(folder: Path, reference: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("suffix", [".obj", ".stl", ".urdf", ".xml", ".glb", ""])
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".urdf", ".xml", ".sdf", ".glb", ""])
 def test_a_pipe_is_refused_at_once(suffix: str, tmp_path: Path) -> None:
     pipe = tmp_path / f"pipe{suffix}"
     os.mkfifo(pipe)

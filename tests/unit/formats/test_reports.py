@@ -20,7 +20,7 @@ from tests.soups import box
 from tests.urdf_sample import THREE
 
 GOLDEN = Path(__file__).parents[2] / "golden" / "reports"
-SUFFIXES = (".obj", ".stl", ".ply", "", ".urdf", ".xml", ".glb", ".usda")
+SUFFIXES = (".obj", ".stl", ".ply", "", ".urdf", ".xml", ".sdf", ".glb", ".usda")
 
 BUSY_URDF = """\
 <robot name="busy">
@@ -41,6 +41,41 @@ BUSY_URDF = """\
   </joint>
   <gazebo reference="a"/><gazebo reference="b"/><transmission name="t"/>
 </robot>
+"""
+BUSY_SDF = """\
+<sdf version="1.7">
+  <!-- a comment -->
+  <model name="busy">
+    <static>true</static>
+    <link name="base">
+      <collision name="box">
+        <geometry><box><size>1 1 1</size></box></geometry>
+        <surface><friction><ode><mu>1</mu></ode></friction></surface>
+      </collision>
+      <collision name="hill"><geometry><heightmap><uri>hill.png</uri></heightmap></geometry></collision>
+      <visual name="v">
+        <geometry><mesh><uri>shown.obj</uri></mesh></geometry>
+        <material>
+          <script><name>Gazebo/Wood</name></script>
+          <pbr><metal><albedo_map>wood.png</albedo_map></metal></pbr>
+        </material>
+      </visual>
+      <sensor name="eye" type="camera"/>
+      <light name="lamp" type="point"/>
+    </link>
+    <link name="lid"/>
+    <frame name="grip" attached_to="lid"/>
+    <joint name="hinge" type="revolute">
+      <parent>base</parent><child>lid</child>
+      <axis>
+        <xyz>1 0 0</xyz>
+        <limit><velocity>2</velocity></limit>
+        <dynamics><spring_stiffness>3</spring_stiffness></dynamics>
+      </axis>
+    </joint>
+    <plugin name="p" filename="p.so"/>
+  </model>
+</sdf>
 """
 BUSY_MJCF = """\
 <mujoco>
@@ -108,6 +143,7 @@ SOURCES: dict[str, Callable[[Path], Asset]] = {
     **{name: (lambda folder, make=make: make()) for name, make in SAMPLES.items()},  # type: ignore[misc]
     "busy_urdf": busy("busy.urdf", BUSY_URDF),
     "busy_mjcf": busy("busy.xml", BUSY_MJCF),
+    "busy_sdf": busy("busy.sdf", BUSY_SDF),
     "busy_obj": busy("busy.obj", BUSY_OBJ),
     "busy_ply": busy("busy.ply", BUSY_PLY),
     "doors_of_a_glb": lambda folder: read(save(SAMPLES["doors"](), folder / "doors.glb").path),
@@ -166,7 +202,7 @@ def test_names_count_where_an_author_gave_them_only() -> None:
     assert held[What.NAMES] == ("left/part", "right/part")
 
 
-@pytest.mark.parametrize("suffix", [".urdf", ".xml", ".glb"])
+@pytest.mark.parametrize("suffix", [".urdf", ".xml", ".sdf", ".glb"])
 def test_a_visual_that_cannot_be_read_is_told(suffix: str, tmp_path: Path) -> None:
     bad = tmp_path / "bad.wrl"
     bad.write_text("nothing of the kind")

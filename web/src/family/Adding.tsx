@@ -17,7 +17,7 @@ export function Adding() {
           <div className={css.frame}>
             <CloudUpload size={32} />
             <b>Drop to add to the family</b>
-            <span>Files or folders: URDF, MJCF, GLB, OBJ, STL, PLY or VRML, with all files that they name</span>
+            <span>Files or folders: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they name</span>
           </div>
         </div>
       )}

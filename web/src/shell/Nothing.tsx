@@ -21,7 +21,7 @@ export function Nothing() {
       <h2>{broken ? "No asset can be read" : "No assets yet"}</h2>
       {broken > 0 && <p>On the left each card says what is wrong with its file, and what mends it.</p>}
       <p>
-        Drop files or a folder onto this window: URDF, MJCF, GLB, OBJ, STL, PLY or VRML, with all files that they name.
+        Drop files or a folder onto this window: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they name.
         They are copied into the project.
       </p>
       <AddMenu words="Add assets" />

@@ -8,22 +8,23 @@ import numpy as np
 
 from meshforge.asset import Asset, Opaque, What
 from meshforge.formats.base import Output
+from meshforge.formats.chain import Chain, Rules, chain_of
+from meshforge.formats.element_names import settle
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.losses import Loss
 from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
-from meshforge.formats.urdf.chain import Chain, chain_of
 from meshforge.formats.urdf.elements import fresh, mesh_tag
 from meshforge.formats.urdf.features import MESHES
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
-from meshforge.formats.urdf.slots import settle
 from meshforge.formats.visual_files import VisualFiles, visuals_of
 from meshforge.formats.xml import escaped
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 from meshforge.words import counted, listed
 
 _LEAD = b"    "
+_RULES = Rules(("fixed", "revolute", "prismatic", "floating", "planar"))
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
@@ -46,7 +47,7 @@ class _Creator:
         self.visuals.gather(shown)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
         bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
-        self.chain: Chain = chain_of(asset, bare)
+        self.chain: Chain = chain_of(asset, bare, _RULES)
         self.slots = self._slots()
         self.shown = {link: self._visuals(link) for link in self.chain.frames}
 

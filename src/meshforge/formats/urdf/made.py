@@ -5,23 +5,31 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from meshforge.asset import Geom
-from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.collision_meshes import KeptMeshes
+from meshforge.formats.hull_files import HullFiles
+from meshforge.formats.mesh_parts import is_flat
 from meshforge.formats.slots import Slot
-from meshforge.formats.urdf.elements import fresh, mesh_tag, native_tag, remeshed, reshaped
+from meshforge.formats.triangles import pieces_of
+from meshforge.formats.urdf.elements import fresh, mesh_tag, native_tag, refiled, remeshed, reshaped
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.xml import Element
-from meshforge.geometry import Box, Cylinder, Polytope, Pose, Shape, Sphere
+from meshforge.formats.xml import Element, Splice
+from meshforge.geometry import Box, Cylinder, Piece, Polytope, Pose, Shape, Sphere
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Maker:
-    """Makes elements for one document; folder: a reference's folder for hulls whose parent has no mesh."""
+    """Makes elements for one document; folder: a reference's folder for hulls whose parent has no mesh.
+
+    meshes: the files that the document refers to, where one may have to be parted.
+    """
 
     data: bytes
     line_end: bytes
     files: HullFiles
     folder: str = ""
+    meshes: KeptMeshes | None = None
     notes: list[str] = field(default_factory=list)
+    _pieces: dict[str, list[Piece]] = field(default_factory=dict)
 
     def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
@@ -40,6 +48,18 @@ class Maker:
             return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         return Slot(geom.body, (geom.name,), text=fresh(pose, tag, lead, self.line_end))
 
+    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+        mesh, resolver = geometry_of(element), self.files.resolver
+        assert mesh is not None and resolver is not None and self.meshes is not None  # only meshes have several pieces
+        reference = mesh.attributes["filename"]
+        if reference not in self._pieces:
+            self._pieces[reference] = pieces_of(self.meshes.surfaces(reference, resolver), name=reference)
+        piece = self._pieces[reference][k]
+        made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
+        if piece.shape is None and is_flat(piece.vertices):
+            self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
+        return refiled(self.data, element, made)
+
     def _file(self, geom: Geom, shape: Shape, template: Element | None) -> str:
         """The reference to the mesh file of a hull, which is made."""
         if not isinstance(shape, Polytope):
@@ -48,5 +68,5 @@ class Maker:
             )
         mesh = geometry_of(template) if template else None
         beside = mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
-        folder = folder_of(beside) if beside else self.folder
+        folder = self.files.folder_of(beside) if beside else self.folder
         return self.files.add(geom.name, folder, shape.vertices, shape.faces)

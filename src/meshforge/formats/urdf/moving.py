@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from meshforge.asset import Inertial
+from meshforge.formats.chain import LinkJoint
 from meshforge.formats.numbers import tidy
-from meshforge.formats.urdf.chain import LinkJoint
 from meshforge.formats.urdf.elements import mesh_tag, native_tag, origin_tag
 from meshforge.formats.visual_files import Shown
 from meshforge.formats.visuals import Rgba

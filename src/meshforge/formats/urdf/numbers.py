@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from meshforge.errors import AssetError
 from meshforge.formats.meshfile import FARTHEST
-from meshforge.formats.xml import Element
+from meshforge.formats.xml import Element, numbers
 from meshforge.geometry import Floats, Pose
 
 
@@ -28,24 +26,13 @@ def floats(
     given = f"<{element.tag} {attribute}={text!r}>"
     if "${" in text:
         raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
-    values = _numbers(text)
+    values = numbers(text)
     if values is None or len(values) != count:
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
         raise AssetError(f"{given} does not hold {wanted}", where=place)
     if any(abs(value) > FARTHEST for value in values):
         raise AssetError(f"{given} is larger than anything", where=place)
     return np.array(values)
-
-
-def _numbers(text: str) -> list[float] | None:
-    """The numbers, apart by blanks or (as PyBullet reads) commas, None where one is none or not finite."""
-    if "_" in text or not text.isascii():  # Python's own ways to write numbers, which no engine reads
-        return None
-    try:
-        values = [float(word) for word in text.replace(",", " ").split()]
-    except ValueError:
-        return None
-    return values if all(map(math.isfinite, values)) else None
 
 
 def origin(element: Element, where: str) -> Pose:

@@ -5,18 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Geom, Mentions, Opaque
+from meshforge.asset import Asset, Body, Mentions
 from meshforge.files import plain_path
 from meshforge.formats.base import ReadOptions
+from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.companions import companions
+from meshforge.formats.element_names import piece_names
+from meshforge.formats.element_pieces import geoms_of, opaque_of
+from meshforge.formats.element_plan import Authored
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts
 from meshforge.formats.references import Resolver
 from meshforge.formats.triangles import contents
-from meshforge.formats.urdf.document import Authored, UrdfDocument, piece_names
+from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.kinematics import Links, read_links
 from meshforge.formats.urdf.mechanism import read_mechanism
 from meshforge.formats.urdf.mentions import element_mentions
-from meshforge.formats.urdf.meshes import Meshes
 from meshforge.formats.urdf.notes import notes
 from meshforge.formats.urdf.numbers import origin
 from meshforge.formats.urdf.robot import collisions, references, robot_of
@@ -36,19 +39,21 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     robot = robot_of(Text.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
-    meshes = Meshes(resolver, where)
+    meshes = CollisionMeshes()
     found = list(collisions(robot))
-    parts = _parts(found, links, meshes, where)
+    uses = _uses(found, resolver, where)
+    refuse_missing(use for use in uses if use)
+    parts = _parts(found, uses, links, meshes, where)
     authored = _authored(found, [len(own) for own in parts])
-    told = _mentions(found, links, meshes, parts)
+    told = _mentions(found, links, [meshes.groups(use) for use in uses], parts)
     files, missing = _files(robot, resolver)
     return Asset(
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=_geoms(authored, parts, told),
+        geoms=geoms_of(authored, parts, told),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=_opaque(authored, parts, told),
+        opaque=opaque_of(authored, parts, told),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
@@ -63,56 +68,52 @@ def _authored(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tu
     return tuple(Authored(link, names) for (link, _, _), names in zip(own, piece_names(own), strict=True))
 
 
-def _parts(found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, where: str) -> list[list[MeshPart]]:
+def _uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: str) -> list[MeshUse | None]:
+    """The mesh file of each collision element, None where it has another geometry or none."""
+    uses: list[MeshUse | None] = []
+    for element, (_, collision) in zip(_authored(found, [1] * len(found)), found, strict=True):
+        kind = geometry_of(collision)
+        is_mesh = kind is not None and kind.tag == "mesh"
+        reference = kind.attributes.get("filename", "").strip() if kind else ""
+        place = f"{where}:{kind.line}" if kind else where
+        uses.append(MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
+    return uses
+
+
+def _parts(
+    found: Sequence[tuple[str, Element]],
+    uses: Sequence[MeshUse | None],
+    links: Links,
+    meshes: CollisionMeshes,
+    where: str,
+) -> list[list[MeshPart]]:
     """The pieces of each collision element, in the root frame; none where it has no geometry."""
-    labels = [element.names[0] for element in _authored(found, [1] * len(found))]
-    kinds = [geometry_of(collision) for _, collision in found]
-    meshes.refuse_missing((label, k) for label, k in zip(labels, kinds, strict=True) if k and k.tag == "mesh")
     parts: list[list[MeshPart]] = []
-    for (link, collision), kind, label in zip(found, kinds, labels, strict=True):
+    for (link, collision), use in zip(found, uses, strict=True):
+        kind = geometry_of(collision)
         pose = links.poses[link] @ origin(collision, where)
         if kind is None:
             parts.append([])
-        elif kind.tag == "mesh":
-            linear = pose.rotation * mesh_scale(kind, where, label)
-            parts.append(mesh_parts(meshes.pieces(label, kind), linear, pose.translation))
+        elif use is not None:
+            linear = pose.rotation * mesh_scale(kind, where, use.label)
+            parts.append(mesh_parts(meshes.pieces(use), linear, pose.translation))
         else:
             parts.append([primitive(kind, pose, where)])
     return parts
 
 
 def _mentions(
-    found: Sequence[tuple[str, Element]], links: Links, meshes: Meshes, parts: Sequence[Sequence[MeshPart]]
+    found: Sequence[tuple[str, Element]],
+    links: Links,
+    groups: Sequence[Sequence[str | None]],
+    parts: Sequence[Sequence[MeshPart]],
 ) -> list[list[Mentions]]:
     """What else is said of each piece of each collision element."""
     told = []
-    for (link, collision), own in zip(found, parts, strict=True):
+    for (link, collision), named, own in zip(found, groups, parts, strict=True):
         common = element_mentions(links.elements[link], collision)
-        groups = meshes.groups(geometry_of(collision)) or [None] * len(own)
-        told.append([(("group", group), *common) if group else common for group in groups])
+        told.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
     return told
-
-
-def _geoms(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Geom, ...]:
-    return tuple(
-        Geom(name, element.link, part.shape, mentions=said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is not None
-    )
-
-
-def _opaque(
-    authored: Sequence[Authored], parts: Sequence[Sequence[MeshPart]], told: Sequence[Sequence[Mentions]]
-) -> tuple[Opaque, ...]:
-    return tuple(
-        Opaque(name, element.link, part.reason, part.surface, part.plane, said)
-        for element, own, words in zip(authored, parts, told, strict=True)
-        for name, part, said in zip(element.names, own, words, strict=True)
-        if part.shape is None
-    )
 
 
 def _files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:

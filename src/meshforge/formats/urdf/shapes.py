@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshforge.errors import AssetError
-from meshforge.formats.mesh_parts import MeshPart
+from meshforge.formats.mesh_parts import MeshPart, facing
 from meshforge.formats.urdf.numbers import floats
 from meshforge.formats.xml import Element, shown
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
@@ -41,22 +41,12 @@ def primitive(kind: Element, pose: Pose, where: str) -> MeshPart:
             make = Cylinder if kind.tag == "cylinder" else Capsule
             shape = make(pose, float(extent[0]), float(extent[1]) / 2)
         case "plane":
-            return MeshPart(None, "a plane has no end", plane=pose @ _facing(floats(kind, "normal", 3, where, _UP)))
+            return MeshPart(None, "a plane has no end", plane=pose @ facing(floats(kind, "normal", 3, where, _UP)))
         case _:
             return MeshPart(None, f"<{kind.tag}> is no geometry that is known")
     if extent.min() <= 0 or shape.volume == 0:
         return MeshPart(None, f"a {kind.tag} without volume: {shown(extent)} m")
     return MeshPart(shape)
-
-
-def _facing(normal: Floats) -> Pose:
-    """The least turn that takes Z onto a direction (3,)."""
-    length = float(np.linalg.norm(normal))
-    x, y, z = normal / length if length > 0 else np.array(_UP)
-    if z < -1 + 1e-12:
-        return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
-    cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
-    return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
 
 
 def mesh_scale(mesh: Element, where: str, label: str) -> Floats:

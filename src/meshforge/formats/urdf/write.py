@@ -8,17 +8,17 @@ from pathlib import Path
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import Output
+from meshforge.formats.collision_meshes import KeptMeshes
 from meshforge.formats.companions import companions
-from meshforge.formats.hull_files import HullFiles, folder_of
+from meshforge.formats.element_names import settle
+from meshforge.formats.element_plan import Plan
+from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.references import Resolver, placement
-from meshforge.formats.slots import at_end, in_place
 from meshforge.formats.urdf.document import UrdfDocument
 from meshforge.formats.urdf.made import Maker
-from meshforge.formats.urdf.plan import Plan
 from meshforge.formats.urdf.robot import collisions, references, robot_of
 from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.urdf.slots import settle
-from meshforge.formats.xml import Element, Splice, Text, newline, spliced
+from meshforge.formats.xml import Element, Text, newline, spliced
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
@@ -30,28 +30,22 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     robot = robot_of(text.data, str(asset.path))
     files = HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
-    maker = Maker(text.data, newline(text.data), files, _mesh_folder(robot))
-    plan = Plan(asset, document, robot, maker)
+    meshes = KeptMeshes(document.digests, str(asset.path))
+    maker = Maker(text.data, newline(text.data), files, files.folder_of(_first_mesh(robot)), meshes)
+    links = {link.attributes["name"]: link for link in robot.each("link")}
+    plan = Plan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
     names = settle(plan.slots)
-    data = spliced(text.data, _splices(plan))
+    data = spliced(text.data, plan.splices)
     main = document.source if data == text.data else text.encoded(data)
     copies, far = _copies(robot_of(data, str(asset.path)), document.resolver)
     return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
-def _mesh_folder(robot: Element) -> str:
-    """The folder of the first collision mesh, as its reference has it, where hulls of no mesh's kin go."""
+def _first_mesh(robot: Element) -> str | None:
+    """The reference of the first collision mesh, in whose folder hulls of no mesh's kin go."""
     kinds = (geometry_of(collision) for _, collision in collisions(robot))
     meshes = (kind.attributes.get("filename") for kind in kinds if kind is not None and kind.tag == "mesh")
-    return folder_of(next(meshes, None))
-
-
-def _splices(plan: Plan) -> list[Splice]:
-    data = plan.maker.data
-    edits = [
-        in_place(data, element, slots) for element, slots in plan.places if not (len(slots) == 1 and slots[0].untouched)
-    ]
-    return edits + [at_end(data, plan.links[link], slots) for link, slots in plan.ends.items()]
+    return next(meshes, None)
 
 
 def _copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:

@@ -1,6 +1,6 @@
 """XML files that are edited in place: their text, their elements with byte offsets, and splices of it."""
 
-from meshforge.formats.xml.numbers import shown
+from meshforge.formats.xml.numbers import numbers, shown
 from meshforge.formats.xml.splice import (
     Splice,
     attribute,
@@ -23,6 +23,7 @@ __all__ = [
     "escaped",
     "indent",
     "newline",
+    "numbers",
     "parsed",
     "removed",
     "shown",

@@ -16,7 +16,10 @@ _TAG_END = re.compile(rb"(?:[^\"'>]++|\"[^\"]*\"|'[^']*')*+>")
 
 @dataclass(slots=True, eq=False)
 class Element:
-    """An element and where it lies: bytes [start, end) with its start tag [start, inside), on `line`."""
+    """An element and where it lies: bytes [start, end) with its start tag [start, inside), on `line`.
+
+    text: the characters that stand directly in it, comments and raw text left out.
+    """
 
     tag: str
     attributes: dict[str, str]
@@ -25,6 +28,7 @@ class Element:
     inside: int
     end: int = -1
     children: list[Element] = field(default_factory=list)
+    text: str = ""
 
     def each(self, tag: str) -> Iterator[Element]:
         """The direct children of that tag."""
@@ -60,10 +64,13 @@ class _Reader:
     def __init__(self, data: bytes, where: str) -> None:
         self.data, self.where = data, where
         self.open: list[Element] = []
+        self.said: list[list[str]] = []
         self.done: Element | None = None
         self.parser = expat.ParserCreate("utf-8")
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._characters
+        self.parser.buffer_text = True
         self.parser.EntityDeclHandler = self._entity
         self.parser.specified_attributes = True
 
@@ -84,9 +91,14 @@ class _Reader:
         if self.open:
             self.open[-1].children.append(element)
         self.open.append(element)
+        self.said.append([])
+
+    def _characters(self, text: str) -> None:
+        self.said[-1].append(text)
 
     def _end(self, tag: str) -> None:
         element = self.open.pop()
+        element.text = "".join(self.said.pop()).strip()
         empty = self.data[element.inside - 2 : element.inside] == b"/>"
         closing = element.inside - 1 if empty else self.parser.CurrentByteIndex
         element.end = self.data.index(b">", closing) + 1

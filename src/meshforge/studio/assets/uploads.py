@@ -85,7 +85,7 @@ def new_assets(workers: Workers, home: Path) -> tuple[str, ...]:
     """The assets among uploaded files, by their paths. Raises ProjectError: there are none, or one cannot be read."""
     found = assets_in(home) if home.is_dir() else []
     if not found:
-        raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, glTF or mesh files.")
+        raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
     problems = [problem for path in found if (problem := _problem(workers, path, home))]
     if problems:
         more = "" if len(problems) == 1 else f"; {len(problems) - 1} more cannot be read"

@@ -8,6 +8,7 @@ from urllib.parse import unquote
 
 from meshforge.asset import Asset, Body, Geom, Inertial, Mechanism, Mentions, Opaque, unique_names
 from meshforge.errors import AssetError
+from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.companions import companions
 from meshforge.formats.gltf.document import BODY, Authored, Convention, GltfDocument
 from meshforge.formats.gltf.reading.bodies import body_nodes, rigid
@@ -20,7 +21,6 @@ from meshforge.formats.gltf.reading.visuals import SceneSurfaces, visible
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entries
 from meshforge.formats.triangles import contents
-from meshforge.formats.urdf.document import digest_of
 from meshforge.geometry import Pose
 
 

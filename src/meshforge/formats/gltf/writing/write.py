@@ -11,6 +11,7 @@ from pathlib import Path
 from meshforge.asset import Asset, Geom
 from meshforge.errors import AssetError
 from meshforge.formats.base import Output
+from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.companions import companions
 from meshforge.formats.gltf.document import Authored, Convention, GltfDocument
 from meshforge.formats.gltf.writing.draft import Draft
@@ -23,7 +24,6 @@ from meshforge.formats.gltf.writing.styles import Style
 from meshforge.formats.gltf.writing.unreal_style import UnrealStyle
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.plain.parts import renaming
-from meshforge.formats.urdf.document import digest_of
 from meshforge.words import counted
 
 

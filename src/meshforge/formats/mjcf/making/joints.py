@@ -9,6 +9,7 @@ import numpy as np
 
 from meshforge.asset import Joint, JointKind
 from meshforge.formats.body_tree import free_name
+from meshforge.formats.chain import across_of
 from meshforge.formats.mjcf.elements import tag
 from meshforge.formats.numbers import tidy
 from meshforge.formats.xml import shown
@@ -26,7 +27,7 @@ def parts_of(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
         case "fixed":
             return []
         case "planar":
-            across = _across(joint.axis)
+            across = across_of(joint.axis)
             parts: list[tuple[str, JointKind, Floats]] = [
                 ("x", "prismatic", across),
                 ("y", "prismatic", np.cross(joint.axis, across)),
@@ -63,10 +64,3 @@ def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
     if joint.friction:
         attributes["frictionloss"] = shown([joint.friction])
     return tag("joint", attributes)
-
-
-def _across(axis: Floats) -> Floats:
-    """A unit vector (3,) across an axis."""
-    side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    length: Floats = side / np.linalg.norm(side)
-    return length

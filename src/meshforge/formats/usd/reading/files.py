@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from meshforge.formats.urdf.document import digest_of
+from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.usd.reading.stage import Scene
 
 

@@ -10,8 +10,8 @@ from typing import Any
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
 from meshforge.formats.base import Mass, Output
+from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.plain.parts import renaming
-from meshforge.formats.urdf.document import digest_of
 from meshforge.formats.usd.document import UsdDocument
 from meshforge.formats.usd.library import usd
 from meshforge.formats.usd.reading.bodies import Bodies

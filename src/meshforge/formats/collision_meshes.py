@@ -1,0 +1,140 @@
+"""The collision meshes of a description: found, read once each, and cut into their pieces."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.errors import AssetError, MeshForgeError
+from meshforge.formats.meshfile import RawSurface
+from meshforge.formats.references import Resolver
+from meshforge.formats.triangles import pieces_of, read_triangles
+from meshforge.geometry import Piece
+
+_SHOWN = 120  # characters of a reference in a message
+
+
+@dataclass(frozen=True, slots=True)
+class MeshUse:
+    """A collision element that refers to a mesh file; label: its name in messages; place: `file:line`.
+
+    part: what of the file it uses, which `CollisionMeshes` was told how to find; empty for all of it.
+    """
+
+    label: str
+    reference: str
+    place: str
+    resolver: Resolver
+    part: tuple[str, ...] = ()
+
+    @property
+    def path(self) -> Path:
+        """The file; only of one that `refuse_missing` let pass."""
+        path = self.resolver.find(self.reference)
+        assert path is not None
+        return path
+
+
+def refuse_missing(uses: Iterable[MeshUse]) -> None:
+    """Raise AssetError where files are not there: the first, and how many more."""
+    lost: list[MeshUse] = []
+    for use in uses:
+        if not use.reference:
+            raise AssetError(f"collision {use.label!r} names no mesh file", where=use.place)
+        if use.resolver.find(use.reference) is None:
+            lost.append(use)
+    if lost:
+        others = f" (and {len(lost) - 1} more like it)" if len(lost) > 1 else ""
+        raise AssetError(
+            f"the mesh {_short(lost[0].reference)!r} of collision {lost[0].label!r} is not there{others}",
+            where=lost[0].place,
+            remedy=lost[0].resolver.advice(lost[0].reference),
+        )
+
+
+Chosen = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[RawSurface]]
+"""What a `MeshUse.part` stands for among the surfaces of a file."""
+
+
+def _all(surfaces: Sequence[RawSurface], _: tuple[str, ...]) -> Sequence[RawSurface]:
+    return surfaces
+
+
+class CollisionMeshes:
+    """The mesh files of one asset; chosen: what elements use of them."""
+
+    def __init__(self, chosen: Chosen = _all) -> None:
+        self._chosen = chosen
+        self._files: dict[Path, Sequence[RawSurface]] = {}
+        self._surfaces: dict[tuple[Path, tuple[str, ...]], Sequence[RawSurface]] = {}
+        self._pieces: dict[tuple[Path, tuple[str, ...]], list[Piece]] = {}
+
+    def surfaces(self, use: MeshUse) -> Sequence[RawSurface]:
+        """What an element uses of a file that is there.
+
+        Raises AssetError naming the element and the mesh file: it cannot be read, or a number in it is not finite.
+        """
+        key = use.path, use.part
+        if key not in self._surfaces:
+            try:
+                if use.path not in self._files:
+                    self._files[use.path] = read_triangles(use.path)
+                self._surfaces[key] = self._chosen(self._files[use.path], use.part)
+            except MeshForgeError as error:
+                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
+        return self._surfaces[key]
+
+    def pieces(self, use: MeshUse) -> list[Piece]:
+        """The pieces of the same, in the unit of the file. Raises AssetError as `surfaces`."""
+        key = use.path, use.part
+        if key not in self._pieces:
+            surfaces = self.surfaces(use)
+            try:
+                self._pieces[key] = pieces_of(surfaces, name=str(use.path))
+            except MeshForgeError as error:
+                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
+        return self._pieces[key]
+
+    def groups(self, use: MeshUse | None) -> list[str | None]:
+        """The name of the group or node of each piece of a file that was cut; none for others."""
+        if use is None or (use.path, use.part) not in self._pieces:
+            return []
+        names = [surface.name for surface in self._surfaces[use.path, use.part]]
+        return [names[piece.group] for piece in self._pieces[use.path, use.part]]
+
+    def digests(self) -> tuple[tuple[Path, str], ...]:
+        """Digests of the files that hold several pieces, which an edit may have to part."""
+        several = dict.fromkeys(path for (path, _), pieces in self._pieces.items() if len(pieces) > 1)
+        return tuple((path, digest_of(path)) for path in several)
+
+
+class KeptMeshes:
+    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were."""
+
+    def __init__(self, digests: Iterable[tuple[Path, str]], where: str) -> None:
+        self._digests, self._where = dict(digests), where
+        self._surfaces: dict[Path, Sequence[RawSurface]] = {}
+
+    def surfaces(self, reference: str, resolver: Resolver) -> Sequence[RawSurface]:
+        """What is in a file. Raises AssetError where it has changed since the asset was read."""
+        path = resolver.find(reference)
+        if path is None or digest_of(path) != self._digests.get(path):
+            raise AssetError(
+                f"the mesh {reference!r} has changed since the asset was read",
+                where=self._where,
+                remedy="Read the asset again.",
+            )
+        if path not in self._surfaces:
+            self._surfaces[path] = read_triangles(path)
+        return self._surfaces[path]
+
+
+def digest_of(path: Path) -> str:
+    """A digest of a file's bytes."""
+    return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
+
+
+def _short(reference: str) -> str:
+    return reference if len(reference) <= _SHOWN else f"{reference[:_SHOWN]}..."

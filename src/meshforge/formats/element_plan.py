@@ -1,0 +1,122 @@
+"""What an edit makes of each collision element: left alone, removed, parted into its kept pieces, joined by new."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from meshforge.asset import Asset, Geom
+from meshforge.errors import AssetError, nearest
+from meshforge.formats.slots import Slot, at_end, in_place, lead_inside
+from meshforge.formats.xml import Element, Splice
+from meshforge.geometry import Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Authored:
+    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and opaque ones."""
+
+    link: str
+    names: tuple[str, ...]
+
+
+class Maker(Protocol):
+    """Makes elements for one document of a format; data: its text."""
+
+    @property
+    def data(self) -> bytes: ...
+
+    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+
+        lead: the blanks before an element without a template.
+        """
+
+    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+        """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
+
+
+class Plan:
+    """The collision elements of the output.
+
+    places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
+    no collision element.
+    """
+
+    def __init__(
+        self,
+        asset: Asset,
+        authored: Sequence[Authored],
+        elements: Sequence[Element],
+        links: Mapping[str, Element],
+        maker: Maker,
+    ) -> None:
+        self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
+        self.places: list[tuple[Element, list[Slot]]] = []
+        self.ends: dict[str, list[Slot]] = {}
+        self._owner = {name: k for k, one in enumerate(authored) for name in one.names}
+        self._elements = elements
+        self._poses = asset.body_poses
+        self._place_authored()
+        for geom in asset.geoms:
+            if geom.parent is not None or geom.name not in self._owner:
+                self._place_made(geom)
+
+    @property
+    def slots(self) -> list[Slot]:
+        """All collision elements in the order of the output."""
+        by_link: dict[str, list[Slot]] = {name: [] for name in self.links}
+        for (_, slots), authored in zip(self.places, self.authored, strict=True):
+            by_link[authored.link] += slots
+        for link, slots in self.ends.items():
+            by_link[link] += slots
+        return [slot for slots in by_link.values() for slot in slots]
+
+    @property
+    def splices(self) -> list[Splice]:
+        """The edits of the document's text."""
+        data = self.maker.data
+        edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].untouched))
+        edits = [in_place(data, element, slots) for element, slots in edited]
+        return edits + [at_end(data, self.links[link], slots) for link, slots in self.ends.items()]
+
+    def _place_authored(self) -> None:
+        kept = {g.name for g in self.asset.geoms if g.parent is None} | {o.name for o in self.asset.opaque}
+        for element, authored in zip(self._elements, self.authored, strict=True):
+            staying = {k: name for k, name in enumerate(authored.names) if name in kept}
+            if len(staying) == len(authored.names):
+                slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
+            else:
+                slots = [self._parted(element, authored.link, name, k) for k, name in staying.items()]
+                for slot in slots[1:]:
+                    slot.copy = True
+            self.places.append((element, slots))
+
+    def _parted(self, element: Element, link: str, name: str, k: int) -> Slot:
+        """An element for one piece of a mesh, its triangles as authored in a file of their own."""
+        edits = self.maker.part(element, name, k)
+        return Slot(link, (name,), element.attributes.get("name"), element, edits)
+
+    def _place_made(self, geom: Geom) -> None:
+        """A new element after that of its parent, or else after the last one of its link."""
+        link = self._link_of(geom)
+        own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
+        parent = self._owner.get(geom.parent or "")
+        template = self._elements[parent] if parent is not None else None
+        lead = lead_inside(self.maker.data, link)
+        slot = self.maker.slot(geom, self._poses[geom.body], template, lead)
+        if not own:
+            self.ends.setdefault(geom.body, []).append(slot)
+        else:
+            self.places[parent if parent in own else own[-1]][1].append(slot)
+
+    def _link_of(self, geom: Geom) -> Element:
+        if geom.body in self.links:
+            return self.links[geom.body]
+        like = nearest(geom.body, self.links)
+        raise AssetError(
+            f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
+            where=str(self.asset.path),
+            remedy=f"The nearest name of a link is {like!r}." if like else None,
+        )

@@ -1,0 +1,1 @@
+"""Making an SDF of an asset of another format."""

@@ -1,0 +1,193 @@
+"""Making an SDF from an asset of another format: links and joints, a collision for each hull, masses and visuals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.asset import Asset, JointKind, Opaque, What
+from meshforge.formats.base import Output
+from meshforge.formats.body_tree import free_name
+from meshforge.formats.chain import Chain, LinkJoint, Rules, chain_of
+from meshforge.formats.element_names import attribute_for, settle
+from meshforge.formats.hull_files import HullFiles
+from meshforge.formats.losses import Loss
+from meshforge.formats.numbers import tidy
+from meshforge.formats.sdf.elements import STEP, Native, fresh, leaf, mesh_lines, nested, pose_leaf
+from meshforge.formats.sdf.features import MESHES
+from meshforge.formats.sdf.files.config import CONFIG
+from meshforge.formats.sdf.making.moving import inertial_lines, joint_lines, named, visual_lines
+from meshforge.formats.sdf.reading.frames import WORLD
+from meshforge.formats.sdf.writing.made import Maker
+from meshforge.formats.slots import Slot
+from meshforge.formats.urdf.moving import LIGHT
+from meshforge.formats.visual_files import Shown, VisualFiles, visuals_of
+from meshforge.formats.xml import escaped
+from meshforge.geometry import Pose, Shape
+from meshforge.words import counted, listed
+
+_VERSION = (1, 8)
+_KINDS: tuple[JointKind, ...] = ("fixed", "revolute", "prismatic", "ball", "floating")
+_LEAD = 3 * STEP
+_MAIN = "model.sdf"
+
+
+def create_sdf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
+    become native shapes or mesh files, opaque pieces meshes as they are. `model.sdf` gets a `model.config` beside it.
+    """
+    return _Creator(asset, name).output()
+
+
+class _Creator:
+    def __init__(self, asset: Asset, name: str) -> None:
+        self.asset, self.name = asset, name
+        stem = Path(name).stem
+        self.model = asset.path.stem if name == _MAIN else stem
+        self.maker = Maker(b"", b"\n", _VERSION, HullFiles(stem))
+        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in MESHES)
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.lost: list[Loss] = []
+        self.renamed: dict[str, str] = {}
+        shown = visuals_of(asset)
+        self.visuals.gather(shown)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
+        bare = {body.name for body in asset.bodies} - used - set(self.inertials)
+        self.chain: Chain = chain_of(asset, bare, Rules(_KINDS, world=True))
+        self.links = self._link_names(bare)
+        self.slots = self._slots()
+        self.shown = {link: self._visuals(link) for link in self.links}
+
+    def output(self) -> Output:
+        settled = settle([slot for own in self.slots.values() for slot in own])
+        names = {was: settled.pop(name, name) for was, name in self.renamed.items()} | settled
+        inside = [line for link in self.links for line in self._link(link)]
+        if WORLD in self.links:  # what is part of the world does not fall
+            still = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
+            inside += joint_lines(still, WORLD, self.links[WORLD])
+        for joint in self.chain.joints:
+            inside += self._joint(joint)
+        model = named("model", self.model, *inside)
+        head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
+        main = b"\n".join([*head, *(STEP + line for line in model), b"</sdf>", b""])
+        if self.visuals.refused:
+            refused = tuple(dict.fromkeys(self.visuals.refused))
+            self.lost.append(Loss(What.VISUALS, refused, "their files cannot be read"))
+        made = dict(self.maker.files.made)
+        if self.name == _MAIN:
+            made[CONFIG] = self._config()
+        return Output(main, made, self.visuals.copies, self._notes(), names, (*self.chain.lost, *self.lost))
+
+    def _link_names(self, bare: set[str]) -> dict[str, str]:
+        """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
+        taken = set(self.chain.frames)
+        names = {link: link for link in self.chain.frames if link != WORLD}
+        if WORLD in self.chain.frames and WORLD not in bare:
+            names = {WORLD: free_name(f"{WORLD}_link", taken), **names}
+        return {link: _plain(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
+
+    def _slots(self) -> dict[str, list[Slot]]:
+        slots: dict[str, list[Slot]] = {link: [] for link in self.links}
+        for geom in self.asset.geoms:
+            link = self.chain.of_body[geom.body]
+            slots[link].append(self.maker.slot(geom, self.chain.frames[link], None, _LEAD))
+        for piece in self.asset.opaque:
+            link = self.chain.of_body[piece.body]
+            slots[link] += self._opaque(piece, self.chain.frames[link])
+        for link, own in slots.items():
+            for slot in own:
+                self._rename(slot, self.links[link])
+        return slots
+
+    def _rename(self, slot: Slot, link: str) -> None:
+        """Name the element of a slot, for the link as it is called in the file."""
+        slot.name = attribute_for(slot)
+        if link != slot.body:
+            names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)
+            self.renamed |= dict(zip(slot.names, names, strict=True))
+            slot.body, slot.names = link, names
+
+    def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The collision of an opaque piece; none where it has no surface."""
+        surface, link_t_root = piece.surface, root_t_link.inverse()
+        if piece.plane is not None:
+            plane = link_t_root @ piece.plane
+            kind = nested("plane", leaf("normal", "0 0 1"), leaf("size", "100 100"))
+            return [Slot(piece.body, (piece.name,), text=fresh(plane, kind, _LEAD, b"\n"))]
+        if surface is None:
+            return []
+        if not len(surface.faces):
+            self.lost.append(Loss(What.OPAQUE, (piece.name,), "it has no triangle"))
+            return []
+        vertices = link_t_root.apply(np.asarray(surface.vertices))
+        kind = mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=fresh(Pose.identity(), kind, _LEAD, b"\n"))]
+
+    def _visuals(self, link: str) -> list[bytes]:
+        lines: list[bytes] = []
+        count = 0
+        for body, visual in visuals_of(self.asset):
+            if self.chain.of_body[body] == link:
+                shown = self.visuals.shown(body, visual, self.chain.frames[link])
+                if shown is not None:
+                    lines += visual_lines(f"visual{count}", shown, self._mesh_of(body, shown))
+                    count += 1
+        return lines
+
+    def _mesh_of(self, body: str, shown: Shown) -> str | None:
+        """The file of a shown shape that SDF lacks."""
+        if isinstance(shown.what, str | Native) or not isinstance(shown.what, Shape):
+            return None
+        return self.maker.files.add(f"{body}-visual", "", shown.what.vertices, shown.what.faces)
+
+    def _link(self, link: str) -> list[bytes]:
+        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
+        inertial = self.inertials.get(body) if body else LIGHT if link in self.chain.light else None
+        frame = self.chain.frames[link]
+        pose = Pose(frame.rotation, tidy(frame.translation))
+        inside = [pose_leaf(pose)]
+        inside += inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
+        inside += self.shown[link]
+        inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.written(b"").split(b"\n")]
+        return named("link", self.links[link], *inside)
+
+    def _joint(self, made: LinkJoint) -> list[bytes]:
+        """The lines of a joint; none for one that leaves its link free."""
+        if made.joint is not None and made.joint.kind == "floating":
+            name = made.joint.name
+            why = "a link without a joint moves freely in SDF"
+            self.lost.append(Loss(What.JOINTS, (name,) * bool(name), why, None, not name))
+            return []
+        return joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
+
+    def _config(self) -> bytes:
+        """The `model.config` that makes the folder a Gazebo model."""
+        version = ".".join(map(str, _VERSION)).encode()
+        lines = nested("model", leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escaped(self.name)))
+        return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
+
+    def _notes(self) -> tuple[str, ...]:
+        """What Gazebo makes of what is not told in the file."""
+        notes = list(self.chain.notes) + self.maker.notes
+        renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
+        if renamed:
+            notes.append(f"links that SDF has no such names for are written otherwise ({listed(renamed, 3)})")
+        heavy = {*self.inertials, *self.chain.light}
+        weightless = [name for link, name in self.links.items() if link not in heavy]
+        if weightless:
+            links = counted(len(weightless), "link")
+            notes.append(
+                f"{links} without a mass ({listed(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"
+            )
+        return tuple(notes)
+
+
+def _plain(name: str, taken: set[str]) -> str:
+    """A name that SDF allows: `::` parts scopes, and names between double underscores are its own."""
+    allowed = name.replace("::", "__")
+    if allowed.startswith("__") and allowed.endswith("__"):
+        allowed = f"link{allowed}"
+    return name if allowed == name else free_name(allowed, taken)

@@ -1,0 +1,217 @@
+"""The models of an SDF with all that they include, as one tree of scopes."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from meshforge.errors import AssetError
+from meshforge.formats.references import is_address
+from meshforge.formats.sdf.files.elements import root_of
+from meshforge.formats.sdf.files.resolver import ModelResolver
+from meshforge.formats.sdf.files.sources import Source
+from meshforge.formats.sdf.files.values import is_true, pose_of, text_of
+from meshforge.formats.sdf.files.version import RELATIVE, Version
+from meshforge.formats.sdf.reading.frames import WORLD, Frame, Scope
+from meshforge.formats.triangles import contents
+from meshforge.formats.xml import Element, Text
+
+_DEEPEST = 50  # models one in another; no author nests so far
+_MOST = 5000  # models of one asset, so that includes of includes end
+
+
+@dataclass(slots=True, eq=False)
+class Composed:
+    """All files as one tree. root: the scope around all models; worlds: names of worlds in it, which are read only."""
+
+    root: Scope
+    sources: list[Source]
+    worlds: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def scopes(self) -> Iterator[Scope]:
+        """The models, each before those within, in the order of the files."""
+        waiting = list(reversed(self.root.inner))
+        while waiting:
+            scope = waiting.pop()
+            yield scope
+            waiting.extend(reversed(scope.inner))
+
+
+def compose(path: Path, roots: tuple[Path, ...]) -> Composed:
+    """The models of the file at an absolute path, and of those it includes.
+
+    Raises AssetError with `file:line`: text that is not understood, a model that is not there or includes itself.
+    """
+    return _Composer(path, roots).composed
+
+
+@dataclass(frozen=True, slots=True)
+class _File:
+    """A file that was parsed."""
+
+    number: int
+    root: Element
+    version: Version
+
+
+class _Composer:
+    def __init__(self, path: Path, roots: tuple[Path, ...]) -> None:
+        self.roots, self.count = roots, 0
+        self.files: dict[Path, _File] = {}
+        self.sources: list[Source] = []
+        main = self._file(path, path.name, "")
+        world = main.root.first("world")
+        around = Scope("", world or main.root, 0, str(path), main.version, is_world=True)
+        self.composed = Composed(around, self.sources)
+        if world is not None:
+            self.composed.worlds = [w.attributes.get("name", "") for w in main.root.each("world")]
+            self._add_frames(around, world)
+        models = [model for holder in (main.root, *main.root.each("world")) for model in holder.each("model")]
+        includes = [include for holder in main.root.each("world") for include in holder.each("include")]
+        alone = len(models) == 1 and not includes
+        for element in sorted((*models, *includes), key=lambda e: e.start):
+            if element.tag == "include":
+                self._include(around, element, [path])
+            else:
+                self._model(around, element, main, None, [path], "" if alone else None)
+        if not around.inner:
+            raise AssetError("there is no <model> in it", where=str(path))
+        for scope in self.composed.scopes():
+            self._mend_old(scope)
+        if len(models) > 1 and world is None:
+            self.composed.notes.append(f"it holds {len(models)} models, of which new Gazebo takes the first alone")
+
+    def _file(self, path: Path, place: str | None, reference: str) -> _File:
+        if path in self.files:
+            number = self.files[path].number
+            self.sources[number] = replace(self.sources[number], count=self.sources[number].count + 1)
+            return self.files[path]
+        raw = contents(path)
+        root, version = root_of(Text.of(raw).data, str(path))
+        self.sources.append(Source(path, place, reference, raw, ModelResolver(path.parent, self.roots)))
+        self.files[path] = _File(len(self.sources) - 1, root, version)
+        return self.files[path]
+
+    def _model(
+        self,
+        around: Scope,
+        element: Element,
+        file: _File,
+        include: Element | None,
+        files: list[Path],
+        prefix: str | None,
+    ) -> None:
+        """Add a `<model>` to the scope around it; files: those that are open, the innermost last."""
+        where = str(files[-1])
+        self._refuse_too_many(around, element, where)
+        merged = include is not None and is_true(include.attributes.get("merge", ""))
+        name = text_of(include, "name") or element.attributes.get("name", "")
+        if prefix is None:
+            prefix = around.prefix if merged else f"{around.prefix}{name}::"
+        scope = Scope(prefix, element, file.number, where, file.version, merged=merged)
+        frame = self._frame_of(around, element, include, where)
+        frame.inside, scope.frame = scope, frame
+        self._add_links(scope)
+        self._add_frames(scope, element)
+        for child in element.children:
+            if child.tag == "model":
+                self._model(scope, child, file, None, files, None)
+            elif child.tag == "include":
+                self._include(scope, child, files)
+        around.inner.append(scope)
+        if merged:
+            around.pour(scope)
+        elif name:
+            around.frames.setdefault(name, frame)
+
+    def _frame_of(self, around: Scope, element: Element, include: Element | None, where: str) -> Frame:
+        """The frame of a model in the scope around it; what an include tells goes before what the model does."""
+        placement = element.attributes.get("placement_frame", "")
+        teller = element
+        if include is not None:
+            placement = text_of(include, "placement_frame") or placement
+            if include.first("pose") is not None:
+                teller, where = include, str(self.sources[around.source].path)
+        at = pose_of(teller, where)
+        return Frame(around, at.pose, at.base, f"{where}:{at.line}", placement=placement)
+
+    def _refuse_too_many(self, around: Scope, element: Element, where: str) -> None:
+        self.count += 1
+        depth, at = 0, around
+        while at.frame is not None:
+            depth, at = depth + 1, at.frame.scope
+        if self.count > _MOST or depth > _DEEPEST:
+            problem = (
+                f"more than {_MOST:,} models" if self.count > _MOST else f"more than {_DEEPEST} models, one in another"
+            )
+            raise AssetError(problem, where=f"{where}:{element.line}", remedy="No model is made of so many.")
+
+    def _include(self, around: Scope, include: Element, files: list[Path]) -> None:
+        where = f"{files[-1]}:{include.line}"
+        uri = text_of(include, "uri")
+        if not uri:
+            raise AssetError("this <include> names no model: it has no <uri>", where=where)
+        outer = self.sources[around.source]
+        path = None if is_address(uri) else outer.resolver.model_file(uri)
+        if path is None:
+            problem = f"the included model {uri!r} is not there"
+            raise AssetError(problem, where=where, remedy=outer.resolver.model_advice(uri))
+        if path in files:
+            raise AssetError(f"{uri!r} includes itself", where=where, remedy="Take this <include> away.")
+        file = self._file(path, _placed(outer, uri, path), uri)
+        models = list(file.root.each("model"))
+        if not models:
+            self.composed.notes.append(f"the included file {uri!r} has no model: passed over")
+            return
+        self._model(around, models[0], file, include, [*files, path], None)
+
+    def _add_links(self, scope: Scope) -> None:
+        for link in scope.element.each("link"):
+            name, place = link.attributes.get("name"), f"{scope.where}:{link.line}"
+            if not name:
+                raise AssetError("a <link> has no name", where=place)
+            if name in scope.links:
+                problem = f"link {name!r} is there twice, first on line {scope.links[name].line}"
+                raise AssetError(problem, where=place, remedy="Rename one of them.")
+            scope.links[name] = link
+            self._add(scope, name, link, "", True)
+
+    def _add_frames(self, scope: Scope, element: Element) -> None:
+        """The frames of joints and of `<frame>` elements."""
+        for child in element.children:
+            name = child.attributes.get("name", "")
+            if child.tag == "joint" and name:
+                end = text_of(child, "child")
+                self._add(scope, name, child, "" if end == WORLD else end, False)
+            elif child.tag == "frame" and name and scope.version >= RELATIVE:
+                self._add(scope, name, child, child.attributes.get("attached_to", ""), False)
+            elif child.tag == "frame" and name:
+                self._add(scope, name, child, "", False)
+
+    def _mend_old(self, scope: Scope) -> None:
+        """Let frames of old files whose `frame`, which few readers saw, is not there count from their usual base."""
+        if scope.version < RELATIVE:
+            for name, frame in scope.frames.items():
+                if not scope.knows(frame.base):
+                    self.composed.notes.append(f"the pose of {name!r} counts from {frame.base!r}, which is not there")
+                    frame.base = frame.attached if scope.knows(frame.attached) else ""
+
+    def _add(self, scope: Scope, name: str, element: Element, attached: str, link: bool) -> None:
+        at = pose_of(element, scope.where)
+        frame = Frame(scope, at.pose, at.base or attached, f"{scope.where}:{at.line}", link, attached)
+        scope.frames.setdefault(name, frame)
+
+
+def _placed(outer: Source, uri: str, path: Path) -> str | None:
+    """Where an output has an included file, relative to the main file's folder; None for one at an absolute path."""
+    if outer.place is None:
+        return None
+    folder = uri.rstrip("/")
+    for said in (f"{folder}/{path.name}", folder):
+        place = outer.resolver.place(said)
+        if place is not None and outer.resolver.find(said) == path:
+            return posixpath.normpath(posixpath.join(posixpath.dirname(outer.place), place))
+    return None

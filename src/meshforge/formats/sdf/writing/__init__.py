@@ -1,0 +1,1 @@
+"""Writing an edited SDF: each authored file with other collision elements."""

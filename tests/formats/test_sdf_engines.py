@@ -1,0 +1,132 @@
+"""SDFs as engines read them: the same shapes in the same places, before an edit and after."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Asset
+from meshforge.formats import read, save
+from meshforge.geometry import Box, Pose, Sphere
+from tests.conversion_samples import crowd, doors, primitives
+from tests.corpus_case import ROOT
+from tests.corpus_path import corpus
+from tests.sdf_engines import assert_same_primitives, bullet, drake
+from tests.urdf_sample import made, without
+
+CORPUS = [
+    "tables_desks/osrf-gazebo_models/table/model.sdf",
+    "tables_desks/drake-models-manipulation_station/amazon_table_simplified.sdf",
+    "tables_desks/drake-models-manipulation_station/bin.sdf",
+    "tables_desks/pybullet-planning/drake/table/extra_heavy_duty_table.sdf",
+    "doors_cabinets/drake-models-manipulation_station/cupboard.sdf",
+    "doors_cabinets/osrf-gazebo_models/cabinet/model.sdf",
+    "scenes_robots/tmc_wrs_gazebo/wrc_tray/model.sdf",
+    "scenes_robots/tmc_wrs_gazebo/wrc_frame/model.sdf",
+    "scenes_robots/tmc_wrs_gazebo/wrc_container_a/model.sdf",
+]
+FRAMES = ["nested", "placement_frame", "pose_quaternion", "pose_in_degrees", "pose_empty"]
+BULLET = [name for name in CORPUS if not name.startswith(("scenes_robots", "doors_cabinets/drake"))]
+"""Those that PyBullet reads: it wants every inertia, and takes no joint with a pose of its own."""
+
+
+def edited(asset: Asset) -> Asset:
+    """Without the first hull and every third after it; a box and a ball in place of these."""
+    gone = asset.geoms[::3]
+    kept = without(asset, *(geom.name for geom in gone))
+    turn = Pose.from_rpy([0, 0, 0], [0.3, -0.5, 1.1]).rotation
+    new = []
+    for k, geom in enumerate(gone[:4]):
+        pose, half = Pose(turn, geom.shape.aabb.center), geom.shape.aabb.size / 2
+        new.append(made(asset, geom.name, Sphere(pose, float(half.min())) if k % 2 else Box(pose, half)))
+    return kept.with_geoms([*kept.geoms, *new])
+
+
+@pytest.mark.parametrize("name", BULLET)
+def test_pybullet_has_as_many_shapes_within_the_same_bounds(name: str, tmp_path: Path) -> None:
+    asset = read(corpus(*name.split("/")))
+    saved = save(edited(asset), tmp_path / "model.sdf")
+    before, after = bullet(asset.path), bullet(saved.path)
+    for one, seen in ((asset, before), (read(saved.path), after)):
+        assert seen["shapes"] == len(one.geoms)
+        assert one.aabb is not None
+        np.testing.assert_allclose(np.min([low for low, _ in seen["bounds"]], axis=0), one.aabb.min, atol=0.05)
+        np.testing.assert_allclose(np.max([high for _, high in seen["bounds"]], axis=0), one.aabb.max, atol=0.05)
+    assert before["masses"] == after["masses"]
+
+
+@pytest.mark.parametrize("sample", [doors, crowd], ids=lambda make: make.__name__)
+def test_pybullet_reads_made_files(sample: type, tmp_path: Path) -> None:
+    asset: Asset = sample()
+    assert bullet(save(asset, tmp_path / "model.sdf").path)["shapes"] == len(asset.geoms)
+
+
+@pytest.mark.parametrize("name", CORPUS)
+def test_drake_has_each_shape_in_its_place_before_an_edit_and_after(name: str, tmp_path: Path) -> None:
+    asset = read(corpus(*name.split("/")))
+    edit = edited(asset)
+    saved = save(edit, tmp_path / asset.path.parent.name / "model.sdf")
+    for one, path in ((asset, asset.path), (edit, saved.path)):
+        seen, _ = drake(path, {path.parent.name: path.parent})
+        assert assert_same_primitives(one, seen) == len(one.geoms)
+
+
+def test_drake_has_every_collision_of_every_real_file_where_it_is(tmp_path: Path) -> None:
+    shapes = 0
+    for k, source in enumerate(sorted(corpus().rglob("*.sdf"))):
+        path = tmp_path / f"{k}.sdf"
+        path.write_text(_bare(source.read_text()))
+        seen, others = drake(path, {})
+        assert not others
+        shapes += assert_same_primitives(read(path), seen)
+    assert shapes > 250
+
+
+def _bare(text: str) -> str:
+    """A text with a ball for each mesh, of which Drake reads few kinds, and without what else Drake refuses."""
+    text = re.sub(r"<(visual|static|inertial)\b.*?</\1>", "", text, flags=re.S)
+    text = re.sub(r"<mesh>.*?</mesh>", "<sphere><radius>0.0123</radius></sphere>", text, flags=re.S)
+    text = text.replace('<gazebo version="1.2">', '<sdf version="1.3">').replace("</gazebo>", "</sdf>")
+    numbers = itertools.count()
+    return re.sub(r"<collision[^>]*>", lambda _: f'<collision name="c{next(numbers)}">', text)
+
+
+@pytest.mark.parametrize("name", FRAMES)
+def test_drake_has_frames_where_they_are(name: str) -> None:
+    path = ROOT / "sdf" / f"{name}.sdf"
+    seen, others = drake(path, {})
+    assert assert_same_primitives(read(path), seen) > 0
+    assert not others
+
+
+def test_drake_has_included_and_merged_models_in_their_places(tmp_path: Path) -> None:
+    part = (ROOT / "sdf" / "nested.sdf").read_text().replace('name="m"', 'name="p" placement_frame="n::a"')
+    part = re.sub(r'"a"', '"pa"', part).replace("::a", "::pa").replace('name="n"', 'name="pn"').replace('"n::', '"pn::')
+    (tmp_path / "part").mkdir()
+    (tmp_path / "part" / "model.sdf").write_text(part)
+    include = (
+        "<include{}><uri>model://part/model.sdf</uri>{}<pose relative_to='{}'>1 2 3 0.1 0.2 0.3</pose>{}</include>"
+    )
+    inside = [
+        '<link name="a"><pose>0 0 1 0.3 0.2 0.1</pose></link>',
+        include.format("", "<name>q</name>", "a", "<placement_frame>pa</placement_frame>"),
+        include.format("", "<name>r</name>", "q::pa", ""),
+        include.format(" merge='true'", "", "a", ""),
+    ]
+    path = tmp_path / "top.sdf"
+    path.write_text(f'<sdf version="1.9"><model name="m">{"".join(inside)}</model></sdf>')
+    seen, _ = drake(path, {"part": tmp_path / "part"})
+    assert assert_same_primitives(read(path), seen) == 9
+
+
+@pytest.mark.parametrize("sample", [doors, crowd, primitives], ids=lambda make: make.__name__)
+def test_drake_reads_made_files(sample: type, tmp_path: Path) -> None:
+    asset: Asset = sample()
+    saved = save(asset, tmp_path / "model.sdf")
+    seen, others = drake(saved.path, {})
+    assert_same_primitives(asset, seen)
+    assert len(seen) + others == len(asset.geoms)

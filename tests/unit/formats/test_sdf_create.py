@@ -1,0 +1,99 @@
+"""SDFs made of other formats: links, joints, masses and visuals where they were."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.asset import Joint, JointKind, What
+from meshforge.formats import read, save
+from tests.conversion_samples import SAMPLES, block, doors, foreign, inertial
+
+
+def test_doors_come_back_with_joints_masses_visuals_and_colours(tmp_path: Path) -> None:
+    asset = doors()
+    found = read(save(asset, tmp_path / "model.sdf").path)
+    assert {b.name for b in found.bodies} == {b.name for b in asset.bodies}
+    was, now = ({j.name: j for j in a.mechanism.joints} for a in (asset, found))
+    assert was.keys() == now.keys()
+    for name, joint in was.items():
+        assert (now[name].kind, now[name].parent, now[name].child) == (joint.kind, joint.parent, joint.child)
+        assert now[name].limits == joint.limits
+        if joint.kind != "fixed":
+            np.testing.assert_allclose(now[name].axis, joint.axis, atol=1e-12)
+    masses = {i.body: i for i in found.mechanism.inertials}
+    for one in asset.mechanism.inertials:
+        assert masses[one.body].mass == one.mass
+        np.testing.assert_allclose(masses[one.body].centre, one.centre, atol=1e-12)
+        np.testing.assert_allclose(masses[one.body].inertia, one.inertia, atol=1e-12)
+    assert sorted((v.body, v.rgba) for v in found.visuals) == [("door", (1, 0.25, 0, 1)), ("frame", None)]
+
+
+def test_native_shapes_stay_native_planes_and_opaque_pieces_too(tmp_path: Path) -> None:
+    found = read(save(SAMPLES["primitives"](), tmp_path / "p.sdf").path)
+    kinds = ["box", "sphere", "cylinder", "capsule", "ellipsoid", "polytope"]
+    assert [geom.shape.kind for geom in found.geoms] == kinds
+    found = read(save(SAMPLES["opaque"](), tmp_path / "o.sdf").path)
+    planes = [piece.plane for piece in found.opaque if piece.plane]
+    assert [plane.translation.tolist() for plane in planes] == [[0, 0, -1]]
+    assert [piece.reason[:10] for piece in found.opaque if piece.surface] == ["not convex"]
+
+
+def test_model_sdf_gets_a_model_config_and_is_read_as_a_folder(tmp_path: Path) -> None:
+    saved = save(doors(), tmp_path / "cupboard" / "model.sdf")
+    assert {path.name for path in saved.files} >= {"model.config", "model.sdf"}
+    assert len(read(tmp_path / "cupboard").geoms) == len(doors().geoms)
+
+
+@pytest.mark.parametrize(("kind", "expected"), [("ball", ["ball"]), ("planar", ["prismatic", "prismatic", "revolute"])])
+def test_balls_are_balls_and_planar_joints_are_made_of_simpler_ones(
+    kind: JointKind, expected: list[str], tmp_path: Path
+) -> None:
+    asset = doors()
+    last = asset.mechanism.joints[-1]
+    joint = Joint("loose", kind, last.parent, last.child, last.anchor, last.axis)
+    asset = replace(asset, mechanism=replace(asset.mechanism, joints=(*asset.mechanism.joints[:-1], joint)))
+    found = read(save(asset, tmp_path / "m.sdf").path)
+    assert [j.kind for j in found.mechanism.joints if j.name.startswith("loose")] == expected
+
+
+def test_what_moves_freely_has_no_joint_and_that_is_told(tmp_path: Path) -> None:
+    asset = foreign(
+        {"world": doors().bodies[0].pose, "cup": doors().bodies[1].pose}, [("cup/a", "cup", block(0, 0, 0))]
+    )
+    joint = Joint("free", "floating", "world", "cup", np.zeros(3), np.array([1.0, 0, 0]))
+    asset = replace(
+        asset, mechanism=replace(asset.mechanism, joints=(joint,), inertials=(inertial("cup", 1, (0, 0, 0)),))
+    )
+    saved = save(asset, tmp_path / "m.sdf")
+    assert "<joint" not in saved.path.read_text()
+    assert [loss.names for loss in saved.report.lost if loss.what is What.JOINTS] == [("free",)]
+    assert [body.name for body in read(saved.path).bodies] == ["cup"]
+
+
+def test_what_is_fixed_to_the_world_stays_so(tmp_path: Path) -> None:
+    floor, ball = '<geom name="floor" type="box" size="1 1 1"/>', '<body name="b"><geom size=".1"/></body>'
+    (tmp_path / "m.xml").write_text(f"<mujoco><worldbody>{floor}{ball}</worldbody></mujoco>")
+    saved = save(read(tmp_path / "m.xml"), tmp_path / "out" / "m.sdf")
+    found = read(saved.path)
+    assert [(j.parent, j.child, j.kind) for j in found.mechanism.joints] == [
+        ("world", "world_link", "fixed"),
+        ("world_link", "b", "fixed"),
+    ]
+    assert any("world as world_link" in note for note in saved.notes)
+
+
+def test_links_without_a_mass_are_told(tmp_path: Path) -> None:
+    notes = save(SAMPLES["crowd"](), tmp_path / "m.sdf").notes
+    assert any("3 links without a mass" in note and "1 kg" in note for note in notes)
+
+
+def test_names_that_sdf_keeps_to_itself_are_written_otherwise(tmp_path: Path) -> None:
+    asset = foreign({"a::b": doors().bodies[0].pose}, [("a::b/x", "a::b", block(0, 0, 0))])
+    saved = save(asset, tmp_path / "m.sdf")
+    assert [geom.body for geom in read(saved.path).geoms] == ["a__b"]
+    assert any("a::b as a__b" in note for note in saved.notes)
+    assert saved.names == {"a::b/x": "a__b/x"}
