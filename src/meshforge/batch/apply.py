@@ -42,6 +42,7 @@ def apply(
     link: bool = False,
     dry_run: bool = False,
     resume: bool = True,
+    to: str | None = None,
     timeout: float | None = TIMEOUT,
     memory: int | None = None,
     backend: Backend = "local",
@@ -56,14 +57,15 @@ def apply(
     workers: processes, None takes one a processor, 0 works in this process (no bounds, no protection against crashes of
     native code); mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
-    and was made from the same is skipped; timeout: seconds for one asset; memory: bytes for one, an even share of
+    and was made from the same is skipped; to: the suffix of the format that all are written in, each one's own when
+    None; timeout: seconds for one asset; memory: bytes for one, an even share of
     the machine's when None; backend: the workers of this machine, or those of a Ray cluster, as of `on_cluster`;
     progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
     StoppedError when it was told to stop: what is in place by then stays.
     """
     jobs = tuple(assets)
-    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume)
+    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to)
     _check(jobs, task)
     spread = isolated if backend == "local" else on_cluster
     if backend == "local" and memory is None:

@@ -40,7 +40,10 @@ def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
     """Where the output of an asset would be."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
     folder = drafts(task.out) / f"{text_digest(job.id)}-{attempt}"
-    return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
+    if task.to is None:
+        return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
+    stem = job.id if job.path.is_dir() else job.id.removesuffix(job.path.suffix)
+    return Draft(folder, f"{stem}{task.to}")
 
 
 def written(

@@ -67,7 +67,7 @@ def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
         program=program_digest(task.program),
         templates=template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
-        settings=f"mass={task.mass}",
+        settings=f"mass={task.mass}{f' to={task.to}' if task.to else ''}",
         software=software(),
     )
 

@@ -31,7 +31,10 @@ class AssetJob:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Task:
-    """What is done to every asset of a batch; out: the folder that is written."""
+    """What is done to every asset of a batch.
+
+    out: the folder that is written; to: the suffix of the format that is written, None for the asset's own.
+    """
 
     program: Program
     templates: Mapping[str, Template]
@@ -40,6 +43,7 @@ class Task:
     link: bool = False
     dry_run: bool = False
     resume: bool = True
+    to: str | None = None
 
 
 def jobs(found: Found, labels: Path | None = None) -> tuple[AssetJob, ...]:

@@ -1,4 +1,4 @@
-"""`meshforge convert`: between formats, or an unedited write-back within one."""
+"""`meshforge convert`: between formats, or an unedited write-back within one; of one asset, or of very many."""
 
 from __future__ import annotations
 
@@ -8,27 +8,121 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from meshforge.cli.options import AssetFile, Json, Labels
+from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.asset import Feature
+    from meshforge.batch import Outcome
     from meshforge.formats import Loss, Saved
     from meshforge.symbolic import SymbolicMesh
 
 
 def convert(
-    source: AssetFile,
-    out: Annotated[Path, typer.Argument(help="The file to write; its suffix names the format.")],
+    paths: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="ASSET... OUT",
+            help="An asset and the file to write, whose suffix names the format; with --to, many and a folder.",
+        ),
+    ],
+    to: Annotated[
+        str | None, typer.Option("--to", metavar="SUFFIX", help="Write all assets in this format, as .usda, below OUT.")
+    ] = None,
     labels: Labels = None,
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False,
+    workers: Workers = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
     json: Json = False,
 ) -> None:
     """Write an asset in another format, or unchanged in its own; says what the target cannot hold.
 
     Bodies, joints, masses and visuals are carried over where the format has them. Labels go beside the file, under the
-    names that the hulls have there.
+    names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
+    stopped goes on where it was, and the exit code is 1 when some failed.
     """
+    from meshforge.errors import UsageError
+
+    if len(paths) < 2:
+        raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
+    *sources, out = paths
+    if to is None:
+        if len(sources) > 1:
+            raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
+        return _one(Path(sources[0]), Path(out), labels, link, overwrite, json)
+    if overwrite:
+        raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
+    _many(sources, Path(out), _suffix(to), labels, link=link, workers=workers, bounds=(timeout, memory), json=json)
+    return None
+
+
+def _suffix(to: str) -> str:
+    """The suffix of a format that can be written. Raises UsageError."""
+    from meshforge.errors import UsageError
+    from meshforge.formats import FORMATS
+
+    suffix = f".{to.lower().lstrip('.')}"
+    known = [own for found in FORMATS if found.writable for own in found.suffixes]
+    if suffix not in known:
+        raise UsageError(f"nothing is written as {suffix}", remedy=f"Formats: {', '.join(known)}.")
+    return suffix
+
+
+def _many(
+    sources: Sequence[str],
+    out: Path,
+    suffix: str,
+    labels: Path | None,
+    *,
+    link: bool,
+    workers: int | None,
+    bounds: tuple[float | None, int | None],
+    json: bool,
+) -> None:
+    from meshforge.batch import TIMEOUT, Summary, apply, expand, json_line, plan
+    from meshforge.batch import jobs as jobs_of
+    from meshforge.cli.output import print_json, progress, remark
+    from meshforge.language import Program
+
+    jobs, summary, (timeout, memory) = jobs_of(expand(sources), labels), Summary(), bounds
+    remark(str(plan(jobs, out)))
+    seconds = TIMEOUT if timeout is None else timeout or None
+    with progress(len(jobs), "converting") as advance:
+        work = apply(
+            Program(),
+            jobs,
+            out,
+            to=suffix,
+            link=link,
+            workers=workers,
+            timeout=seconds,
+            memory=memory,
+            progress=advance,
+        )
+        for outcome in work:
+            summary.add(outcome)
+            if json:
+                print_json(json_line(outcome), compact=True)
+            else:
+                typer.echo(_told(outcome))
+    if not json:
+        typer.echo(str(summary).replace("unchanged", "written", 1))
+    raise typer.Exit(int(summary.counts["failed"] > 0))
+
+
+def _told(outcome: Outcome) -> str:
+    from meshforge.batch import Failed, Skipped
+    from meshforge.words import counted
+
+    if isinstance(outcome, Failed):
+        return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+    word = "skipped" if isinstance(outcome, Skipped) else "written"
+    line = f"{word:10} {outcome.out}: {counted(outcome.after, 'hull')}"
+    return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
+
+
+def _one(source: Path, out: Path, labels: Path | None, link: bool, overwrite: bool, json: bool) -> None:
     from meshforge.cli.output import print_json, remark
     from meshforge.formats import load, save
     from meshforge.words import counted
@@ -44,6 +138,7 @@ def convert(
         remark(f"note: {note}")
     held = [counted(feature.count, feature.what.one, feature.what.many) for feature in saved.report.held]
     remark(f"wrote {saved.path}: {', '.join([counted(len(mesh.hulls), 'hull'), *held])}")
+    return None
 
 
 def _as_data(source: Path, saved: Saved, hulls: int, notes: Sequence[str]) -> dict[str, Any]:

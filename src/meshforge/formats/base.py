@@ -61,6 +61,7 @@ class Format(ABC):
 
     is_description: its files name mesh files, which are parts of it then and no assets of their own.
     is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
+    writable: whether it can hold an edit, or what another format held.
     title: its name for people; up: the axis that points up in its files, None where the format does not say.
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
     leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
@@ -71,6 +72,7 @@ class Format(ABC):
     suffixes: ClassVar[tuple[str, ...]]
     is_description: ClassVar[bool] = False
     is_folder: ClassVar[bool] = False
+    writable: ClassVar[bool] = True
     title: ClassVar[str]
     up: ClassVar[Literal["y", "z"] | None] = None
     holds: ClassVar[frozenset[What]] = frozenset()

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from meshforge.cli.main import COMMANDS
+from tests.unit.batch.families import write_table, write_tables
 from tests.unit.cli.in_process import Run, runner
 
 CUBE = """\
@@ -177,6 +178,45 @@ def test_convert_leaves_labels_that_are_there_alone(run: Run) -> None:
     Path("other.labels.json").write_text('{"hulls": {}}')
     assert "left as it is" in run("convert", "row.obj", "other.obj").err
     assert Path("other.labels.json").read_text() == '{"hulls": {}}'
+
+
+def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -> None:
+    write_tables(Path("many"), 3)
+    Path("many/table1/model.obj").write_text("v 1 2\n")
+    told = run("convert", "many", "made", "--to", "USDA")
+    assert told.code == 1
+    assert [line.split(":")[0] for line in told.out.splitlines() if line[0] != " "] == [
+        f"written    {Path.cwd() / 'made/table0/model.usda'}",
+        "failed     table1/model.obj",
+        f"written    {Path.cwd() / 'made/table2/model.usda'}",
+        "3 assets",
+    ]
+    assert told.out.splitlines()[-1] == "3 assets: 2 written, 1 failed; hulls 12 -> 12"
+    assert {hull["label"] for hull in run("info", "made/table2/model.usda", "--json").json["hulls"]} == {
+        "leg",
+        "misc",
+        "top",
+    }
+    write_table(Path("many/table1/model.obj"))
+    again = run("convert", "many", "made", "--to", "usda", "--json")
+    assert [line["status"] for line in again.lines] == ["skipped", "unchanged", "skipped"]
+    elsewhere = run("convert", "many", "made", "--to", "urdf", "--json")
+    assert [line["status"] for line in elsewhere.lines] == ["unchanged"] * 3
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("row.obj",), "there is nothing to write to"),
+        (("row.obj", "t.obj", "out"), "several assets and no format"),
+        (("row.obj", "out", "--to", "wrl"), "nothing is written as .wrl"),
+        (("row.obj", "out", "--to", ".obj", "--overwrite"), "--overwrite is for one asset"),
+    ],
+)
+def test_convert_says_what_is_missing(run: Run, words: tuple[str, ...], message: str) -> None:
+    told = run("convert", *words)
+    assert told.code == 2
+    assert message in told.err
 
 
 def test_fmt_prints_the_canonical_form_and_checks_it(run: Run) -> None:

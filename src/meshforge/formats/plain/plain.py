@@ -69,9 +69,8 @@ class Edit:
 
 
 class PlainFormat(Format):
-    """A format of mesh files without structure; writable: whether it can hold an edit."""
+    """A format of mesh files without structure."""
 
-    writable: ClassVar[bool] = True
     holds: ClassVar[frozenset[What]] = frozenset({What.OPAQUE})
     instead: ClassVar[Mapping[What, str]] = AS_HULLS
 
