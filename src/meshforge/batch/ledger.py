@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -11,6 +12,10 @@ from meshforge.batch.edit import Worked
 from meshforge.batch.folder import STATE
 from meshforge.batch.outcome import Edited, Failed, Outcome, Unchanged
 from meshforge.batch.stamp import Inputs, Stamp, all_stamps, read_stamp
+from meshforge.errors import MeshForgeError
+
+_HOPELESS = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO}
+"""What is wrong with the disk, not with a file."""
 
 
 class Ledger:
@@ -31,13 +36,23 @@ class Ledger:
             self._record(stamp.asset, stamp.outputs)
 
     def settle(self, worked: Worked) -> Outcome:
-        """Put the files of one asset in place, or away where it failed; its final outcome."""
+        """Put the files of one asset in place, or away where it failed; its final outcome.
+
+        Raises MeshForgeError where nothing can be written any more: a full disk fails all assets alike.
+        """
         asset = worked.outcome.asset
         self._pending.discard(asset)
-        outcome = self._settled(worked)
-        if isinstance(outcome, Failed):
-            self._withdraw(asset)
-            Stamp.of_failure(outcome, worked.inputs).write(self._out)
+        try:
+            outcome = self._settled(worked)
+            if isinstance(outcome, Failed):
+                self._withdraw(asset)
+                Stamp.of_failure(outcome, worked.inputs).write(self._out)
+        except OSError as error:
+            raise MeshForgeError(
+                f"nothing can be written here any more: {error.strerror}",
+                where=str(self._out),
+                remedy="What is in place stays. Mend that, then run the same command again: it goes on where it was.",
+            ) from error
         return outcome
 
     def _settled(self, worked: Worked) -> Outcome:
@@ -53,7 +68,9 @@ class Ledger:
             try:
                 self._put(outcome, draft, worked.inputs)
             except OSError as error:
-                return Failed(outcome.asset, f"{error.filename}: {error.strerror}", outcome.seconds)
+                if error.errno in _HOPELESS:
+                    raise
+                return Failed(outcome.asset, f"{error.filename or self._out}: {error.strerror}", outcome.seconds)
         return outcome
 
     def _clash(self, asset: str, outputs: Mapping[str, str]) -> str | None:

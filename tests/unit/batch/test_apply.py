@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Generator, Sequence
@@ -23,6 +24,7 @@ from meshforge.batch import (
     locked,
     status,
 )
+from meshforge.batch.stamp import Stamp
 from meshforge.errors import MeshForgeError, UsageError
 from meshforge.formats import load
 from meshforge.language import Program
@@ -286,3 +288,25 @@ def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path
     outcomes = list(apply(Program.parse(PROGRAM), work, out, workers=1, timeout=2.0))
     assert words(outcomes) == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed) and "longer than 2 seconds" in outcomes[0].error
+
+
+def test_a_full_disk_ends_the_run_and_the_next_one_goes_on(
+    assets: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = tmp_path / "whole"
+    run(assets, whole)
+    room = [3]
+
+    def write(self: Stamp, folder: Path) -> None:
+        room[0] -= 1
+        if room[0] < 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        written(self, folder)
+
+    written = Stamp.write
+    monkeypatch.setattr(Stamp, "write", write)
+    with pytest.raises(MeshForgeError, match=r"out: nothing can be written here any more: No space left(.|\n)*goes on"):
+        run(assets, out)
+    monkeypatch.undo()
+    run(assets, out)
+    assert tree(out) == tree(whole)

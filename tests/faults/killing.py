@@ -1,0 +1,119 @@
+"""Kill -9 at random moments, of a batch, of labelling and of the studio."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import time
+from pathlib import Path
+from random import Random
+from threading import Timer
+
+import httpx
+
+from meshforge.project import Project
+from meshforge.symbolic import read_labels
+from tests.e2e.studio import opened
+from tests.faults.runs import begun, ended, is_part_of, killed, outputs, stool_family, table_family
+
+_STOOLS, _TABLES = 40, 5
+_WORDS = ("panel", "leg", "handle", "drawer", "misc")
+
+
+class Applying:
+    """`apply` killed: every output is whole or not there, and the same command completes the rest."""
+
+    title = "`apply`, killed"
+
+    def __init__(self, folder: Path) -> None:
+        stool_family(folder, _STOOLS)
+        self._folder, began = folder, time.monotonic()
+        assert ended(begun(["apply", "p.mf", "assets", "--out", "whole"], folder))[0] == 0
+        self._longest = time.monotonic() - began
+        self._whole = outputs(folder / "whole")
+
+    def trial(self, draw: Random) -> str:
+        out = self._folder / "out"
+        shutil.rmtree(out, ignore_errors=True)
+        words = ["apply", "p.mf", "assets", "--out", "out"]
+        was_running = killed(begun(words, self._folder), draw.uniform(0.2, self._longest), draw)
+        left = outputs(out)
+        assert is_part_of(left, self._whole), "a file is neither whole nor missing"
+        assert ended(begun(words, self._folder))[0] == 0
+        assert outputs(out) == self._whole, "the second run leaves something else"
+        return "after it was done" if not was_running else "in the midst" if left else "before the first output"
+
+
+class Labelling:
+    """`label` killed: what a person said stays byte for byte, files are whole, and another run completes it."""
+
+    title = "`label --with propagate`, killed"
+
+    def __init__(self, folder: Path) -> None:
+        table_family(folder, _TABLES)
+        self._folder = folder
+        project = Project.create(folder / "p", [folder / "assets"], vocabulary=_WORDS)
+        self._by_hand = project.assets()[:2]
+        for asset in self._by_hand:
+            true = read_labels((folder / "assets" / asset).with_suffix(".labels.json")).labels
+            project.set_labels(asset, {name: label.name for name, label in true.items()})
+        shutil.copytree(project.folder, folder / "begun")
+        began = time.monotonic()
+        assert ended(begun(["label", "p", "--with", "propagate"], folder))[0] == 0
+        self._longest = time.monotonic() - began
+        self._before, self._whole = outputs(folder / "begun/labels"), outputs(folder / "p/labels")
+
+    def trial(self, draw: Random) -> str:
+        project = self._folder / "p"
+        shutil.rmtree(project)
+        shutil.copytree(self._folder / "begun", project)
+        words = ["label", "p", "--with", "propagate"]
+        was_running = killed(begun(words, self._folder), draw.uniform(0.2, self._longest), draw)
+        left = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
+        assert is_part_of(left, self._whole), "a labels file is neither as before nor as it should be"
+        assert self._before.items() <= left.items(), "what a person said is gone"
+        assert ended(begun(words, self._folder))[0] == 0
+        now = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
+        assert now == self._whole, "the second run leaves other labels"
+        return "after it was done" if not was_running else "in the midst" if left != self._before else "before a label"
+
+
+class Studio:
+    """The studio killed while somebody labels: what it said was done is on disk, and it opens again."""
+
+    title = "`studio`, killed while labels are given"
+
+    def __init__(self, folder: Path) -> None:
+        table_family(folder, _TABLES)
+        self._folder = folder
+        Project.create(folder / "p", [folder / "assets"], vocabulary=_WORDS)
+
+    def trial(self, draw: Random) -> str:
+        project = Project.open(self._folder / "p")
+        hulls = {asset: [hull.name for hull in project.mesh(asset).hulls] for asset in project.assets()}
+        said = {(asset, name): label.name for asset in hulls for name, label in project.labels(asset).labels.items()}
+        asked, told = dict(said), dict(said)
+        with opened(self._folder, project.folder) as studio:
+            studio.settled()
+            killing = Timer(draw.uniform(0.0, 1.5), lambda: studio.process.send_signal(signal.SIGKILL))
+            killing.start()
+            try:
+                while True:
+                    asset = draw.choice(list(hulls))
+                    name, label = draw.choice(hulls[asset]), draw.choice(_WORDS)
+                    asked[asset, name] = label
+                    answer = studio.post(
+                        "/api/edit", {"kind": "label", "asset": asset, "hulls": [name], "label": label}
+                    )
+                    assert answer.status_code == 200, answer.text
+                    told[asset, name] = label
+            except httpx.TransportError:
+                pass
+            killing.join()
+            studio.process.wait(60)
+        found = {(asset, name): label.name for asset in hulls for name, label in project.labels(asset).labels.items()}
+        assert found in (told, asked), "something that was said to be done is not on disk"
+        return "with one in the air" if asked != told else "between two"
+
+
+KILLING = (Applying, Labelling, Studio)
