@@ -13,7 +13,7 @@ import lxml.html
 import pytest
 from PIL import Image
 
-from meshforge.batch import ReportAsset, write_report
+from meshforge.batch import Failed, ReportAsset, Summary, Unchanged, write_report
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.views.scenes import box, hull, table
@@ -115,6 +115,16 @@ def test_headline_counts_assets_hulls_and_seconds(tree: Any) -> None:
         "hulls": "7 → 6 −14 %",
         "run time": "3.2 s",
     }
+
+
+def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: Path) -> None:
+    summary = Summary()
+    for k in range(5000):
+        summary.add(Failed(f"bad{k}", "no", 0.0) if k < 2 else Unchanged(f"a{k}", "o", (), 3, 2, 0.0))
+    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), summary=summary))
+    figures = dict(zip(texts(page, "//dl//dt"), texts(page, "//dl//dd"), strict=True))
+    assert figures == {"assets": "5,000", "unchanged": "4,998", "failed": "2", "hulls": "14,994 → 9,996 −33 %"}
+    assert "4 of 5,000 assets are shown, those that failed first." in texts(page, "//p")
 
 
 def test_the_legend_counts_labels_before_and_after(tree: Any) -> None:

@@ -250,6 +250,35 @@ def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) ->
     assert not Path("out/bad.obj").exists()
 
 
+def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
+    Path("bad.obj").write_text("v 1 2\n")
+    Path("p.mf").write_text("labels leg, panel\n\nIs(leg) => Merge\n")
+    told = run("apply", "p.mf", "row.obj", "bad.obj", "--out", "out", "--report", "r.html", "--check", "physics")
+    assert told.code == 1
+    page = Path("r.html").read_text("utf-8")
+    assert page.index('data-name="bad.obj"') < page.index('data-name="row.obj"')
+    assert "physics: at rest" in page
+    assert "2 assets (2 OBJ" in told.err
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (("--check", "fit"), "--check says nothing without --report"),
+        (("--report", "r.html", "--dry-run"), "with --dry-run there is nothing to show"),
+        (("--report", "r.html", "--check", "fits"), "there is no check 'fits'"),
+        (("--report", "r.html", "--check", "unity", "--check", "bullet"), "two engines for one report: unity, bullet"),
+        (("--memory", "much"), "'much' is no number of GiB above 0"),
+    ],
+)
+def test_apply_refuses_options_that_make_no_sense(run: Run, more: tuple[str, ...], message: str) -> None:
+    Path("p.mf").write_text("labels leg, panel\n\nIs(leg) => Merge\n")
+    told = run("apply", "p.mf", "row.obj", "--out", "out", *more)
+    assert told.code == 2
+    assert message in told.err
+    assert not Path("out").exists()
+
+
 def test_apply_dry_run_writes_nothing(run: Run) -> None:
     Path("p.mf").write_text("Is(leg) => Delete\n")
     told = run("apply", "p.mf", "row.obj", "--out", "out", "--dry-run", "--workers", "1")
