@@ -39,11 +39,9 @@ def headline(
 
 
 def _some(shown: int, found: Mapping[Status, int]) -> str:
-    """Which of very many assets are on the page."""
-    first = (
-        "Those that failed are shown first, then the first of the others" if found["failed"] else "The first are shown"
-    )
-    return f"{first}: {shown:,} of {sum(found.values()):,}."
+    """How many of very many assets are on the page."""
+    some = f"{shown:,} of {sum(found.values()):,} assets are shown"
+    return f"{some}, those that failed first." if found["failed"] else f"{some}."
 
 
 def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str) -> Node:
