@@ -53,6 +53,14 @@ def times_of(paths: Iterable[Path]) -> Times:
     return {path: changed_at(path) for path in paths}
 
 
+def is_file(path: Path) -> bool:
+    """Whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def relative_name(path: Path, base: Path) -> str:
     """A path as seen from a folder, with forward slashes."""
     return Path(os.path.relpath(path, base)).as_posix()

@@ -76,13 +76,13 @@ def written(path: Path, data: bytes) -> Path:
     return path
 
 
-def told_or_read(path: Path) -> None:
-    """Read a file as the program does; an error must name a file, an asset must be sound."""
+def told_or_read(path: Path) -> bool:
+    """Whether a file is read as the program does; an error must name a file, an asset must be sound."""
     try:
         asset = read(path)
     except MeshForgeError as error:
         assert str(path.parent) in error.message
-        return
+        return False
     mesh = SymbolicMesh.of(asset)
     names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.opaque]
     assert len(set(names)) == len(names)
@@ -90,3 +90,4 @@ def told_or_read(path: Path) -> None:
         assert np.isfinite(hull.vertices).all() and hull.volume > 0
     assert all(piece.reason for piece in asset.opaque)
     assert len(mesh.contacts) >= 0  # the graph can be made
+    return True

@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from meshforge.errors import AssetError
+from meshforge.files import is_file
 from meshforge.formats.meshfile.gltf import damage_at, parsed
 from meshforge.formats.meshfile.gltf.items import entries
 
@@ -77,17 +78,10 @@ def _add(found: dict[str, Path], folder: Path, inside: str, reference: str) -> N
     for text in (reference, *reference.split()):
         key = posixpath.normpath(posixpath.join(inside, text.replace("\\", "/")))
         path = Path(os.path.normpath(folder / key))
-        if text and not posixpath.isabs(key) and "\0" not in key and _is_there(path):
+        if text and not posixpath.isabs(key) and "\0" not in key and is_file(path):
             found.setdefault(key, path)
             if text == reference:
                 return
-
-
-def _is_there(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except OSError:  # a name longer than those of files
-        return False
 
 
 def _bytes(path: Path) -> bytes:

@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from meshforge.errors import nearest
+from meshforge.files import is_file
 
 _PACKAGE = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = re.compile(r"file:(?://[^/]*(?=/)|//)?(.*)", re.S)
@@ -27,7 +28,7 @@ class Resolver:
 
     def find(self, reference: str) -> Path | None:
         """The file a reference leads to, None where it is not there."""
-        return next((path for path in self.candidates(reference) if _is_file(path)), None)
+        return next((path for path in self.candidates(reference) if is_file(path)), None)
 
     def candidates(self, reference: str) -> Iterator[Path]:
         """The places where the file may be, likeliest first; none for an address in the network."""
@@ -90,14 +91,6 @@ class Resolver:
 def _shown(path: Path) -> str:
     """A path as messages show it, of long names the beginning."""
     return str(Path(*(name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts)))
-
-
-def _is_file(path: Path) -> bool:
-    """Whether there is a file of this name; no name is too long, or too odd, to ask."""
-    try:
-        return path.is_file()
-    except OSError:
-        return False
 
 
 def is_address(reference: str) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.errors import MeshForgeError
+from meshforge.files import is_file
 from meshforge.formats.companions import companions
 from meshforge.formats.mjcf.files.assets import Folders, referring
 from meshforge.formats.mjcf.files.sources import Tree, gather
@@ -51,5 +52,5 @@ def _settings(tree: Tree) -> Iterator[Path]:
         value = node.attributes.get("value", "") if node.tag == "config" else ""
         if value and "\0" not in value:
             path = Path(os.path.normpath(tree.main.path.parent / value))
-            if path.is_file():
+            if is_file(path):
                 yield path

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from meshforge.errors import AssetError
-from meshforge.files import plain_path, relative_name
+from meshforge.files import is_file, plain_path, relative_name
 from meshforge.formats.triangles import contents
 from meshforge.formats.xml import Element, Text, parsed
 
@@ -85,7 +85,7 @@ class Tree:
 
     def has(self, path: Path) -> bool:
         """Whether a file is there."""
-        return path in self.files or path.is_file()
+        return path in self.files or is_file(path)
 
 
 def gather(main: Path, files: Mapping[Path, bytes] | None = None) -> Tree:
@@ -157,7 +157,7 @@ class _Gatherer:
         return self._node(root, len(self.sources) - 1, depth + 1).children
 
     def _find(self, reference: str, source: int) -> Path | None:
-        return next((p for p in self._candidates(reference, source) if p in self.files or p.is_file()), None)
+        return next((p for p in self._candidates(reference, source) if p in self.files or is_file(p)), None)
 
     def _candidates(self, reference: str, source: int) -> list[Path]:
         """Where an included file may be: from the main file's folder, from that of the file which includes it."""

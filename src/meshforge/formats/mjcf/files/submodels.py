@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.errors import MeshForgeError
+from meshforge.files import is_file
 from meshforge.formats.mjcf.files.assets import Folders
 from meshforge.formats.mjcf.files.sources import Tree, gather
 
@@ -33,5 +34,5 @@ def attached(tree: Tree) -> Iterator[Path]:
     for node in tree.root.walk():
         if node.tag == "model" and node.attributes.get("file"):
             path = folders.find(tree, node)
-            if path.is_file():
+            if is_file(path):
                 yield path

@@ -8,6 +8,7 @@ from math import isnan
 from typing import TYPE_CHECKING, Literal
 
 from meshforge.errors import AssetError
+from meshforge.files import is_file
 from meshforge.formats.mjcf.files.assets import Folders
 from meshforge.formats.mjcf.files.flat import Flat, flatten
 from meshforge.formats.mjcf.files.sources import Node, Tree
@@ -145,7 +146,7 @@ def _refuse_lookalikes(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
     for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _collides(geom, spec)):
         node = nodes.get(name)
         path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
-        if path is not None and path.is_file():
+        if path is not None and is_file(path):
             contents(path)
 
 

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from meshforge.errors import AssetError
+from meshforge.files import is_file
 from meshforge.formats.sdf.files.version import NEWEST, version_of
 from meshforge.formats.xml import Text, parsed
 
@@ -22,7 +23,7 @@ def main_file(folder: Path) -> Path | None:
     named = sorted(versions(folder).items(), reverse=True)
     names = [name for version, name in named if version <= NEWEST] or [name for _, name in named]
     found = (Path(os.path.normpath(folder / name)) for name in (*names, _USUAL))
-    return next((path for path in found if path.is_file()), None)
+    return next((path for path in found if is_file(path)), None)
 
 
 def is_main(path: Path) -> bool:
@@ -37,7 +38,7 @@ def is_main(path: Path) -> bool:
 def versions(folder: Path) -> dict[tuple[int, int], str]:
     """The files that a folder's `model.config` names, by the version of SDF they are in; none where there is none."""
     path = folder / CONFIG
-    if not path.is_file():
+    if not is_file(path):
         return {}
     try:
         root = parsed(Text.of(path.read_bytes()).data, str(path))

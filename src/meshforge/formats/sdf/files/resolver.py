@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from meshforge.files import is_file
 from meshforge.formats.references import Resolver, placement
 from meshforge.formats.sdf.files.config import CONFIG, main_file
 
@@ -42,7 +43,7 @@ class ModelResolver(Resolver):
 
     def _is_own(self, name: str, rest: str) -> bool:
         """Whether a model's file is, or is to be, in the folder itself."""
-        found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if path.is_file()), None)
+        found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if is_file(path)), None)
         if found is not None:
             return found == self._joined(self.folder, rest)
         return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))

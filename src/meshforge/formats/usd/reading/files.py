@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from meshforge.files import is_file
 from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.usd.reading.stage import Scene
 
@@ -34,4 +35,4 @@ def _file(place: Any) -> Path | None:
     """The file of a resolved place; of something within a package, the package."""
     text = str(place).split("[", 1)[0]
     path = Path(text)
-    return path if text and path.is_file() else None
+    return path if text and is_file(path) else None

@@ -1,0 +1,1 @@
+"""Very many damaged files for every reader, each read or refused in little time and memory."""
