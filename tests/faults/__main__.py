@@ -18,7 +18,7 @@ from tests.faults.killing import KILLING
 
 def main() -> int:
     """Run them."""
-    parser = argparse.ArgumentParser(prog="python -m tests.faults")
+    parser = argparse.ArgumentParser(prog="script/faults")
     parser.add_argument("--times", type=int, default=50)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", default="", help="those with this word in their title")
