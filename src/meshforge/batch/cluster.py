@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import sys
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from typing import Any, TypeVar
@@ -97,7 +98,8 @@ def _cores(ray: Any) -> tuple[int, int]:
 def _chunk(
     function: Callable[[Item], Result], items: list[Item], workers: int, timeout: float | None, memory: int | None
 ) -> list[Result | Lost]:
-    """Runs on a node."""
+    """Runs on a node, in a process of Ray's; the workers that it starts need not load Ray's main module first."""
+    vars(sys.modules["__main__"]).pop("__file__", None)
     bound = memory or share(workers)
     return list(isolated(function, items, workers=workers, timeout=timeout, memory=bound))
 

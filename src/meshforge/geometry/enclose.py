@@ -17,6 +17,7 @@ from meshforge.geometry.shapes import Polytope
 
 _SAME = 1e-9  # corners and planes nearer than this, where the hull is one long, wide and high, are one
 _TRIES = 12  # farthest corners that are tried before no further plane counts as fitting the budget
+_MOST = 2000  # planes, where a budget knows no end
 _GROWTH = (0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # of planes outwards, in turn, against rounding; shares of the size
 
 
@@ -115,13 +116,14 @@ class _Search:
 
     def run(self) -> None:
         """Add planes until the budget is used up, or nothing sticks out any more."""
-        size = float(self.extents.max())
-        while len(self.normals) < self.budget.polygons:
+        least = _SAME * float(self.extents.max())
+        most = min(self.budget.polygons, 2 * self.budget.vertices - 4, _MOST)  # faces of any polytope, by Euler
+        while len(self.normals) < most:
             corners = self.corners()
             away = corners - self._below(corners)
             gaps = np.linalg.norm(away, axis=1)
-            order = np.argsort(-gaps, kind="stable")[:_TRIES]
-            if gaps[order[0]] <= _SAME * size or not any(self._cut(away[k] / gaps[k]) for k in order if gaps[k] > 0):
+            order = [k for k in np.argsort(-gaps, kind="stable")[:_TRIES] if gaps[k] > least]
+            if not any(self._cut(corners[k], away[k] / gaps[k]) for k in order):
                 return
 
     def undo(self) -> bool:
@@ -131,11 +133,16 @@ class _Search:
         self.normals, self.offsets = self.normals[:-1], self.offsets[:-1]
         return True
 
-    def _cut(self, normal: Floats) -> bool:
-        """Add the plane that supports the hull in a direction, if the budget allows it."""
-        before = self.normals, self.offsets
+    def _cut(self, corner: Floats, normal: Floats) -> bool:
+        """Add the plane that supports the hull in a direction, if it cuts a corner off, and the budget allows it.
+
+        Where the nearest point is known to a few digits only, the plane may leave the corner as it is.
+        """
+        before, offset = (self.normals, self.offsets), float((self.old @ normal).max())
+        if corner @ normal - offset <= _SAME * float(self.extents.max()) / 2:
+            return False
         self.normals = np.vstack([self.normals, normal])
-        self.offsets = np.append(self.offsets, (self.old @ normal).max())
+        self.offsets = np.append(self.offsets, offset)
         if self._within():
             return True
         self.normals, self.offsets = before

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,6 +13,7 @@ from meshforge.batch.cluster import on_cluster
 from meshforge.batch.pool import Lost
 from meshforge.errors import MeshForgeError, StoppedError
 from meshforge.language import Program
+from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
 from tests.unit.batch.families import PROGRAM, tree, write_tables
 
 ray = pytest.importorskip("ray")
@@ -37,28 +35,15 @@ def cluster() -> Iterator[Any]:
     made.shutdown()  # type: ignore[no-untyped-call]
 
 
-def square_or_worse(number: int) -> int:
-    if number == 3:
-        os.kill(os.getpid(), signal.SIGKILL)
-    if number == 5:
-        time.sleep(60)
-    return number * number
-
-
-def slow_square(number: int) -> int:
-    time.sleep(0.1)
-    return number * number
-
-
 def test_results_come_in_order_and_a_crash_or_a_hang_loses_one_item(cluster: Any) -> None:
     count = [0]
 
     def done() -> None:
         count[0] += 1
 
-    found = list(on_cluster(square_or_worse, range(40), timeout=2.0, done=done))
+    found = list(on_cluster(square_or_worse, range(40), timeout=8.0, done=done))
     assert found[3] == Lost("its worker process died (SIGKILL)")
-    assert found[5] == Lost("it took longer than 2 seconds and was stopped", 2.0)
+    assert found[5] == Lost("it took longer than 8 seconds and was stopped", 8.0)
     assert [(k, n) for k, n in enumerate(found) if k not in (3, 5)] == [
         (k, k * k) for k in range(40) if k not in (3, 5)
     ]
@@ -91,6 +76,10 @@ def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
     cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
     assert [first, *results] == [n * n for n in range(64)]
     cluster.add_node(num_cpus=1)
+
+
+def test_workers_need_not_load_ray(cluster: Any) -> None:
+    assert list(on_cluster(has_ray, range(4))) == [False] * 4
 
 
 def test_it_can_be_stopped(cluster: Any) -> None:

@@ -1,0 +1,28 @@
+"""Work for the workers of a cluster; what they import for it takes no time."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+
+
+def square_or_worse(number: int) -> int:
+    """The square; of 3 the worker dies, of 5 it hangs."""
+    if number == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if number == 5:
+        time.sleep(600)
+    return number * number
+
+
+def slow_square(number: int) -> int:
+    """The square, after a while."""
+    time.sleep(0.1)
+    return number * number
+
+
+def has_ray(_: int) -> bool:
+    """Whether the worker has loaded Ray."""
+    return "ray" in sys.modules
