@@ -67,7 +67,8 @@ def apply(
     if report and dry_run:
         raise UsageError("with --dry-run there is nothing to show", remedy="Leave out --report.")
     work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
-    remark(str(plan(work.jobs, work.out)))
+    if len(work.jobs) > 1:
+        remark(str(plan(work.jobs, work.out)))
     summary, started = Summary(), perf_counter()
     bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
     options = {"workers": workers, "backend": backend, "mass": mass, "link": link, "dry_run": dry_run}

@@ -86,7 +86,8 @@ def _many(
     from meshforge.language import Program
 
     jobs, summary, (timeout, memory) = jobs_of(expand(sources), labels), Summary(), bounds
-    remark(str(plan(jobs, out)))
+    if len(jobs) > 1:
+        remark(str(plan(jobs, out)))
     seconds = TIMEOUT if timeout is None else timeout or None
     with progress(len(jobs), "converting") as advance:
         work = apply(
