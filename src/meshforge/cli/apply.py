@@ -13,7 +13,7 @@ import typer
 from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Outcome, Summary
+    from meshforge.batch import AssetJob, Failed, Outcome, Summary
     from meshforge.checks import Measures
     from meshforge.language import Program
     from meshforge.symbolic import SymbolicMesh
@@ -155,10 +155,15 @@ def told(outcome: Outcome) -> str:
     from meshforge.words import counted
 
     if isinstance(outcome, Failed):
-        return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+        return told_failed(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
     line = f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
+
+
+def told_failed(outcome: Failed) -> str:
+    """That an asset failed, and why."""
+    return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
 
 
 def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, measures: Measures | None) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from meshforge.cli.apply import told_failed
 from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ def _told(outcome: Outcome) -> str:
     from meshforge.words import counted
 
     if isinstance(outcome, Failed):
-        return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+        return told_failed(outcome)
     word = "skipped" if isinstance(outcome, Skipped) else "written"
     line = f"{word:10} {outcome.out}: {counted(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])

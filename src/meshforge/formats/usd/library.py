@@ -24,7 +24,7 @@ _LONGEST = 300  # characters of a complaint in a message
 def need_usd(where: str) -> None:
     """Raise AssetError where the package is not installed."""
     try:
-        import pxr.Usd  # noqa: F401
+        import pxr.Usd  # noqa: F401 (fails here, with the remedy, rather than later)
     except ImportError as error:
         problem = "USD files need the package usd-core, which is not installed"
         raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
