@@ -112,6 +112,7 @@ class _Work:
 
 
 def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out: Path | None) -> _Work:
+    from meshforge.batch import apply as run
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
@@ -121,9 +122,15 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out
             remedy=f"For other assets: meshforge apply {folder / 'program.mf'} ASSETS... --out DIR",
         )
     project = Project.open(folder)
-    program, jobs = project.work()
-    place = out or project.layout.edited
-    return _Work(program, jobs, place, project.apply, project.mesh, project.demonstrations())
+    program, jobs, templates = project.work()
+    return _Work(
+        program,
+        jobs,
+        out or project.layout.edited,
+        partial(run, program, jobs, templates=templates),
+        project.mesh,
+        frozenset(project.layout.kept_for("demonstrations")),
+    )
 
 
 def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:

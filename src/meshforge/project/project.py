@@ -479,9 +479,9 @@ class Project:
             stop=stop,
         )
 
-    def work(self) -> tuple[Program, tuple[AssetJob, ...]]:
-        """The program, and the jobs that `apply` runs it on. Raises ProjectError where there is no program yet."""
-        return applying.work(self, None)[:2]
+    def work(self) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
+        """What `apply` runs: the program, a job for each asset, and the templates. Raises ProjectError: no program."""
+        return applying.work(self, None)
 
     # After the program
 
