@@ -82,7 +82,7 @@ def _run(jobs: tuple[AssetJob, ...], task: Task, spread: Callable[..., _Results]
             stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
-        results = spread(edit, [(task, job) for job in jobs])
+        results = spread(partial(edit, task), jobs)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result

@@ -15,10 +15,13 @@ from meshforge.errors import AssetError
 from meshforge.formats import Mass, labels_beside, placed, read, save
 from meshforge.symbolic import SymbolicMesh, write_labels
 
+FILES, STAMP = "files", "stamp.json"
+"""What there is in the folder of a draft."""
+
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """An output that lies aside.
+    """An output that lies aside: its files, and beside their folder the stamp that is to vouch for them.
 
     files: the digest of each file by its path in `folder`; main: the path of the main one; notes: what the format
     could not hold, or holds in another form; labels: of its hulls, in the order that the main file reads back in.
@@ -30,6 +33,11 @@ class Draft:
     notes: tuple[str, ...] = ()
     labels: tuple[str | None, ...] = ()
 
+    @property
+    def whole(self) -> Path:
+        """The folder of the files' folder and the stamp: what is put in place."""
+        return self.folder.parent
+
 
 def drafts(out: Path) -> Path:
     """The folder for outputs that are not in place yet; on the disk of the output, so that they can be renamed."""
@@ -39,7 +47,7 @@ def drafts(out: Path) -> Path:
 def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
     """Where the output of an asset would be."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
-    folder = drafts(task.out) / f"{text_digest(job.id)}-{attempt}"
+    folder = drafts(task.out) / f"{text_digest(job.id)}-{attempt}" / FILES
     if task.to is None:
         return Draft(folder, placed(asset, job.base, folder).relative_to(folder).as_posix())
     stem = job.id if job.path.is_dir() else job.id.removesuffix(job.path.suffix)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from meshforge.asset import Asset
 from meshforge.batch.correction import replay
@@ -16,10 +17,10 @@ from meshforge.batch.digests import (
     software,
     template_digests,
 )
-from meshforge.batch.draft import Draft, planned, written
+from meshforge.batch.draft import STAMP, Draft, planned, written
 from meshforge.batch.job import AssetJob, Task
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Unchanged
-from meshforge.batch.stamp import Inputs, read_stamp
+from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.errors import told
 from meshforge.formats import read
 from meshforge.language import RunResult
@@ -27,21 +28,27 @@ from meshforge.preparation import prepared_by, record_digest
 from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
 from meshforge.words import listed
 
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
+"""What is wrong with the disk, not with a file: all assets would fail alike."""
 _MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
 
 
 @dataclass(frozen=True, slots=True)
 class Worked:
-    """What a worker made of one asset; draft: its new files, None where there are none to put in place."""
+    """What a worker made of one asset.
+
+    draft: its new files with their stamp, None where there are none to put in place; inputs: of a failed asset, as far
+    as they are known; disk: what is wrong with it, where nothing can be written any more.
+    """
 
     outcome: Outcome
     inputs: Inputs | None = None
     draft: Draft | None = None
+    disk: str | None = None
 
 
-def edit(work: tuple[Task, AssetJob]) -> Worked:
+def edit(task: Task, job: AssetJob) -> Worked:
     """Run a task on one asset. Never raises: whatever goes wrong is the asset's outcome."""
-    task, job = work
     started, inputs = time.perf_counter(), None
     try:
         skipped = _skipped(task, job)
@@ -55,7 +62,9 @@ def edit(work: tuple[Task, AssetJob]) -> Worked:
         why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
         return Worked(Failed(job.id, why, time.perf_counter() - started), inputs)
     except Exception as error:  # a failed asset never stops the others
-        return Worked(Failed(job.id, told(error, str(job.path)), time.perf_counter() - started), inputs)
+        failed = Failed(job.id, told(error, str(job.path)), time.perf_counter() - started)
+        disk = error.strerror if isinstance(error, OSError) and error.errno in NO_ROOM else None
+        return Worked(failed, inputs, disk=disk)
 
 
 def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
@@ -79,7 +88,7 @@ def _skipped(task: Task, job: AssetJob) -> Worked | None:
         return None
     if not same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
         return None
-    return Worked(stamp.skipped(task.out), stamp.inputs)
+    return Worked(stamp.skipped(task.out))
 
 
 def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: float) -> Worked:
@@ -101,7 +110,10 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
         notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
     )
-    return Worked(outcome, inputs, None if task.dry_run else draft)
+    if task.dry_run:
+        return Worked(outcome)
+    Stamp.of(outcome, inputs, draft).write(draft.whole / STAMP)
+    return Worked(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
 
 
 def _lines(result: RunResult) -> tuple[RuleLine, ...]:

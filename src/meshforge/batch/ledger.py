@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import errno
-from collections.abc import Iterable, Mapping
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from meshforge.batch.digests import file_digest
-from meshforge.batch.draft import Draft
-from meshforge.batch.edit import Worked
+from meshforge.batch.draft import FILES, STAMP, Draft
+from meshforge.batch.edit import NO_ROOM, Worked
 from meshforge.batch.folder import STATE
-from meshforge.batch.outcome import Edited, Failed, Outcome, Unchanged
-from meshforge.batch.stamp import Inputs, Stamp, all_stamps, read_stamp
+from meshforge.batch.outcome import Failed, Outcome
+from meshforge.batch.stamp import Stamp, all_stamps, stamp_in, stamp_path
 from meshforge.errors import MeshForgeError
-
-_HOPELESS = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO}
-"""What is wrong with the disk, not with a file."""
 
 
 class Ledger:
@@ -25,15 +24,22 @@ class Ledger:
     """
 
     def __init__(self, out: Path, pending: Iterable[str]) -> None:
-        """Take stock of what earlier runs wrote; pending: the assets of this run, whose old files bind nobody."""
+        """Take stock of what earlier runs wrote, and finish what a killed one was at.
+
+        pending: the assets of this run, whose old files bind nobody. Raises MeshForgeError as `settle` does.
+        """
         self._out = out
+        self._placing = out / STATE / "placing"  # the one draft whose files are on their way
         self._pending = set(pending)
         self._files: dict[str, dict[str, str]] = {}  # digests by file name, of each asset
         self._writers: dict[str, dict[str, None]] = {}  # the assets that wrote each file
-        for draft in (out / STATE).rglob("*.tmp"):  # of a killed run; the caller holds the lock, so nobody writes it
-            draft.unlink()
-        for stamp in all_stamps(out):
-            self._record(stamp.asset, stamp.outputs)
+        with self._hopeful():
+            for draft in (out / STATE).rglob("*.tmp"):  # of a killed run; the caller holds the lock: nobody writes it
+                draft.unlink()
+            for stamp in all_stamps(out):
+                self._record(stamp.asset, stamp.outputs)
+            if self._placing.exists():
+                self._finish()
 
     def settle(self, worked: Worked) -> Outcome:
         """Put the files of one asset in place, or away where it failed; its final outcome.
@@ -42,45 +48,56 @@ class Ledger:
         """
         asset = worked.outcome.asset
         self._pending.discard(asset)
-        try:
+        if worked.disk:
+            raise self._ended(worked.disk)
+        with self._hopeful():
             outcome = self._settled(worked)
             if isinstance(outcome, Failed):
-                self._withdraw(asset)
-                Stamp.of_failure(outcome, worked.inputs).write(self._out)
-        except OSError as error:
-            raise MeshForgeError(
-                f"nothing can be written here any more: {error.strerror}",
-                where=str(self._out),
-                remedy="What is in place stays. Mend that, then run the same command again: it goes on where it was.",
-            ) from error
+                self._forget(asset, list(self._files.get(asset, {})))
+                Stamp.of_failure(outcome, worked.inputs).write(stamp_path(self._out, asset))
         return outcome
+
+    @contextmanager
+    def _hopeful(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise self._ended(error.strerror) from error
+
+    def _ended(self, why: str | None) -> MeshForgeError:
+        return MeshForgeError(
+            f"nothing can be written here any more: {why}",
+            where=str(self._out),
+            remedy="What is in place stays. Mend that, then run the same command again: it goes on where it was.",
+        )
 
     def _settled(self, worked: Worked) -> Outcome:
         outcome, draft = worked.outcome, worked.draft
         if isinstance(outcome, Failed):
             return outcome
-        stamp = read_stamp(self._out, outcome.asset)
-        outputs = draft.files if draft else stamp.outputs if stamp else {}
+        outputs = draft.files if draft else self._files.get(outcome.asset, {})
         problem = self._clash(outcome.asset, outputs) or self._in_the_way(outputs)
         if problem:
             return Failed(outcome.asset, problem, outcome.seconds)
-        if draft and worked.inputs and isinstance(outcome, Edited | Unchanged):
+        if draft:
             try:
-                self._put(outcome, draft, worked.inputs)
+                self._put(outcome.asset, draft)
             except OSError as error:
-                if error.errno in _HOPELESS:
+                if error.errno in (*NO_ROOM, errno.EIO):
                     raise
+                shutil.rmtree(self._placing, ignore_errors=True)
                 return Failed(outcome.asset, f"{error.filename or self._out}: {error.strerror}", outcome.seconds)
         return outcome
 
     def _clash(self, asset: str, outputs: Mapping[str, str]) -> str | None:
         for name, digest in outputs.items():
-            for other in self._writers.get(name, {}):
-                if other != asset and other not in self._pending and self._files[other][name] != digest:
-                    return (
-                        f"{self._out / name}: {other} has written this file with other contents\n"
-                        "  The two assets share a file that their edits change differently; write them to two folders."
-                    )
+            bound = (other for other in self._writers.get(name, {}) if other != asset and other not in self._pending)
+            other = next(bound, None)  # the others agree with it
+            if other is not None and self._files[other][name] != digest:
+                return (
+                    f"{self._out / name}: {other} has written this file with other contents\n"
+                    "  The two assets share a file that their edits change differently; write them to two folders."
+                )
         return None
 
     def _in_the_way(self, outputs: Mapping[str, str]) -> str | None:
@@ -94,22 +111,40 @@ class Ledger:
                 return f"{target}: this is there, and no earlier run wrote it\n  Move it away, or choose another --out."
         return None
 
-    def _put(self, outcome: Edited | Unchanged, draft: Draft, inputs: Inputs) -> None:
-        """Announce the files, rename them into place, the main one last, then vouch for them.
+    def _put(self, asset: str, draft: Draft) -> None:
+        """Put the files of a draft in place.
 
-        Killed in between, the announcement tells the next run that these files are ours and not to be trusted.
+        First the draft becomes the one that is on its way, by one rename. Killed after that, the next run finds it,
+        with the stamp that says what it is, and goes on: nothing else has to be written down.
         """
-        announced = {**self._files.get(outcome.asset, {}), **draft.files}
-        self._record(outcome.asset, announced)
-        Stamp(asset=outcome.asset, status="writing", outputs=announced).write(self._out)
-        for name in sorted(draft.files, key=lambda name: (name == draft.main, name)):
-            (self._out / name).parent.mkdir(parents=True, exist_ok=True)
-            (draft.folder / name).replace(self._out / name)
-        self._forget(outcome.asset, [name for name in announced if name not in draft.files])
-        Stamp.of(outcome, inputs, draft).write(self._out)
+        self._record(asset, {**self._files.get(asset, {}), **draft.files})
+        draft.whole.replace(self._placing)
+        self._place(asset, draft.files, draft.main)
 
-    def _withdraw(self, asset: str) -> None:
-        self._forget(asset, list(self._files.get(asset, {})))
+    def _finish(self) -> None:
+        """Put the files in place that a killed run had not."""
+        stamp = stamp_in(self._placing / STAMP)  # not there any more: everything was in place
+        if stamp and not self._in_the_way(stamp.outputs):
+            self._record(stamp.asset, {**self._files.get(stamp.asset, {}), **stamp.outputs})
+            self._place(stamp.asset, stamp.outputs, stamp.out)
+        else:
+            shutil.rmtree(self._placing)
+
+    def _place(self, asset: str, files: Mapping[str, str], main: str) -> None:
+        """Rename the files into place, the main one last, put away those of before, and vouch for all.
+
+        A file that is not there has been put in place before, or is missed when its digest is asked for.
+        """
+        for name in sorted(files, key=lambda name: (name == main, name)):
+            source, target = self._placing / FILES / name, self._out / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if source.exists():
+                source.replace(target)
+        self._forget(asset, [name for name in self._files[asset] if name not in files])
+        stamp = stamp_path(self._out, asset)
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        (self._placing / STAMP).replace(stamp)
+        shutil.rmtree(self._placing)
 
     def _forget(self, asset: str, names: Iterable[str]) -> None:
         """Remove files that were written for this asset and for nobody else, unless someone changed them since."""

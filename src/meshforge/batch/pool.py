@@ -82,13 +82,13 @@ def _pooled(
 ) -> Generator[Result | Lost, None, None]:
     from pebble import ProcessPool
 
-    pool = ProcessPool(max_workers=workers, context=workers_context(), **_starting(memory))
+    pool = ProcessPool(workers, initializer=_begin, initargs=[function, memory], context=workers_context())
     waiting: deque[Future[Result]] = deque()
     rest = iter(items)
     try:
         while True:
             while len(waiting) < AHEAD * workers and (item := next(rest, _END)) is not _END:
-                future = _scheduled(pool, function, item, timeout)
+                future = _scheduled(pool, item, timeout)
                 if done:
                     future.add_done_callback(lambda _: done())
                 waiting.append(future)
@@ -104,11 +104,19 @@ def _pooled(
 
 
 _END: Any = object()
+_function: Callable[[Any], Any]
 
 
-def _starting(memory: int | None) -> dict[str, Any]:
-    """What each worker does first."""
-    return {"initializer": bound, "initargs": [memory]} if memory else {}
+def _begin(function: Callable[[Any], Any], memory: int | None) -> None:
+    """What each worker does first: the function comes once, not with every item, for it may hold much."""
+    global _function
+    _function = function
+    if memory:
+        bound(memory)
+
+
+def _worked(item: Any) -> Any:
+    return _function(item)
 
 
 def heed(stop: Callable[[], bool] | None) -> None:
@@ -117,11 +125,9 @@ def heed(stop: Callable[[], bool] | None) -> None:
         raise StoppedError("this was stopped")
 
 
-def _scheduled(
-    pool: ProcessPool, function: Callable[[Item], Result], item: Item, timeout: float | None
-) -> Future[Result]:
+def _scheduled(pool: ProcessPool, item: Any, timeout: float | None) -> Future[Any]:
     try:
-        return pool.schedule(function, args=[item], timeout=timeout)
+        return pool.schedule(_worked, args=[item], timeout=timeout)
     except RuntimeError as error:  # the pool has given up
         raise _no_workers(error) from error
 

@@ -37,7 +37,7 @@ class Inputs(BaseModel):
 
 
 class Stamp(BaseModel):
-    """One output. status `writing`: files are being put in place; whoever finds it has found a killed run.
+    """One output.
 
     outputs: the digest of every file, by its path in the output folder; out: the main one of them.
     labels: of its hulls, in the order that the main file has them; empty where they are not known.
@@ -46,7 +46,7 @@ class Stamp(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     asset: str
-    status: Literal["writing", "edited", "unchanged", "failed"]
+    status: Literal["edited", "unchanged", "failed"]
     inputs: Inputs | None = None
     outputs: dict[str, str] = {}
     out: str = ""
@@ -87,15 +87,15 @@ class Stamp(BaseModel):
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""
-        if self.status not in ("edited", "unchanged"):
+        if self.status == "failed":
             return False
         return all(
             (folder / name).is_file() and file_digest(folder / name) == known for name, known in self.outputs.items()
         )
 
-    def write(self, folder: Path) -> None:
-        """Keep this stamp with the outputs in `folder`."""
-        write_atomically(stamp_path(folder, self.asset), self.model_dump_json(indent=1))
+    def write(self, path: Path) -> None:
+        """Write this stamp to disk."""
+        write_atomically(path, self.model_dump_json(indent=1))
 
 
 def stamp_path(folder: Path, asset: str) -> Path:
@@ -105,18 +105,19 @@ def stamp_path(folder: Path, asset: str) -> Path:
 
 def read_stamp(folder: Path, asset: str) -> Stamp | None:
     """The stamp of an asset's output; None where there is none, or none that can be read, so that it is made again."""
-    return _read(stamp_path(folder, asset))
+    return stamp_in(stamp_path(folder, asset))
 
 
 def all_stamps(folder: Path) -> Iterator[Stamp]:
     """The stamps of all outputs in a folder, in the order of their paths."""
     for path in sorted((folder / STATE / "stamps").rglob("*.json")):
-        stamp = _read(path)
+        stamp = stamp_in(path)
         if stamp:
             yield stamp
 
 
-def _read(path: Path) -> Stamp | None:
+def stamp_in(path: Path) -> Stamp | None:
+    """The stamp in a file; None where there is none, or none that can be read."""
     try:
         return Stamp.model_validate_json(path.read_bytes())
     except (OSError, ValidationError):

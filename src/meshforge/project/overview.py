@@ -126,7 +126,7 @@ def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
 
 
 def _state(stamp: Stamp | None) -> State:
-    return "none" if stamp is None or stamp.status == "writing" else stamp.status
+    return stamp.status if stamp else "none"
 
 
 def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) -> tuple[str, ...]:
