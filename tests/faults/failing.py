@@ -6,17 +6,14 @@ import json
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 from random import Random
-from typing import Any
 
-from tests.faults.runs import begun, ended, is_part_of, outputs, stool_family
+from tests.faults.runs import begun, ended, is_part_of, outputs, stool_family, wait_for
 
-_STOOLS = 40
+_STOOLS = 60
 _ALONE = ("unshare", "--user", "--map-root-user", "--mount")
 _PAGE = 4096
-_QUIET: Any = {"check": False, "capture_output": True}
 
 
 class _Disk:
@@ -50,7 +47,7 @@ class ReadOnly(_Disk):
     title = "`apply` onto a disk that turns read-only"
 
     def trial(self, draw: Random) -> str:
-        return self._run(f"size={64 << 20},wait={draw.uniform(0.0, 2.5):.2f}")
+        return self._run(f"size={64 << 20},outputs={draw.randrange(_STOOLS)}")
 
 
 class Vanishing:
@@ -69,7 +66,7 @@ class Vanishing:
         shutil.rmtree(out, ignore_errors=True)
         words = ["apply", "p.mf", "assets", "--out", "out", "--json"]
         process = begun(words, self._folder)
-        time.sleep(draw.uniform(0.0, 2.5))
+        wait_for(process, out, draw.randrange(_STOOLS))
         gone = draw.sample(sorted((self._folder / "assets").rglob("*.obj")), 5)
         kept = {path: path.read_bytes() for path in gone}
         for path in gone:
@@ -95,15 +92,17 @@ def _within(folder: Path, options: dict[str, str]) -> str:
     mount = ["mount", "-t", "tmpfs", "-o", f"size={options['size']}", "tmpfs", str(out)]
     subprocess.run(mount, check=True)
     process = begun(words, folder)
-    if "wait" in options:
-        time.sleep(float(options["wait"]))
-        while process.poll() is None and subprocess.run(["mount", "-o", "remount,ro", str(out)], **_QUIET).returncode:
-            time.sleep(0.01)  # while a file is being written, the disk is busy
+    if "outputs" in options:
+        wait_for(process, out, int(options["outputs"]))
+        for how in ("bind", "remount,bind,ro"):  # a second view of the disk: files that are open do not mind
+            subprocess.run(["mount", "-o", how, str(out), str(out)], check=True)
     code, said = ended(process)
     left = outputs(out)
     assert is_part_of(left, whole), "a file is neither whole nor missing"
     assert code == 0 or "No space left" in said or "Read-only" in said, said
-    subprocess.run(["mount", "-o", f"remount,rw,size={64 << 20}", str(out)], check=True)
+    if "outputs" in options:
+        subprocess.run(["umount", str(out)], check=True)
+    subprocess.run(["mount", "-o", f"remount,size={64 << 20}", str(out)], check=True)
     code_then, said_then = ended(begun(words, folder))
     assert code_then == 0, said_then
     assert outputs(out) == whole, "the second run leaves something else"

@@ -14,34 +14,42 @@ import httpx
 from meshforge.project import Project
 from meshforge.symbolic import read_labels
 from tests.e2e.studio import opened
-from tests.faults.runs import begun, ended, is_part_of, killed, outputs, stool_family, table_family
+from tests.faults.runs import begun, ended, is_part_of, killed, outputs, stool_family, table_family, wait_for
 
-_STOOLS, _TABLES = 40, 5
+_STOOLS, _TABLES = 60, 5
 _WORDS = ("panel", "leg", "handle", "drawer", "misc")
 
 
 class Applying:
-    """`apply` killed: every output is whole or not there, and the same command completes the rest."""
+    """`apply` killed: every output is as before, or new, or not there, and the same command completes the rest.
+
+    Every other time there are outputs of another program already.
+    """
 
     title = "`apply`, killed"
 
     def __init__(self, folder: Path) -> None:
         stool_family(folder, _STOOLS)
-        self._folder, began = folder, time.monotonic()
-        assert ended(begun(["apply", "p.mf", "assets", "--out", "whole"], folder))[0] == 0
-        self._longest = time.monotonic() - began
-        self._whole = outputs(folder / "whole")
+        (folder / "old.mf").write_text("Is(leg) => Delete\n")
+        self._folder = folder
+        for program, out in (("p.mf", "whole"), ("old.mf", "old")):
+            assert ended(begun(["apply", program, "assets", "--out", out], folder))[0] == 0
+        self._whole, self._old = outputs(folder / "whole"), outputs(folder / "old")
 
     def trial(self, draw: Random) -> str:
         out = self._folder / "out"
         shutil.rmtree(out, ignore_errors=True)
-        words = ["apply", "p.mf", "assets", "--out", "out"]
-        was_running = killed(begun(words, self._folder), draw.uniform(0.2, self._longest), draw)
+        if draw.random() < 0.5:
+            shutil.copytree(self._folder / "old", out)
+        process = begun(words := ["apply", "p.mf", "assets", "--out", "out"], self._folder)
+        wait_for(process, out, draw.randrange(_STOOLS))
+        was_running = killed(process, draw.uniform(0.0, 0.05), draw)
         left = outputs(out)
-        assert is_part_of(left, self._whole), "a file is neither whole nor missing"
+        assert all(data in (self._whole.get(name), self._old.get(name)) for name, data in left.items()), "a torn file"
         assert ended(begun(words, self._folder))[0] == 0
         assert outputs(out) == self._whole, "the second run leaves something else"
-        return "after it was done" if not was_running else "in the midst" if left else "before the first output"
+        is_begun = any(self._whole[name] == data for name, data in left.items())
+        return "after it was done" if not was_running else "in the midst" if is_begun else "before the first output"
 
 
 class Labelling:

@@ -32,6 +32,18 @@ def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
     return process.returncode, out + err
 
 
+def wait_for(process: subprocess.Popen[str], out: Path, count: int) -> None:
+    """Return when so many assets in an output folder are new, or the command has ended."""
+    since = time.time()
+    while process.poll() is None and _written(out, since) < count:
+        time.sleep(0.002)
+
+
+def _written(out: Path, since: float) -> int:
+    folders = (Path(at) for at, _, _ in os.walk(out) if STATE not in Path(at).parts)
+    return sum(path.stat().st_mtime >= since for folder in folders for path in folder.glob("*.obj"))
+
+
 def killed(process: subprocess.Popen[str], after: float, draw: Random) -> bool:
     """Kill a command after some seconds, alone or with its workers; whether it was still running."""
     time.sleep(after)

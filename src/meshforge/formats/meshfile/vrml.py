@@ -85,7 +85,8 @@ def _transform(node: Node) -> Floats:
     lean = _turned(node.vector("scaleOrientation", 4))
     scale = np.diag([*(node.vector("scale", 3) or [1.0, 1.0, 1.0]), 1.0])
     back = _moved([-x for x in center])
-    return move @ _moved(center) @ turn @ lean @ scale @ lean.T @ back
+    with np.errstate(over="ignore", invalid="ignore"):  # vertices that are not finite are refused
+        return move @ _moved(center) @ turn @ lean @ scale @ lean.T @ back
 
 
 def _moved(offset: list[float]) -> Floats:

@@ -161,7 +161,11 @@ class _Composer:
             raise AssetError(problem, where=where, remedy=outer.resolver.model_advice(uri))
         if path in files:
             raise AssetError(f"{uri!r} includes itself", where=where, remedy="Take this <include> away.")
-        file = self._file(path, _placed(outer, uri, path), uri)
+        try:
+            file = self._file(path, _placed(outer, uri, path), uri)
+        except AssetError as error:
+            problem = f"the included model {uri!r} cannot be read: {error.sentence}"
+            raise AssetError(problem, where=where) from error
         models = list(file.root.each("model"))
         if not models:
             self.composed.notes.append(f"the included file {uri!r} has no model: passed over")
