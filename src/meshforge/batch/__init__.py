@@ -1,6 +1,6 @@
 """Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
 
-from meshforge.batch.apply import TIMEOUT, Backend, apply
+from meshforge.batch.apply import apply
 from meshforge.batch.correction import Correction, replay
 from meshforge.batch.digests import (
     asset_digests,
@@ -21,6 +21,7 @@ from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, 
 from meshforge.batch.plan import Plan, plan, size_text
 from meshforge.batch.pool import Lost, isolated
 from meshforge.batch.report import ReportAsset, write_report
+from meshforge.batch.spread import TIMEOUT, Backend, spread
 from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
@@ -74,6 +75,7 @@ __all__ = [
     "size_text",
     "software",
     "source_files",
+    "spread",
     "status",
     "template_folders",
     "text_digest",

@@ -7,26 +7,19 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Literal
 
-from meshforge.batch.cluster import on_cluster
 from meshforge.batch.draft import drafts
 from meshforge.batch.edit import Worked, edit
 from meshforge.batch.folder import STATE
 from meshforge.batch.job import AssetJob, Task
 from meshforge.batch.ledger import Ledger
 from meshforge.batch.lock import locked
-from meshforge.batch.memory import share
 from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.pool import Lost, isolated, processors
+from meshforge.batch.pool import Lost
+from meshforge.batch.spread import TIMEOUT, Backend, spread
 from meshforge.errors import UsageError
 from meshforge.formats import Mass
 from meshforge.language import Program, Template
-
-Backend = Literal["local", "ray"]
-TIMEOUT = 600.0
-"""Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
-
 
 _Results = Generator[Worked | Lost, None, None]
 
@@ -67,14 +60,11 @@ def apply(
     jobs = tuple(assets)
     task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to)
     _check(jobs, task)
-    spread = isolated if backend == "local" else on_cluster
-    if backend == "local" and memory is None:
-        memory = share(min(workers or processors(), len(jobs)))
-    work = partial(spread, workers=workers, timeout=timeout, memory=memory, done=progress, stop=stop)
+    work = partial(spread, backend, workers=workers, timeout=timeout, memory=memory, done=progress, stop=stop)
     return _run(jobs, task, work)
 
 
-def _run(jobs: tuple[AssetJob, ...], task: Task, spread: Callable[..., _Results]) -> Iterator[Outcome]:
+def _run(jobs: tuple[AssetJob, ...], task: Task, work: Callable[..., _Results]) -> Iterator[Outcome]:
     with ExitStack() as stack:
         ledger = None
         if not task.dry_run:
@@ -82,7 +72,7 @@ def _run(jobs: tuple[AssetJob, ...], task: Task, spread: Callable[..., _Results]
             stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
-        results = spread(partial(edit, task), jobs)
+        results = work(partial(edit, task), jobs)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from meshforge.batch.expand import Found, asset_id
-from meshforge.batch.job import jobs
-from meshforge.batch.memory import share
+from meshforge.batch.expand import asset_id
+from meshforge.batch.job import AssetJob
 from meshforge.batch.mending import write_mended
-from meshforge.batch.pool import Lost, isolated, processors
+from meshforge.batch.pool import Lost
+from meshforge.batch.spread import TIMEOUT, Backend, spread
 from meshforge.checks import Examination, Fixed, Measures, engine_named, examine_mesh, fix, pictures
 from meshforge.errors import AssetError, MeshForgeError, UsageError, told
 from meshforge.formats import load
@@ -91,33 +92,32 @@ def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Exam
 
 
 def examine_all(
-    found: Found,
-    labels: Path | None,
+    work: Sequence[AssetJob],
     wanted: Wanted,
     *,
+    backend: Backend = "local",
     workers: int | None = None,
-    timeout: float | None = None,
+    timeout: float | None = TIMEOUT,
     memory: int | None = None,
     done: Callable[[], None] | None = None,
 ) -> Iterator[Examined]:
-    """The examinations of many assets, in their order, in worker processes; bounds as of `isolated`.
+    """The examinations of many assets, in their order, in worker processes; where, and bounds, as of `spread`.
 
-    labels: as of `jobs`. One that crashes, takes too long or too much memory is an error of its own.
+    One that crashes, takes too long or too much memory is an error of its own.
     """
-    work = [(job.path, job.base, job.labels, wanted) for job in jobs(found, labels)]
-    bound = memory or share(min(workers or processors(), len(work)))
-    results = isolated(_examine, work, workers=workers, timeout=timeout, memory=bound, done=done)
-    for (path, *_), result in zip(work, results, strict=True):
-        yield Examined(path, f"{path}: {result.why}") if isinstance(result, Lost) else result
+    one = partial(_examine, wanted)
+    results = spread(backend, one, work, workers=workers, timeout=timeout, memory=memory, done=done)
+    for job, result in zip(work, results, strict=True):
+        yield Examined(job.path, f"{job.path}: {result.why}") if isinstance(result, Lost) else result
 
 
-def _examine(work: tuple[Path, Path, Path | None, Wanted]) -> Examined:
+def _examine(wanted: Wanted, job: AssetJob) -> Examined:
     try:
-        return examine(*work)
+        return examine(job.path, job.base, job.labels, wanted)
     except UsageError:
         raise
     except Exception as error:  # an asset that fails never stops the others
-        return Examined(work[0], told(error, str(work[0])))
+        return Examined(job.path, told(error, str(job.path)))
 
 
 def _before(path: Path, base: Path, against: Path | None) -> SymbolicMesh | None:

@@ -17,15 +17,15 @@ from meshforge.words import counted
 @dataclass(frozen=True, slots=True)
 class Plan:
     """kinds: how many assets have which suffix, `folder` for folders; size: of the assets' own files [bytes], without
-    those that they refer to; labelled: how many have a labels file; earlier: how many an earlier run was at; free: on
-    the disk of the output [bytes].
+    those that they refer to; labelled: how many have a labels file; out: the folder of outputs, None where there are
+    none; earlier: how many an earlier run was at; free: on the disk of the output [bytes].
     """
 
     kinds: Mapping[str, int]
     size: int
     labelled: int
     earlier: int
-    out: Path
+    out: Path | None
     free: int
 
     @property
@@ -41,6 +41,8 @@ class Plan:
     def __str__(self) -> str:
         kinds = ", ".join(f"{number:,} {kind}" for kind, number in self.kinds.items())
         told = [f"{counted(self.count, 'asset')} ({kinds}; {size_text(self.size)}), {self.labelled:,} with labels"]
+        if self.out is None:
+            return told[0]
         known = (
             f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
         )
@@ -50,7 +52,7 @@ class Plan:
         return "\n".join(told)
 
 
-def plan(jobs: Iterable[AssetJob], out: Path) -> Plan:
+def plan(jobs: Iterable[AssetJob], out: Path | None) -> Plan:
     """Look at the assets from outside, without reading them."""
     kinds: Counter[str] = Counter()
     size = labelled = earlier = 0
@@ -58,8 +60,9 @@ def plan(jobs: Iterable[AssetJob], out: Path) -> Plan:
         kinds[job.path.suffix.lower().lstrip(".").upper() or "folder"] += 1
         size += _size(job.path)
         labelled += job.labels is not None
-        earlier += stamp_path(out, job.id).is_file()
-    place = next(folder for folder in (out.absolute(), *out.absolute().parents) if folder.exists())
+        earlier += out is not None and stamp_path(out, job.id).is_file()
+    target = Path.cwd() if out is None else out.absolute()
+    place = next(folder for folder in (target, *target.parents) if folder.exists())
     return Plan(dict(kinds.most_common()), size, labelled, earlier, out, shutil.disk_usage(place).free)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.options import Backend, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.batch import AssetJob, Failed, Outcome, Summary
@@ -27,9 +27,7 @@ def apply(
     ] = None,
     labels: Labels = None,
     workers: Workers = None,
-    backend: Annotated[
-        Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
-    ] = "local",
+    backend: Backend = "local",
     timeout: Timeout = None,
     memory: Memory = None,
     mass: Annotated[

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import AssetFiles, Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.batch import Examined
@@ -53,6 +53,7 @@ def check(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False,
     labels: Labels = None,
     workers: Workers = None,
+    backend: Backend = "local",
     timeout: Timeout = None,
     memory: Memory = None,
     json: Json = False,
@@ -62,9 +63,9 @@ def check(
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand
+    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand, jobs, plan
     from meshforge.checks import Measures
-    from meshforge.cli.output import print_json, progress
+    from meshforge.cli.output import print_json, progress, remark
     from meshforge.errors import UsageError
     from meshforge.words import counted
 
@@ -76,20 +77,24 @@ def check(
     _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
     wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
     failed = 0
-    found = expand(assets)
+    work = jobs(expand(assets), labels)
+    if len(work) > _FEW:
+        remark(str(plan(work, out)))
     seconds = TIMEOUT if timeout is None else timeout or None
-    if len(found) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
+    if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
-    with progress(len(found), "checking") as advance:
-        results = examine_all(found, labels, wanted, workers=workers, timeout=seconds, memory=memory, done=advance)
+    with progress(len(work), "checking") as advance:
+        results = examine_all(
+            work, wanted, backend=backend, workers=workers, timeout=seconds, memory=memory, done=advance
+        )
         for examined in results:
             failed += examined.failed
             if json:
                 print_json(examined.to_json(), compact=True)
             else:
                 _print(examined)
-    if not json and len(found) > _FEW:
-        typer.echo(f"{counted(len(found), 'asset')}, {failed:,} with errors")
+    if not json and len(work) > _FEW:
+        typer.echo(f"{counted(len(work), 'asset')}, {failed:,} with errors")
     raise typer.Exit(int(failed > 0))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -25,6 +25,9 @@ Labels = Annotated[
     typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
+Backend = Annotated[
+    Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
+]
 Timeout = Annotated[
     float | None,
     typer.Option("--timeout", min=0, help="Seconds for one asset, 0 for no bound; default 600.", show_default=False),
