@@ -2,23 +2,45 @@
 
 from __future__ import annotations
 
+import io
 import os
 import random
 import resource
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from meshforge.errors import MeshForgeError
+from meshforge.formats.segmented import read_segmented
 from meshforge.language import Program
+from meshforge.project.demonstrating import steps
+from meshforge.project.settings import read_settings
+from meshforge.symbolic import read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged
 from tests.laws.test_readers_never_crash import DAE, WHOLE, told_or_read
 from tests.rearranging import rearranged
 
-PROGRAMS = tuple(sorted(p.relative_to(ROOT).as_posix() for p in (ROOT / "program").glob("*.mf")))
-KINDS = {**WHOLE, "dae": DAE, "program": PROGRAMS}
+KINDS = {
+    **WHOLE,
+    "dae": DAE,
+    "program": tuple(sorted(p.relative_to(ROOT).as_posix() for p in (ROOT / "program").glob("*.mf"))),
+    "labels": ("labels/good.json",),
+    "steps": ("demonstrations/good.json",),
+    "settings": ("settings/good.toml",),
+    "points": ("points/a.npz", "points/a.npy", "points/a.ply"),
+}
+"""Whole inputs of each kind: files of the corpus, and segmented points, which are made."""
+_OF_PROJECTS: dict[str, Callable[[Path], object]] = {
+    "labels": read_labels,
+    "steps": steps,
+    "settings": lambda path: read_settings(path.parent),
+    "points": read_segmented,
+}
 
 
 @dataclass(frozen=True)
@@ -36,7 +58,7 @@ def changed(kind: str, seed: int) -> tuple[str, bytes]:
     """The name of a whole input, and its bytes after some damage, to its bytes or its structure or both."""
     rng = random.Random(f"{kind} {seed}")
     name = rng.choice(KINDS[kind])
-    data = (ROOT / name).read_bytes()
+    data = _points(Path(name).suffix) if kind == "points" else (ROOT / name).read_bytes()
     how = rng.randrange(5)
     if how < 3:
         data = rearranged(data, rng)
@@ -58,19 +80,31 @@ def tried(work: tuple[str, int, int]) -> Tried:
     return Tried(last - first, refused, tuple(wrong), slowest, peak)
 
 
+def _points(suffix: str) -> bytes:
+    """Five points of two classes."""
+    points, classes, stream = np.arange(15.0).reshape(5, 3), np.array([0, 1, 0, 1, 1]), io.BytesIO()
+    if suffix == ".npz":
+        np.savez_compressed(stream, points=points, labels=classes)
+    elif suffix == ".npy":
+        np.save(stream, np.column_stack([points, classes]))
+    else:
+        properties = "".join(f"property float {axis}\n" for axis in "xyz") + "property int label\n"
+        rows = "".join(f"{x} {y} {z} {label}\n" for (x, y, z), label in zip(points, classes, strict=True))
+        text = f"ply\nformat ascii 1.0\nelement vertex 5\n{properties}end_header\n{rows}"
+        stream.write(text.encode())
+    return stream.getvalue()
+
+
 def one(kind: str, seed: int) -> bool:
     """Whether a damaged input is read; a refusal is one error of the family."""
     name, data = changed(kind, seed)
     if kind == "program":
-        try:
-            program = Program.parse(data.decode("utf-8", "surrogateescape"))
-        except MeshForgeError:
-            return False
-        assert Program.parse(str(program)) == program
-        return True
+        return _parses(data.decode("utf-8", "surrogateescape"))
     with tempfile.TemporaryDirectory(dir=os.environ.get("FUZZ_FOLDER")) as folder:
-        path = Path(folder, Path(name).name)
+        path = Path(folder, "meshforge.toml" if kind == "settings" else Path(name).name)
         path.write_bytes(data)
+        if kind in _OF_PROJECTS:
+            return _reads(_OF_PROJECTS[kind], path)
         parts = (ROOT / name).parent / "parts"
         if parts.is_dir():
             Path(folder, "parts").symlink_to(parts)
@@ -79,3 +113,23 @@ def one(kind: str, seed: int) -> bool:
             path = Path(folder, "a.urdf")
             path.write_text(f'<robot name="r">{link}</robot>')
         return told_or_read(path)
+
+
+def _parses(text: str) -> bool:
+    """Whether a text is a program; printed, it is the same one."""
+    try:
+        program = Program.parse(text)
+    except MeshForgeError:
+        return False
+    assert Program.parse(str(program)) == program
+    return True
+
+
+def _reads(reader: Callable[[Path], object], path: Path) -> bool:
+    """Whether a file is read; an error must name it."""
+    try:
+        reader(path)
+    except MeshForgeError as error:
+        assert str(path) in error.message
+        return False
+    return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -118,7 +119,30 @@ def test_one_array_has_points_with_their_class_or_classes_alone(tmp_path: Path) 
 Make = Callable[[Path], Path]
 RECIPE = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 UNREADABLE = f"these arrays cannot be read: the file is damaged, of another kind, or holds Python objects\n  {RECIPE}"
+
+
+def swollen(folder: Path) -> Path:
+    """An archive that says that one of its arrays takes 5 GiB."""
+    path = arrays(folder, points=POINTS, labels=[0] * 4)
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.filelist[0].file_size = 5 << 30
+        archive.writestr("more", b"")
+    return path
+
+
+def torn(folder: Path, old: bytes, new: bytes) -> Path:
+    """An array in whose header something is another text."""
+    path = array(folder, np.array([3, 4]))
+    path.write_bytes(path.read_bytes().replace(old, new))
+    return path
+
+
 REFUSED: dict[str, tuple[Make, str]] = {
+    "a header that does not end": (lambda d: torn(d, b"(2,)", b"(2,("), UNREADABLE),
+    "an archive that swells": (
+        swollen,
+        "its arrays would take 5 GiB, and no more than 4 are read\n  Leave out the arrays that are not of the points.",
+    ),
     "colours alone": (
         lambda d: put(d, ply(vertex="property uchar red\n", labels=(" 1",) * 4)),
         "no property of this file is a class by its name: it has red\n"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import tokenize
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +21,12 @@ Array = npt.NDArray[Any]
 _POINTS = ("points", "vertices", "verts", "xyz", "coords", "coord", "pos", "pts")
 _FACES = ("faces", "triangles", "face", "tris")
 _NAMES = ("names", "classes", "class_names", "label_names", "part_names", "labels_names")
+_MOST = 4 << 30  # bytes
+_DAMAGED = (
+    *(ValueError, EOFError, KeyError, SyntaxError, NotImplementedError, RuntimeError, MemoryError),
+    *(zipfile.BadZipFile, zlib.error, tokenize.TokenError),
+)
+"""What NumPy and the libraries below it raise for damaged files."""
 _REMEDY = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 
 
@@ -33,15 +41,24 @@ def _loaded(path: Path) -> Array | dict[str, Array]:
     """What a file holds; pickled objects, which may run anything, are not read."""
     try:
         with path.open("rb") as stream:
-            found = np.load(stream, allow_pickle=False)
-            return (
-                {key.lower(): found[key] for key in found.files} if isinstance(found, np.lib.npyio.NpzFile) else found
-            )
-    except (ValueError, EOFError, KeyError, zipfile.BadZipFile, MemoryError) as error:
+            found: Array | np.lib.npyio.NpzFile = np.load(stream, allow_pickle=False)
+            if not isinstance(found, np.lib.npyio.NpzFile):
+                return found
+            _refuse_too_large(stream, path)
+            return {key.lower(): found[key] for key in found.files}
+    except _DAMAGED as error:
         problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
         raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
     except OSError as error:
         raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
+
+
+def _refuse_too_large(stream: BinaryIO, path: Path) -> None:
+    """Refuse an archive that little room on disk makes more of than there is memory for."""
+    size = sum(info.file_size for info in zipfile.ZipFile(stream).infolist())
+    if size > _MOST:
+        problem = f"its arrays would take {size >> 30:,} GiB, and no more than {_MOST >> 30} are read"
+        raise AssetError(problem, where=str(path), remedy="Leave out the arrays that are not of the points.")
 
 
 def _of_several(arrays: Mapping[str, Array], where: str) -> Segmented:
