@@ -34,7 +34,7 @@ def main() -> int:
                 try:
                     found[made.trial(draw)] += 1
                 except AssertionError as error:
-                    wrong.append(str(error).strip().splitlines()[0])
+                    wrong.append((str(error).strip() or repr(error)).splitlines()[0])
         print("\r", end="", file=sys.stderr)
         when = ", ".join(f"{what} {count}" for what, count in found.most_common())
         print(f"| {fault.title} | {options.times} | {when} | {'; '.join(wrong) or 'nothing'} |", flush=True)

@@ -45,7 +45,9 @@ _OF_PROJECTS: dict[str, Callable[[Path], object]] = {
 
 @dataclass(frozen=True)
 class Tried:
-    """wrong: of some seeds, what happened; slowest: seconds of processor time of an input, and its seed; peak: of the process [bytes]."""
+    """wrong: of some seeds, what happened; slowest: processor time of an input [s], and its seed; peak: of the process
+    [bytes].
+    """
 
     count: int
     refused: int
