@@ -24,7 +24,8 @@ def main() -> int:
     parser.add_argument("--from", type=int, default=0, dest="start")
     parser.add_argument("--keep", type=Path, help="folder for inputs that went wrong")
     options = parser.parse_args()
-    print("| kind | inputs | refused | slowest, s of processor | peak, MiB | neither result nor error |\n" + "| --- " * 6 + "|")
+    print("| kind | inputs | refused | slowest, s of processor | peak, MiB | neither result nor error |")
+    print("| --- " * 6 + "|")
     bad = 0
     for kind in [options.only] if options.only else list(KINDS):
         wrong = _kind(kind, options.start, options.count)
