@@ -16,6 +16,7 @@ from meshforge.batch.examination import Examined, Wanted, examine, examine_all
 from meshforge.batch.expand import Found, asset_id, common_folder, expand
 from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
 from meshforge.batch.job import AssetJob, Task, jobs, labels_for
+from meshforge.batch.journal import Journal, journal
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
 from meshforge.batch.plan import Plan, plan, size_text
@@ -39,6 +40,7 @@ __all__ = [
     "Failed",
     "Found",
     "Inputs",
+    "Journal",
     "Lost",
     "Outcome",
     "Plan",
@@ -61,6 +63,7 @@ __all__ = [
     "inputs_of",
     "isolated",
     "jobs",
+    "journal",
     "json_line",
     "labels_for",
     "load_templates",

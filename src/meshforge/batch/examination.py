@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
+from meshforge.batch.digests import software, source_files
 from meshforge.batch.expand import asset_id
 from meshforge.batch.job import AssetJob
+from meshforge.batch.journal import Seen
 from meshforge.batch.mending import write_mended
 from meshforge.batch.pool import Lost
 from meshforge.batch.spread import TIMEOUT, Backend, spread
@@ -39,7 +42,7 @@ class Wanted:
 class Examined:
     """What was found of one asset; error: the whole message where it could not be read, or not be written.
 
-    written: the file of the mended asset; pictures: the files of pictures.
+    written: the file of the mended asset; pictures: the files of pictures; seen: what all this depends on.
     """
 
     path: Path
@@ -48,6 +51,7 @@ class Examined:
     fixed: Fixed | None = None
     written: Path | None = None
     pictures: tuple[Path, ...] = ()
+    seen: Seen | None = None
 
     @property
     def failed(self) -> bool:
@@ -86,7 +90,10 @@ def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Exam
             written = write_mended(mesh, base, wanted.out, overwrite=wanted.overwrite)
         found = examine_mesh(mesh, wanted.measures, before)
         drawn = _drawn(mesh, found, asset_id(path, base), wanted.pictures)
-        return Examined(path, None, found, fixed, written, drawn)
+        read = [part.asset for part in (mesh, before) if part and part.asset]
+        files = {file for asset in read for file in (*source_files(asset.path), *asset.files)}
+        files |= {file for file in (labels, written, *drawn) if file}
+        return Examined(path, None, found, fixed, written, drawn, Seen.of(sorted(files), _asked(wanted)))
     except MeshForgeError as problem:
         return Examined(path, problem.message)
 
@@ -100,19 +107,29 @@ def examine_all(
     timeout: float | None = TIMEOUT,
     memory: int | None = None,
     done: Callable[[], None] | None = None,
-) -> Iterator[Examined]:
+    known: Mapping[str, Seen] = MappingProxyType({}),
+) -> Iterator[Examined | None]:
     """The examinations of many assets, in their order, in worker processes; where, and bounds, as of `spread`.
 
-    One that crashes, takes too long or too much memory is an error of its own.
+    One that crashes, takes too long or too much memory is an error of its own. known: what earlier examinations
+    depended on, by id; None for an asset of which that is as it was.
     """
+    items = [(job, known.get(job.id)) for job in work]
     one = partial(_examine, wanted)
-    results = spread(backend, one, work, workers=workers, timeout=timeout, memory=memory, done=done)
+    results = spread(backend, one, items, workers=workers, timeout=timeout, memory=memory, done=done)
     for job, result in zip(work, results, strict=True):
         yield Examined(job.path, f"{job.path}: {result.why}") if isinstance(result, Lost) else result
 
 
-def _examine(wanted: Wanted, job: AssetJob) -> Examined:
+def _asked(wanted: Wanted) -> str:
+    return f"{wanted} {software()}"
+
+
+def _examine(wanted: Wanted, item: tuple[AssetJob, Seen | None]) -> Examined | None:
+    job, seen = item
     try:
+        if seen and seen.holds(job, _asked(wanted)):
+            return None
         return examine(job.path, job.base, job.labels, wanted)
     except UsageError:
         raise

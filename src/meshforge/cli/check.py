@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
-    from meshforge.batch import Examined
+    from meshforge.batch import Examined, Journal
 
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 _FEW = 5  # assets whose results one sees at a glance
@@ -51,6 +52,14 @@ def check(
         ),
     ] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False,
+    kept: Annotated[
+        Path | None,
+        typer.Option(
+            "--journal",
+            help="Keep what is found in this file as it comes: the same command again checks only what is not in it or "
+            "has changed.",
+        ),
+    ] = None,
     labels: Labels = None,
     workers: Workers = None,
     backend: Backend = "local",
@@ -63,7 +72,7 @@ def check(
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand, jobs, plan
+    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand, jobs, journal, plan
     from meshforge.checks import Measures
     from meshforge.cli.output import print_json, progress, remark
     from meshforge.errors import UsageError
@@ -76,23 +85,24 @@ def check(
     _refuse({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
     _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
     wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
-    failed = 0
     work = jobs(expand(assets), labels)
     if len(work) > _FEW:
         remark(str(plan(work, out)))
     seconds = TIMEOUT if timeout is None else timeout or None
     if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
-    with progress(len(work), "checking") as advance:
-        results = examine_all(
-            work, wanted, backend=backend, workers=workers, timeout=seconds, memory=memory, done=advance
-        )
-        for examined in results:
-            failed += examined.failed
+    failed = 0
+    bounds: dict[str, Any] = {"workers": workers, "timeout": seconds, "memory": memory}
+    with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
+        known = book.seen if book else {}
+        results = examine_all(work, wanted, backend=backend, known=known, done=advance, **bounds)
+        for job, examined in zip(work, results, strict=True):
+            row = _row(book, job.id, examined)
+            failed += row["failed"]
             if json:
-                print_json(examined.to_json(), compact=True)
+                print_json(row["found"], compact=True)
             else:
-                _print(examined)
+                typer.echo(row["said"])
     if not json and len(work) > _FEW:
         typer.echo(f"{counted(len(work), 'asset')}, {failed:,} with errors")
     raise typer.Exit(int(failed > 0))
@@ -107,19 +117,26 @@ def _refuse(given: dict[str, object], allowed: bool, without: str) -> None:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _print(examined: Examined) -> None:
+def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[str, Any]:
+    """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
+    if examined is None:
+        assert book is not None
+        return book.row(asset)
+    row = {"failed": examined.failed, "found": examined.to_json(), "said": _said(examined)}
+    if book and examined.seen:
+        book.add(asset, examined.seen, row)
+    return row
+
+
+def _said(examined: Examined) -> str:
     path, found, fixed = examined.path, examined.found, examined.fixed
     if found is None:
-        typer.echo(f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  "))
-        return
-    quiet = not (found.findings or found.told or fixed)
-    typer.echo(f"{path}: legal" if quiet else f"{path}:")
+        return f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  ")
+    lines = []
     if fixed:
-        told = [*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}"]
-        typer.echo("\n".join(f"  {line}" for line in told))
-    for line in (*found.told, *(f"wrote {picture}" for picture in examined.pictures)):
-        typer.echo(f"  {line}")
+        lines += [*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}"]
+    lines += [*found.told, *(f"wrote {picture}" for picture in examined.pictures)]
     for finding in found.findings:
-        typer.echo(f"  {finding.severity}: {finding.message}")
-        if finding.remedy:
-            typer.echo(f"    {finding.remedy}")
+        lines.append(f"{finding.severity}: {finding.message}")
+        lines += [f"  {finding.remedy}"] if finding.remedy else []
+    return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
