@@ -33,13 +33,16 @@ class PlainStyle(Style):
             self.split(element, kept, mesh, names)
 
     def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
-        draft = self.draft
-        holder = draft.holder_of(body, parent.node if parent else None)
+        draft, holder = self.draft, self.holder(body, parent)
         source = draft.scene.placements[parent.node].node if parent else {}
         material = plain_material(draft.scene.tree, source["mesh"]) if "mesh" in source else None
         mesh, middle = draft.made_mesh(draft.in_holder(geom.shape, holder), own, material)
         node = draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, holder)
         draft.expected[node] = (geom.name,)
+
+    def holder(self, body: int | None, parent: Authored | None) -> int | None:
+        """The node below which a made hull goes."""
+        return self.draft.holder_of(body, parent.node if parent else None)
 
     def make_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
         """Add a surface that is no hull."""
