@@ -52,8 +52,9 @@ def apply(
     native code); mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
     and was made from the same is skipped; to: the suffix of the format that all are written in, each one's own when
-    None; names: the engine by whose names for collision they are made; timeout: seconds for one asset; memory: bytes for one, an even share of
-    the machine's when None; backend: the workers of this machine, or those of a Ray cluster, as of `on_cluster`;
+    None; names: the engine by whose names for collision they are made; timeout: seconds for one asset; memory: bytes
+    for one, an even share of the machine's when None; backend: the workers of this machine, or those of a Ray cluster,
+    as of `on_cluster`;
     progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
     StoppedError when it was told to stop: what is in place by then stays.

@@ -102,11 +102,9 @@ def with_names(known: Format, names: Names) -> Format:
     for named in NAMED[names]:
         if named.name == known.name:
             return named
-    told = ", ".join(suffix for named in NAMED[names] for suffix in named.suffixes)
-    raise UsageError(
-        f"there are no names for {names} in {known.title.removeprefix('a ')}",
-        remedy=f"Formats that can have them: {told}.",
-    )
+    files = known.title if known.is_folder else f"{known.title} files"
+    can = ", ".join(suffix for named in NAMED[names] for suffix in named.suffixes)
+    raise UsageError(f"{files} cannot be named for {names.title()}", remedy=f"Formats that can: {can}.")
 
 
 def _of_suffix(path: Path) -> list[Format]:

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from typing import ClassVar, Literal
 
 from meshforge.asset import PRIMITIVES, Geom, What
+from meshforge.formats.naming.marks import unmarked
 
 Names = Literal["unreal", "godot", "unity"]
 """The engines whose names for collision can be written."""
@@ -50,8 +51,8 @@ class EngineNames(ABC):
 
 
 def cleaned(name: str, not_taken: str) -> str:
-    """A name without characters that an engine changes; not_taken: a pattern of them."""
-    return re.sub(not_taken, "_", name).strip() or "part"
+    """A name without characters that an engine changes, and without marks of any; not_taken: a pattern of them."""
+    return unmarked(re.sub(not_taken, "_", name)).strip() or "part"
 
 
 def instead_of(names: EngineNames) -> dict[What, str]:

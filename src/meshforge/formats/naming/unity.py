@@ -7,10 +7,10 @@ from typing import ClassVar
 
 from meshforge.asset import Geom
 from meshforge.formats.naming.base import EngineNames, Names, cleaned
+from meshforge.formats.naming.marks import COLLIDERS, holds_colliders
 from meshforge.geometry import polygon_sizes
 from meshforge.words import listed
 
-_COLLIDERS = "_colliders"
 _REFUSED = r"[/\\\x00-\x1f]+"  # paths of objects are written with slashes
 _MOST = 255  # vertices, and flat faces, of a convex MeshCollider (docs/engines.md)
 
@@ -23,16 +23,16 @@ class UnityNames(EngineNames):
 
     def body(self, wanted: str) -> str:
         name = cleaned(wanted, _REFUSED)
-        return f"{name}_body" if holds_colliders(name) else name
+        return f"{name}_part" if holds_colliders(name) else name
 
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return cleaned(own, _REFUSED)
+        return self.body(own)
 
     def holder(self, body: str) -> str:
-        return body + _COLLIDERS
+        return body + COLLIDERS
 
     def opaque(self, own: str) -> str:
-        return cleaned(own, _REFUSED)
+        return self.body(own)
 
     def notes(self, geoms: Iterable[Geom]) -> tuple[str, ...]:
         large = [geom.name for geom in geoms if _is_large(geom)]
@@ -42,11 +42,6 @@ class UnityNames(EngineNames):
             f"Unity makes partial hulls of more than {_MOST} vertices or flat faces: {listed(large, 3)}; "
             "meshforge check --engine unity --fix makes them simpler",
         )
-
-
-def holds_colliders(name: object) -> bool:
-    """Whether what lies below a node of this name collides."""
-    return isinstance(name, str) and name.lower().endswith(_COLLIDERS)
 
 
 def _is_large(geom: Geom) -> bool:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from typing import ClassVar, Literal
+from collections.abc import Iterable
+from typing import ClassVar
 
 from meshforge.asset import Geom, What
 from meshforge.formats.naming.base import EngineNames, Names, cleaned
+from meshforge.formats.naming.marks import Unreal
 
-Unreal = Literal["UCX", "UBX", "USP", "UCP"]
-
-_UNREAL = re.compile(r"(UCX|UBX|USP|UCP)_", re.I)  # Unreal's own comparison takes no notice of case
-_KINDS: tuple[Unreal, ...] = ("UCX", "UBX", "USP", "UCP")
 _PREFIXES: dict[str, Unreal] = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}
 _ANYWHERE = re.compile(r"UCX|UBX|USP|UCP|MCDCX")  # the FBX importer looks for them anywhere in a name
 _REFUSED = r"""["' ,/.:|&!~\\\r\n\t@#(){}\[\]=;^%$`*?<>]+"""  # what names of Unreal's assets may not have
@@ -35,24 +32,10 @@ class UnrealNames(EngineNames):
     def body(self, wanted: str) -> str:
         """No prefix in it, nor a number at its end: `leg_01` would take the hull `UCX_leg_01` of `leg`."""
         name = _END.sub("", cleaned(wanted, _REFUSED)) or "part"
-        name = _ANYWHERE.sub(lambda found: found[0].lower(), name)
-        return f"SM_{name}" if unreal_kind(name) else name
+        return _ANYWHERE.sub(lambda found: found[0].lower(), name)
 
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
         return f"{prefix_of(geom)}_{body}_{number:02}"
-
-
-def unreal_kind(name: str | None) -> Unreal | None:
-    """The prefix by which Unreal takes a node or mesh for collision: hull, box, sphere or capsule."""
-    found = _UNREAL.match(name or "")
-    return next((kind for kind in _KINDS if found and found[1].upper() == kind), None)
-
-
-def render_name(name: str, meshes: Sequence[str]) -> str:
-    """The name of the mesh for which an Unreal collision node stands; meshes: those that there are."""
-    rest = _UNREAL.sub("", name, count=1)
-    known = [mesh for mesh in meshes if rest == mesh or rest.startswith(f"{mesh}_")]
-    return max(known, key=len) if known else re.sub(r"_\d+\Z", "", rest)
 
 
 def prefix_of(geom: Geom) -> Unreal:

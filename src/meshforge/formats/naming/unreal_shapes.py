@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from meshforge.formats.naming.unreal import unreal_kind
+from meshforge.formats.naming.marks import unreal_kind
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, tight_box, tight_capsule
 
 _NEAR = 0.01  # share of its size by which a mesh may differ from the primitive
+_EXACT = 1e-5  # the same for a ball, so that a short capsule is none
 _ROUND = 0.5  # share of a ball or capsule that its inscribed mesh fills at least; a cube in a ball fills 0.37
 
 
@@ -25,7 +26,7 @@ def _box(hull: Shape) -> Box | None:
     return box if hull.volume >= (1 - _NEAR) * box.volume else None
 
 
-def _sphere(hull: Shape) -> Sphere | None:
+def _sphere(hull: Shape, near: float = _NEAR) -> Sphere | None:
     points = hull.vertices
     # the centre to which all vertices are equally far, by least squares
     centre = np.linalg.lstsq(
@@ -33,7 +34,7 @@ def _sphere(hull: Shape) -> Sphere | None:
     )
     distances = np.linalg.norm(points - centre[0], axis=1)
     sphere = Sphere(Pose.of_translation(centre[0]), float(distances.mean()))
-    round_ = np.ptp(distances) <= _NEAR * sphere.radius and hull.volume >= _ROUND * sphere.volume
+    round_ = np.ptp(distances) <= near * sphere.radius and hull.volume >= _ROUND * sphere.volume
     return sphere if round_ else None
 
 
@@ -51,6 +52,6 @@ def _capsule(hull: Shape) -> Capsule | None:
 _MAKERS: dict[str | None, Callable[[Shape], Shape | None]] = {
     "UBX": _box,
     "USP": _sphere,
-    "UCP": lambda hull: _sphere(hull) or _capsule(hull),
+    "UCP": lambda hull: _sphere(hull, _EXACT) or _capsule(hull) or _sphere(hull),
 }
 _WORDS: dict[str | None, str] = {"UBX": "box", "USP": "sphere", "UCP": "capsule"}

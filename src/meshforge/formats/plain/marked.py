@@ -10,7 +10,8 @@ from meshforge.asset import Geom
 from meshforge.errors import GeometryError
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.obj import Group, ObjText
-from meshforge.formats.naming.unreal import next_name, render_name, unreal_kind
+from meshforge.formats.naming.marks import render_name, unreal_kind
+from meshforge.formats.naming.unreal import next_name
 from meshforge.geometry import Ints, Piece, convex_hull
 
 HOW = "its collision is the groups that Unreal takes by their names, UCX_ and the like; the rest is only seen"

@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge.asset import Asset, Feature, Geom, What
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.obj import parse_obj
-from meshforge.formats.naming.unreal import unreal_kind
+from meshforge.formats.naming.marks import unreal_kind
 from meshforge.formats.naming.unreal_shapes import unreal_shape
 from meshforge.formats.plain.marked import HOW, marked_soup, next_names
 from meshforge.formats.plain.obj_edit import edited_obj

@@ -25,6 +25,7 @@ class ObjForUnreal(Obj):
     """OBJ files whose collision Unreal knows by name."""
 
     title = "OBJ for Unreal"
+    up = "z"  # Interchange's translator of OBJ turns nothing, and Unreal is z-up
     holds = _UNREAL.holds - {What.COLORS}
     instead: ClassVar[Mapping[What, str]] = {**instead_of(_UNREAL), What.BODIES: "written as groups"}
 

@@ -141,7 +141,8 @@ def read_back(
     """The hulls that read back under another name, with that name.
 
     document, found, soup: the written file, its pieces and its triangles; wanted: what it should hold; hulls: those of
-    its owners that are hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as something else or elsewhere.
+    its owners that are hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as
+    something else or elsewhere.
     """
     if len(document.owner) != len(wanted.owners):
         raise AssetError("the written file would lose triangles", where=where)

@@ -18,8 +18,7 @@ from meshforge.formats.gltf.writing.physics_style import PhysicsStyle
 from meshforge.formats.gltf.writing.plain_style import PlainStyle
 from meshforge.formats.gltf.writing.shape_entries import place_keys
 from meshforge.formats.meshfile.gltf import Json
-from meshforge.formats.naming.godot import godot_kind
-from meshforge.formats.naming.unreal import unreal_kind
+from meshforge.formats.naming.marks import godot_kind, unreal_kind
 from meshforge.formats.shown import shown
 
 

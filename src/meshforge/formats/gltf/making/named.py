@@ -21,13 +21,16 @@ from meshforge.geometry import Floats, Ints
 def create_named(asset: Asset, name: str, engine: EngineNames) -> Output:
     """The files of an asset with the names of an engine.
 
-    No node is scaled. For Unreal, all meshes of a body are in its frame, since its importers have not always obeyed
-    the places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
+    No node is scaled. For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
+    places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
     """
     path = PurePosixPath(name)
     found = families(asset, engine, path.stem)
     main, made, names = _Maker(asset, found, engine, path.suffix.lower() == ".glb").files(path.stem)
     return Output(main, made, names=names, lost=found.lost, notes=found.notes)
+
+
+_FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
 
 class _Maker:
@@ -73,7 +76,9 @@ class _Maker:
 
     def _add(self, name: str, points: Floats, faces: Ints, holder: int, known: str) -> None:
         """A node with a mesh; known: the name of the piece in the asset."""
-        middle = (points.min(axis=0) + points.max(axis=0)) / 2 if self.engine.centred else np.zeros(3)
+        middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
+        if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
+            middle = np.zeros(3)
         mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.part_of(points - middle, faces)]})
         node: Json = {"name": name, "mesh": mesh}
         placed = {"translation": middle.tolist()} if middle.any() else {}

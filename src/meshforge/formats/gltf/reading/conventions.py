@@ -6,9 +6,7 @@ from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.reading.physics import physics_of
 from meshforge.formats.meshfile.gltf import Placement, Scene
 from meshforge.formats.meshfile.gltf.items import entry
-from meshforge.formats.naming.godot import godot_kind
-from meshforge.formats.naming.unity import holds_colliders
-from meshforge.formats.naming.unreal import unreal_kind
+from meshforge.formats.naming.marks import godot_kind, holds_colliders, unreal_kind
 
 
 def convention_of(scene: Scene) -> Convention:

@@ -18,7 +18,7 @@ from meshforge.formats.meshfile import RawSurface, joined
 from meshforge.formats.meshfile.gltf import Placement, Scene, Triangles
 from meshforge.formats.meshfile.gltf.instances import NAME as INSTANCING
 from meshforge.formats.meshfile.gltf.instances import is_instanced, repeated
-from meshforge.formats.naming.godot import godot_kind
+from meshforge.formats.naming.marks import godot_kind
 from meshforge.formats.naming.unreal_shapes import unreal_shape
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Pose, Sphere, convex_hull, pieces
 

@@ -13,8 +13,7 @@ from meshforge.formats.gltf.reading.conventions import below_colliders, conventi
 from meshforge.formats.mesh_parts import placed
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entry
-from meshforge.formats.naming.godot import godot_kind
-from meshforge.formats.naming.unreal import unreal_kind
+from meshforge.formats.naming.marks import godot_kind, unreal_kind
 from meshforge.formats.visuals import LazySurfaces
 
 

@@ -9,7 +9,7 @@ from meshforge.asset import Geom
 from meshforge.formats.gltf.document import Authored
 from meshforge.formats.gltf.writing.styles import Style
 from meshforge.formats.meshfile.gltf.items import entry
-from meshforge.formats.naming.godot import godot_kind, without_suffix
+from meshforge.formats.naming.marks import godot_kind, without_suffix
 
 
 class GodotStyle(Style):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from meshforge.formats.gltf.document import Authored
 from meshforge.formats.gltf.reading.conventions import below_colliders
 from meshforge.formats.gltf.writing.plain_style import PlainStyle
-from meshforge.formats.naming.unity import holds_colliders
+from meshforge.formats.naming.marks import holds_colliders
 
 
 class UnityStyle(PlainStyle):

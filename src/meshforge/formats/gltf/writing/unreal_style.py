@@ -8,7 +8,8 @@ from meshforge.asset import Geom
 from meshforge.formats.gltf.document import Authored
 from meshforge.formats.gltf.writing.styles import Style
 from meshforge.formats.meshfile.gltf.items import entries
-from meshforge.formats.naming.unreal import NATIVE, next_name, render_name, unreal_kind
+from meshforge.formats.naming.marks import render_name, unreal_kind
+from meshforge.formats.naming.unreal import NATIVE, next_name
 
 
 class UnrealStyle(Style):
