@@ -52,7 +52,7 @@ def named(asset: Asset, names: Names, suffix: str) -> Iterator[Saved]:
 
 
 @pytest.mark.parametrize(("names", "suffix"), MADE)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(asset=assets())
 def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
     names: Names, suffix: str, asset: Asset
@@ -74,7 +74,7 @@ def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
 
 
 @pytest.mark.parametrize("suffix", [".glb", ".obj"])
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(asset=assets())
 def test_unreal_finds_each_hull_and_the_mesh_of_its_body_for_it(suffix: str, asset: Asset) -> None:
     with named(asset, "unreal", suffix) as saved:
@@ -90,7 +90,7 @@ def test_unreal_finds_each_hull_and_the_mesh_of_its_body_for_it(suffix: str, ass
     assert {name: name[:3] for name in hulls} == {n: kinds.get(g.shape.kind, "UCX") for n, g in hulls.items()}
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(asset=assets())
 def test_godot_makes_a_convex_body_of_each_hull_and_nothing_else_of_anything(asset: Asset) -> None:
     with named(asset, "godot", ".glb") as saved:
@@ -101,7 +101,7 @@ def test_godot_makes_a_convex_body_of_each_hull_and_nothing_else_of_anything(ass
     assert [node["name"] for node in nodes if node["name"] not in hulls and godot_word(node["name"])] == []
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(asset=assets())
 def test_a_script_in_unity_finds_the_hulls_of_each_body_below_one_node(asset: Asset) -> None:
     with named(asset, "unity", ".glb") as saved:
