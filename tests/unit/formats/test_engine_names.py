@@ -261,6 +261,16 @@ def test_hulls_made_for_unity_lie_below_the_same_node(tmp_path: Path) -> None:
         save(asset.with_geoms([]), tmp_path / "none.gltf")
 
 
+def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_unity(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("top", box((0, 5, 0)))
+    scene.node("all_colliders", together(box(), box((2, 0, 0)), box((4, 0, 0))))
+    asset = read(scene.write(tmp_path / "a.gltf"))
+    left = [geom for geom in asset.geoms if geom.name != "all_colliders#1"]
+    after = read(save(asset.with_geoms(left), tmp_path / "out" / "a.gltf").path)
+    assert names(after) == ["top", "all_colliders#0", "all_colliders#2"] and not after.visuals
+
+
 # Errors
 
 

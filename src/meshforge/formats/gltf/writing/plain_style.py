@@ -10,6 +10,7 @@ from meshforge.asset import Geom, Opaque, Surface
 from meshforge.formats.gltf.document import Authored
 from meshforge.formats.gltf.writing.draft import plain_material
 from meshforge.formats.gltf.writing.styles import Style
+from meshforge.formats.naming.marks import holds_colliders
 
 
 class PlainStyle(Style):
@@ -30,6 +31,9 @@ class PlainStyle(Style):
             draft.node(element.node)["mesh"] = draft.add_mesh(parted, mesh)
             draft.expected[element.node] = names
         else:
+            node = draft.node(element.node)
+            if holds_colliders(node.get("name")):  # else what lies below would be all that collides
+                node["name"] += "_"
             self.split(element, kept, mesh, names)
 
     def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
