@@ -18,7 +18,7 @@ from meshforge.batch.outcome import Failed, Outcome
 from meshforge.batch.pool import Lost
 from meshforge.batch.spread import TIMEOUT, Backend, spread
 from meshforge.errors import UsageError
-from meshforge.formats import Mass
+from meshforge.formats import Mass, Names, format_for, with_names
 from meshforge.language import Program, Template
 
 _Results = Generator[Worked | Lost, None, None]
@@ -36,6 +36,7 @@ def apply(
     dry_run: bool = False,
     resume: bool = True,
     to: str | None = None,
+    names: Names | None = None,
     timeout: float | None = TIMEOUT,
     memory: int | None = None,
     backend: Backend = "local",
@@ -51,14 +52,15 @@ def apply(
     native code); mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
     and was made from the same is skipped; to: the suffix of the format that all are written in, each one's own when
-    None; timeout: seconds for one asset; memory: bytes for one, an even share of
-    the machine's when None; backend: the workers of this machine, or those of a Ray cluster, as of `on_cluster`;
+    None; names: the engine by whose names for collision they are made; timeout: seconds for one asset; memory: bytes
+    for one, an even share of the machine's when None; backend: the workers of this machine, or those of a Ray cluster,
+    as of `on_cluster`;
     progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
     StoppedError when it was told to stop: what is in place by then stays.
     """
     jobs = tuple(assets)
-    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to)
+    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to, names)
     _check(jobs, task)
     work = partial(spread, backend, workers=workers, timeout=timeout, memory=memory, done=progress, stop=stop)
     return _run(jobs, task, work)
@@ -84,6 +86,8 @@ def _lost(job: AssetJob, lost: Lost) -> Worked:
 
 
 def _check(jobs: tuple[AssetJob, ...], task: Task) -> None:
+    if task.names:
+        with_names(format_for(Path(f"asset{task.to or ''}"), ""), task.names)
     seen: dict[str, Path] = {}
     for job in jobs:
         if job.id in seen:

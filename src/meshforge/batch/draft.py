@@ -12,7 +12,7 @@ from meshforge.batch.digests import file_digest, text_digest
 from meshforge.batch.folder import STATE
 from meshforge.batch.job import AssetJob, Task
 from meshforge.errors import AssetError
-from meshforge.formats import Mass, labels_beside, placed, read, save
+from meshforge.formats import Mass, Names, labels_beside, placed, read, save
 from meshforge.symbolic import SymbolicMesh, write_labels
 
 FILES, STAMP = "files", "stamp.json"
@@ -55,14 +55,20 @@ def planned(task: Task, job: AssetJob, asset: Asset) -> Draft:
 
 
 def written(
-    plan: Draft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], *, mass: Mass = "keep", link: bool = False
+    plan: Draft,
+    mesh: SymbolicMesh,
+    vocabulary: tuple[str, ...],
+    *,
+    mass: Mass = "keep",
+    link: bool = False,
+    names: Names | None = None,
 ) -> Draft:
     """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
-    saved = save(mesh, main, mass=mass, link=link)
+    saved = save(mesh, main, mass=mass, link=link, names=names)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     order = _read_back(main, written)
     if written.labels:

@@ -76,7 +76,7 @@ def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
         program=program_digest(task.program),
         templates=template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
-        settings=f"mass={task.mass}{f' to={task.to}' if task.to else ''}",
+        settings=f"mass={task.mass}{f' to={task.to}' if task.to else ''}{f' names={task.names}' if task.names else ''}",
         software=software(),
     )
 
@@ -99,7 +99,8 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
     mesh, flags = replay(job.corrections, source, result.mesh, task.program, task.templates)
     draft = planned(task, job, asset)
     if not task.dry_run:
-        draft = written(draft, mesh, labels.vocabulary or task.program.labels, mass=task.mass, link=task.link)
+        known = labels.vocabulary or task.program.labels
+        draft = written(draft, mesh, known, mass=task.mass, link=task.link, names=task.names)
     outcome = (Unchanged if _same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),

@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge.batch.correction import Correction
 from meshforge.batch.expand import Found, asset_id
 from meshforge.errors import UsageError
-from meshforge.formats import Mass, labels_beside
+from meshforge.formats import Mass, Names, labels_beside
 from meshforge.language import Program, Template
 
 
@@ -33,7 +33,8 @@ class AssetJob:
 class Task:
     """What is done to every asset of a batch.
 
-    out: the folder that is written; to: the suffix of the format that is written, None for the asset's own.
+    out: the folder that is written; to: the suffix of the format that is written, None for the asset's own; names:
+    the engine by whose names for collision they are made.
     """
 
     program: Program
@@ -44,6 +45,7 @@ class Task:
     dry_run: bool = False
     resume: bool = True
     to: str | None = None
+    names: Names | None = None
 
 
 def jobs(found: Found, labels: Path | None = None) -> tuple[AssetJob, ...]:

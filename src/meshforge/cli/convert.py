@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -14,7 +14,7 @@ from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
 if TYPE_CHECKING:
     from meshforge.asset import Feature
     from meshforge.batch import Outcome
-    from meshforge.formats import Loss, Saved
+    from meshforge.formats import Loss, Names, Saved
     from meshforge.symbolic import SymbolicMesh
 
 
@@ -28,6 +28,10 @@ def convert(
     ],
     to: Annotated[
         str | None, typer.Option("--to", metavar="SUFFIX", help="Write all assets in this format, as .usda, below OUT.")
+    ] = None,
+    names: Annotated[
+        Literal["unreal", "godot", "unity"] | None,
+        typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
     ] = None,
     labels: Labels = None,
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
@@ -51,10 +55,11 @@ def convert(
     if to is None:
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
-        return _one(Path(sources[0]), Path(out), labels, link, overwrite, json)
+        return _one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
     if overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
-    _many(sources, Path(out), _suffix(to), labels, link=link, workers=workers, bounds=(timeout, memory), json=json)
+    bounds = timeout, memory
+    _many(sources, Path(out), _suffix(to), labels, names, link=link, workers=workers, bounds=bounds, json=json)
     return None
 
 
@@ -75,6 +80,7 @@ def _many(
     out: Path,
     suffix: str,
     labels: Path | None,
+    names: Names | None,
     *,
     link: bool,
     workers: int | None,
@@ -96,6 +102,7 @@ def _many(
             jobs,
             out,
             to=suffix,
+            names=names,
             link=link,
             workers=workers,
             timeout=seconds,
@@ -124,13 +131,15 @@ def _told(outcome: Outcome) -> str:
     return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
 
 
-def _one(source: Path, out: Path, labels: Path | None, link: bool, overwrite: bool, json: bool) -> None:
+def _one(
+    source: Path, out: Path, labels: Path | None, names: Names | None, *, link: bool, overwrite: bool, json: bool
+) -> None:
     from meshforge.cli.output import print_json, remark
     from meshforge.formats import load, save
     from meshforge.words import counted
 
     mesh = load(source, labels=labels)
-    saved = save(mesh, out, link=link, overwrite=overwrite)
+    saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
     read_notes = mesh.asset.notes if mesh.asset else ()
     if mesh.labels:
         _write_labels(mesh, saved, overwrite)

@@ -94,6 +94,10 @@ class Format(ABC):
         Raises AssetError where the file cannot hold the edit.
         """
 
+    def takes_back(self, asset: Asset) -> bool:
+        """Whether an asset was read from a file of this kind, so that `write` writes it back."""
+        return asset.format == self.name
+
     def create(self, asset: Asset, name: str) -> Output:
         """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""
         raise self._cannot_create(asset)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
-from meshforge.errors import AssetError, nearest
+from meshforge.errors import AssetError, UsageError, nearest
 from meshforge.formats.base import Format
-from meshforge.formats.gltf import GltfFormat
+from meshforge.formats.gltf import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
 from meshforge.formats.mjcf import MjcfFormat
-from meshforge.formats.plain import Folder, Obj, Ply, Stl, Wrl
+from meshforge.formats.naming import Names
+from meshforge.formats.plain import Folder, Obj, ObjForUnreal, Ply, Stl, Wrl
 from meshforge.formats.sdf import SdfFormat
 from meshforge.formats.sdf.files.config import CONFIG, main_file
 from meshforge.formats.segmented.places import is_segmented
@@ -28,6 +30,12 @@ FORMATS: tuple[Format, ...] = (
     *FOLDER.members,
     FOLDER,
 )
+NAMED: Mapping[Names, tuple[Format, ...]] = {
+    "unreal": (GltfForUnreal(), ObjForUnreal()),
+    "godot": (GltfForGodot(),),
+    "unity": (GltfForUnity(),),
+}
+"""The formats that can be written with the names by which an engine knows collision."""
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
@@ -87,6 +95,16 @@ def format_for(path: Path, own: str) -> Format:
     if own == FOLDER.name or path.is_dir() or not path.suffix:
         return FOLDER
     raise _unknown(path)
+
+
+def with_names(known: Format, names: Names) -> Format:
+    """A format with the names of an engine. Raises UsageError: the engine knows no collision by name in its files."""
+    for named in NAMED[names]:
+        if named.name == known.name:
+            return named
+    files = known.title if known.is_folder else f"{known.title} files"
+    can = ", ".join(suffix for named in NAMED[names] for suffix in named.suffixes)
+    raise UsageError(f"{files} cannot be named for {names.title()}", remedy=f"Formats that can: {can}.")
 
 
 def _of_suffix(path: Path) -> list[Format]:

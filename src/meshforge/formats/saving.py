@@ -14,7 +14,8 @@ from meshforge.errors import AssetError
 from meshforge.files import write_atomically
 from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.copying import copy_atomically, same_content
-from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for
+from meshforge.formats.naming import Names
+from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for, with_names
 from meshforge.formats.reporting import Report, report
 from meshforge.formats.turning import stood_up
 from meshforge.geometry import Pose
@@ -45,19 +46,27 @@ class Saved:
 
 
 def save(
-    what: SymbolicMesh | Asset, out: str | Path, *, mass: Mass = "keep", link: bool = False, overwrite: bool = False
+    what: SymbolicMesh | Asset,
+    out: str | Path,
+    *,
+    mass: Mass = "keep",
+    link: bool = False,
+    overwrite: bool = False,
+    names: Names | None = None,
 ) -> Saved:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
     Every file that the asset refers to goes along. A path without suffix is a folder of one file a hull.
     mass: whether bodies keep their masses where a format derives them from geometry;
-    link: files that are only copied become hard links; overwrite: existing files may be replaced.
+    link: files that are only copied become hard links; overwrite: existing files may be replaced;
+    names: an engine, by whose names for collision the file is made, unless it was read with these.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
-    overwritten.
+    overwritten. Raises UsageError: the engine knows no collision by name in files of this format.
     """
     asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
+    known = with_names(known, names) if names else known
     output, told = _written(asset, known, out.name, mass)
     plan = _plan(output, out, known.is_folder)
     _refuse_outside(plan, out if known.is_folder else out.parent)
@@ -73,7 +82,7 @@ def save(
 
 def _written(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, Report]:
     """The files of an asset in its own format or another, and what there is to say about them."""
-    if known.name == asset.format:
+    if known.takes_back(asset):
         output = known.write(asset, name, mass)
         return output, Report(remarks=output.notes)
     source = next((own for own in FORMATS if own.name == asset.format), None)

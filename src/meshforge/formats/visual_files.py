@@ -10,14 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Surface
+from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
 from meshforge.formats.companions import companions
 from meshforge.formats.hull_files import HullFiles
 from meshforge.formats.meshfile import joined
 from meshforge.formats.numbers import tidy
 from meshforge.formats.triangles import read_triangles
-from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.visuals import Rgba, Visual
 from meshforge.geometry import Floats, Ints, Pose, Shape
 
 _ROUNDING = 1e-14  # share that is lost when a rotation is taken off a scale, and back
@@ -32,13 +32,6 @@ class Shown:
     pose: Pose
     scale: Floats
     rgba: Rgba | None
-
-
-def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
-    """What each body shows; what belongs to none is shown by the first."""
-    first = asset.bodies[0].name if asset.bodies else ""
-    found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
-    return [(visual.body or first, visual) for visual in found]
 
 
 @dataclass(slots=True)

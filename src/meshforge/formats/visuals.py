@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, overload
 
-from meshforge.asset import Surface
+from meshforge.asset import Asset, Surface
 from meshforge.errors import MeshForgeError
 from meshforge.formats.mesh_parts import placed
 from meshforge.formats.triangles import read_triangles
@@ -87,3 +87,10 @@ class VisualSurfaces(LazySurfaces):
     def _make(self) -> Iterator[Surface]:
         for visual in self.visuals:
             yield from visual.surfaces()
+
+
+def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
+    """What each body shows; what belongs to none is shown by the first."""
+    first = asset.bodies[0].name if asset.bodies else ""
+    found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
+    return [(visual.body or first, visual) for visual in found]

@@ -204,6 +204,26 @@ def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -
     assert [line["status"] for line in elsewhere.lines] == ["unchanged"] * 3
 
 
+def test_convert_calls_hulls_as_an_engine_knows_them_and_labels_follow(run: Run) -> None:
+    assert run("convert", "row.obj", "made/row.obj", "--names", "unreal").code == 0
+    hulls = run("info", "made/row.obj", "--json").json["hulls"]
+    assert [(hull["name"], hull["label"]) for hull in hulls] == [
+        ("UCX_row_00", "leg"),
+        ("UCX_row_01", "panel"),
+        ("UCX_row_02", "leg"),
+    ]
+
+
+def test_convert_of_many_makes_them_anew_for_another_engine(run: Run) -> None:
+    write_tables(Path("many"), 2)
+    for names, statuses in (("godot", "unchanged"), ("godot", "skipped"), ("unreal", "unchanged")):
+        told = run("convert", "many", "made", "--to", "glb", "--names", names, "--json")
+        assert told.code == 0 and [line["status"] for line in told.lines] == [statuses] * 2
+    hulls = run("info", "made/table1/model.glb", "--json").json["hulls"]
+    assert {hull["name"][:10] for hull in hulls} == {"UCX_model_"}
+    assert {hull["label"] for hull in hulls} == {"leg", "misc", "top"}
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -211,6 +231,9 @@ def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -
         (("row.obj", "t.obj", "out"), "several assets and no format"),
         (("row.obj", "out", "--to", "wrl"), "nothing is written as .wrl"),
         (("row.obj", "out", "--to", ".obj", "--overwrite"), "--overwrite is for one asset"),
+        (("row.obj", "out.obj", "--names", "godot"), "OBJ files cannot be named for Godot"),
+        (("row.obj", "out", "--to", "usda", "--names", "unreal"), "USD files cannot be named for Unreal"),
+        (("row.obj", "out.glb", "--names", "blender"), "is not one of 'unreal', 'godot', 'unity'"),
     ],
 )
 def test_convert_says_what_is_missing(run: Run, words: tuple[str, ...], message: str) -> None:

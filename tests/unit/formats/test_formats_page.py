@@ -9,27 +9,33 @@ import ast
 import re
 from pathlib import Path
 
+import pytest
+
 from meshforge.asset import What
-from meshforge.formats import FORMATS
+from meshforge.formats import FORMATS, NAMED, Format
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "formats.md"
-_START, _END = "<!-- matrix: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of matrix -->"
-_MADE = [known for known in FORMATS if known.name != "wrl"]
+_START, _END = "<!-- {}: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of {} -->"
+_MATRICES = {
+    "matrix": [known for known in FORMATS if known.name != "wrl"],
+    "named matrix": [known for formats in NAMED.values() for known in formats],
+}
 
 
-def matrix() -> str:
+def matrix(formats: list[Format]) -> str:
     """What each format takes over from others, a row for each kind of thing that any of them takes."""
-    rows = [["", *(known.title for known in _MADE)], ["---"] * (len(_MADE) + 1)]
+    rows = [["", *(known.title for known in formats)], ["---"] * (len(formats) + 1)]
     for what in What:
-        cells = ["●" if what in known.holds else known.instead.get(what, "") for known in _MADE]
+        cells = ["●" if what in known.holds else known.instead.get(what, "") for known in formats]
         if "●" in cells:
             rows.append([what.many, *cells])
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
-def test_the_page_tells_what_conversions_keep() -> None:
-    assert f"{_START}\n{matrix()}\n{_END}" in PAGE.read_text()
+@pytest.mark.parametrize("name", _MATRICES)
+def test_the_page_tells_what_conversions_keep(name: str) -> None:
+    assert f"{_START.format(name)}\n{matrix(_MATRICES[name])}\n{_END.format(name)}" in PAGE.read_text()
 
 
 def test_every_test_that_the_page_names_exists() -> None:
@@ -46,5 +52,7 @@ def _tests(file: Path) -> set[str]:
 
 
 if __name__ == "__main__":
-    head, _, tail = PAGE.read_text().partition(_START)
-    PAGE.write_text(f"{head}{_START}\n{matrix()}\n{_END}{tail.partition(_END)[2]}")
+    for title, made in _MATRICES.items():
+        start, end = _START.format(title), _END.format(title)
+        head, _, tail = PAGE.read_text().partition(start)
+        PAGE.write_text(f"{head}{start}\n{matrix(made)}\n{end}{tail.partition(end)[2]}")

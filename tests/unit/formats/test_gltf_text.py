@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshforge.formats.gltf.reading.names import godot_kind, render_name, unreal_kind, without_suffix
 from meshforge.formats.gltf.writing.json_text import rewritten
+from meshforge.formats.naming.marks import godot_kind, render_name, unreal_kind, without_suffix
 
 SCALARS = st.none() | st.booleans() | st.integers(-9, 9) | st.floats(allow_nan=False, allow_infinity=False) | st.text()
 KEYS = st.sampled_from("abcd")

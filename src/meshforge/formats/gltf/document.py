@@ -9,7 +9,7 @@ from typing import Literal
 from meshforge.asset import Document
 from meshforge.geometry import Ints
 
-Convention = Literal["khr", "omi", "omi collider", "unreal", "godot", "plain"]
+Convention = Literal["khr", "omi", "omi collider", "unreal", "godot", "unity", "plain"]
 """How a file tells its collision geometry: by an extension, by names, or not at all, then all meshes are collision."""
 
 BODY = "body"

@@ -82,6 +82,7 @@ class Soup:
     """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`.
 
     spoken: what else the file says of its triangles: of what kind (as of `Mentions`), (m,) into the names, the names.
+    marked: whether names mark collision, so that each group is one hull; -1 is the group of what is only seen.
     """
 
     vertices: Floats
@@ -89,6 +90,7 @@ class Soup:
     group: Ints
     names: tuple[str | None, ...]
     spoken: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
+    marked: bool = False
 
 
 def joined(surfaces: Sequence[RawSurface]) -> Soup:

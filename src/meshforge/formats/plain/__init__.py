@@ -2,8 +2,9 @@
 
 from meshforge.formats.plain.folder import Folder
 from meshforge.formats.plain.obj import Obj
+from meshforge.formats.plain.obj_unreal import ObjForUnreal
 from meshforge.formats.plain.ply import Ply
 from meshforge.formats.plain.stl import Stl
 from meshforge.formats.plain.wrl import Wrl
 
-__all__ = ["Folder", "Obj", "Ply", "Stl", "Wrl"]
+__all__ = ["Folder", "Obj", "ObjForUnreal", "Ply", "Stl", "Wrl"]

@@ -57,7 +57,9 @@ class Folder(Format):
             geoms=tuple(_renamed(g, names[g.name]) for names, asset in pairs for g in asset.geoms),
             document=FolderDocument(tuple(members)),
             opaque=tuple(_renamed(o, names[o.name]) for names, asset in pairs for o in asset.opaque),
+            visuals=tuple(surface for asset in assets for surface in asset.visuals),
             files=tuple(dict.fromkeys(f for asset in assets for f in (asset.path, *asset.files))),
+            notes=tuple(f"{asset.path.name}: {note}" for asset in assets for note in asset.notes),
         )
 
     def mesh_files(self, folder: Path) -> list[Path]:

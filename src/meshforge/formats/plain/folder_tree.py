@@ -51,7 +51,7 @@ class Tree:
         elif stay and member.document.groups == 1 and not member.asset.opaque:
             for piece in stay:  # a file each, since a piece alone would be called after the file
                 self._edit(member, [piece], self._free(member.names[piece], Path(member.file).suffix))
-        elif stay:
+        elif stay or member.asset.visuals:  # a file of something seen is not lost with its hulls: its writer refuses
             self._edit(member, stay, member.file)
         if stay:
             self.beside |= companions(member.asset.path)

@@ -1,18 +1,23 @@
-"""Wavefront OBJ: each connected convex piece of a group is a hull; names live in `o` lines."""
+"""Wavefront OBJ: each connected convex piece of a group is a hull, or each group that is named so for Unreal."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from meshforge.asset import Asset, Feature, What
+from meshforge.asset import Asset, Feature, Geom, What
 from meshforge.formats.meshfile import Soup
 from meshforge.formats.meshfile.obj import parse_obj
+from meshforge.formats.naming.marks import unreal_kind
+from meshforge.formats.naming.unreal_shapes import unreal_shape
+from meshforge.formats.plain.marked import HOW, marked_soup, next_names
 from meshforge.formats.plain.obj_edit import edited_obj
 from meshforge.formats.plain.obj_text import parts_text
 from meshforge.formats.plain.parts import Part, PlainDocument
 from meshforge.formats.plain.plain import Edit, PlainFormat
+from meshforge.geometry import Piece, Shape
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)
@@ -32,13 +37,25 @@ class Obj(PlainFormat):
     suffixes = (".obj",)
 
     def soup(self, data: bytes, path: Path) -> Soup:
-        return parse_obj(data, str(path)).soup(str(path))
+        text = parse_obj(data, str(path))
+        return marked_soup(text, text.soup(str(path)))
+
+    def meant(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
+        shapes, _ = super().meant(document, found)
+        if not document.marked:
+            return shapes, ()
+        meant = {name: unreal_shape(name, hull) for name, hull in shapes.items()}
+        notes = (HOW, *(note for _, note in meant.values() if note))
+        return {name: shape for name, (shape, _) in meant.items()}, notes
+
+    def called(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+        return next_names(parse_obj(document.data, ""), geoms) if document.marked else super().called(document, geoms)
 
     def edited(self, edit: Edit) -> bytes:
         return edited_obj(parse_obj(edit.document.data, str(edit.path)), edit)
 
     def made(self, parts: Sequence[Part]) -> bytes:
-        return parts_text(parts)
+        return parts_text([replace(part, name="_" * bool(unreal_kind(part.name)) + part.name) for part in parts])
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):

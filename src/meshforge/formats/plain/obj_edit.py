@@ -11,6 +11,7 @@ from meshforge.errors import AssetError
 from meshforge.formats.meshfile.obj import Group, ObjText, arguments, name_in
 from meshforge.formats.meshfile.obj_rows import keywords
 from meshforge.formats.plain.obj_text import line_end, named, parts_text
+from meshforge.formats.plain.parts import SEEN
 from meshforge.formats.plain.plain import Edit
 
 _NUMBER = re.compile(rb"(\s)([+-]?\d+)")
@@ -47,19 +48,18 @@ class _Editor:
             body += self.end
         width = len(arguments(self.text.statements[self.text.vertex_at[0]]))
         colors = width - 3 if width in (6, 7) else 0
-        return body + parts_text(self.edit.parts, int(self.kept.sum()), self.end, colors)
+        words = (b"o", b"g") if self.edit.document.marked else (b"o",)
+        return body + parts_text(self.edit.parts, int(self.kept.sum()), self.end, colors, words)
 
     def _wanted(self) -> dict[int, Group]:
         """The group that each face statement which stays should be in."""
         document, text = self.edit.document, self.text
         touched = set(text.face_group[~self.edit.stays].tolist())
         wanted: dict[int, Group] = {}
-        for at, group, owner in zip(
-            text.face_at.tolist(), text.face_group.tolist(), document.owner.tolist(), strict=True
-        ):
+        for at, group, owner in zip(text.face_at.tolist(), text.face_group.tolist(), document.owners, strict=True):
             if self.stays[at]:
-                rename = self.edit.explicit or group in touched
-                wanted[at] = (document.names[owner], "") if rename else text.groups[group]
+                rename = (self.edit.explicit or group in touched) and owner != SEEN
+                wanted[at] = (owner, "") if rename else text.groups[group]
         return wanted
 
     def _number_vertices(self) -> None:

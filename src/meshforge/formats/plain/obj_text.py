@@ -9,16 +9,19 @@ from meshforge.formats.plain.parts import Part
 from meshforge.geometry import Floats, Ints
 
 
-def parts_text(parts: Sequence[Part], start: int = 0, end: bytes = b"\n", colors: int = 0) -> bytes:
+def parts_text(
+    parts: Sequence[Part], start: int = 0, end: bytes = b"\n", colors: int = 0, words: Sequence[bytes] = (b"o",)
+) -> bytes:
     """Parts as text, an object each.
 
     start: the vertices ahead of them in the file; end: the line end; colors: values behind the coordinates of each
-    vertex, where the file has colours there (some readers want them for all).
+    vertex, where the file has colours there (some readers want them for all); words: the statements that name a part.
     """
     text: list[bytes] = []
     for part in parts:
         vertices, faces = part.surface.vertices, part.surface.faces
-        text += [named(b"o", part.name), end, rows_text(vertices, faces + start, end, " 1.0" * colors)]
+        text += [line for word in words for line in (named(word, part.name), end)]
+        text.append(rows_text(vertices, faces + start, end, " 1.0" * colors))
         start += len(vertices)
     return b"".join(text)
 

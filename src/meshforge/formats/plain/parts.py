@@ -12,21 +12,33 @@ import numpy as np
 
 from meshforge.asset import Asset, Document, Geom, Surface, unique_names
 from meshforge.errors import AssetError
+from meshforge.formats.meshfile import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.words import listed
+
+SEEN = ""
+"""Whose triangles are that are only seen; no piece has this name."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlainDocument(Document):
     """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
 
-    groups: how many groups of the file have faces.
+    groups: how many groups of the file have faces; marked: whether names mark its hulls, as of `Soup`; then -1 is the
+    owner of what is only seen.
     """
 
     data: bytes
     names: tuple[str, ...]
     owner: Ints
     groups: int
+    marked: bool = False
+
+    @property
+    def owners(self) -> list[str]:
+        """The name of the piece of each triangle, SEEN for what is only seen."""
+        names = [*self.names, SEEN]  # -1 is the last
+        return [names[k] for k in self.owner.tolist()]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -99,13 +111,13 @@ def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
     return (*((not word.isdigit(), int(word) if word.isdigit() else 0, word) for word in words),)
 
 
-def as_parts(geoms: Iterable[Geom]) -> tuple[tuple[Part, ...], tuple[str, ...]]:
-    """Geoms as triangles, and notes on those that lose by it."""
+def as_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[Part, ...], tuple[str, ...]]:
+    """Geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
     parts, round_ones = [], Counter[str]()
     for geom in geoms:
         shape = geom.shape.tessellated()
         parts.append(Part(geom.name, Surface(shape.vertices, shape.faces)))
-        if not isinstance(geom.shape, Polytope | Box):
+        if not isinstance(geom.shape, Polytope | Box) and geom.shape.kind not in native:
             round_ones[geom.shape.kind] += 1
     notes = tuple(
         f"{count} {kind}{'s' * (count > 1)} written as hull meshes: mesh files have no primitives"
@@ -124,39 +136,37 @@ def all_parts(asset: Asset) -> tuple[Part, ...]:
 
 
 def read_back(
-    document: PlainDocument, found: Sequence[Piece], wanted: Wanted, hulls: Collection[str], where: str
+    document: PlainDocument, found: Sequence[Piece], soup: Soup, wanted: Wanted, hulls: Collection[str], where: str
 ) -> dict[str, str]:
     """The hulls that read back under another name, with that name.
 
-    document, found: the written file and its pieces; wanted: what it should hold; hulls: those of its owners that are
-    hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as something else or elsewhere.
+    document, found, soup: the written file, its pieces and its triangles; wanted: what it should hold; hulls: those of
+    its owners that are hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as
+    something else or elsewhere.
     """
-    names, owner = document.names, document.owner
-    if len(owner) != len(wanted.owners):
+    if len(document.owner) != len(wanted.owners):
         raise AssetError("the written file would lose triangles", where=where)
-    _refuse_moved(found, wanted, where)
-    convex = {name for name, piece in zip(names, found, strict=True) if piece.shape}
-    back: dict[str, set[int]] = {}
-    for name, piece in zip(wanted.owners, owner.tolist(), strict=True):
+    _refuse_moved(soup, wanted, where)
+    convex = {name for name, piece in zip(document.names, found, strict=True) if piece.shape}
+    back: dict[str, set[str]] = {}
+    for name, piece in zip(wanted.owners, document.owners, strict=True):
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
     for name in hulls:
         held = back.get(name, set())
-        if len(held) != 1 or any(shared[k] > 1 or names[k] not in convex for k in held):
+        if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
             raise AssetError(
                 f"the hull {name} cannot be told apart from others in this file",
                 where=where,
                 remedy="Write an OBJ, which has groups, or a folder of files.",
             )
-    read = {name: names[min(back[name])] for name in back if name in hulls}
+    read = {name: min(back[name]) for name in back if name in hulls}
     return {name: now for name, now in read.items() if now != name}
 
 
-def _refuse_moved(found: Sequence[Piece], wanted: Wanted, where: str) -> None:
+def _refuse_moved(soup: Soup, wanted: Wanted, where: str) -> None:
     """Raise AssetError where a corner is not where it should be; those of made triangles may be single precision."""
-    corners = np.empty_like(wanted.corners)
-    for piece in found:
-        corners[piece.face_indices] = piece.vertices[piece.faces]
+    corners = soup.vertices[soup.faces]
     there = corners == wanted.corners
     there[wanted.kept :] |= corners[wanted.kept :] == wanted.corners[wanted.kept :].astype(np.float32)
     if not there.all():

@@ -6,6 +6,7 @@ that, and under which names.
 
 from __future__ import annotations
 
+import itertools
 from abc import abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,7 +22,10 @@ from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.formats.companions import companions
 from meshforge.formats.mentioned import without_repeats
 from meshforge.formats.meshfile import Soup
+from meshforge.formats.naming.unreal import NATIVE
+from meshforge.formats.plain.marked import marked_pieces
 from meshforge.formats.plain.parts import (
+    SEEN,
     Part,
     PlainDocument,
     Wanted,
@@ -34,7 +38,7 @@ from meshforge.formats.plain.parts import (
     renaming,
 )
 from meshforge.formats.triangles import contents
-from meshforge.geometry import Piece, Pose, pieces
+from meshforge.geometry import Piece, Pose, Shape, pieces
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
@@ -58,14 +62,13 @@ class Edit:
     @property
     def stays(self) -> npt.NDArray[np.bool_]:
         """Whether each triangle (m,) stays."""
-        kept = np.array([name not in self.gone for name in self.document.names], dtype=bool)
-        return kept[self.document.owner]
+        kept = np.array([name not in self.gone for name in (*self.document.names, SEEN)], dtype=bool)
+        return kept[self.document.owner]  # -1 is the last
 
     @property
     def owners(self) -> list[str]:
         """Whose each triangle of the edited file should be."""
-        kept = [self.document.names[k] for k in self.document.owner[self.stays]]
-        return kept + owners(self.parts)
+        return list(itertools.compress(self.document.owners, self.stays)) + owners(self.parts)
 
 
 class PlainFormat(Format):
@@ -89,19 +92,30 @@ class PlainFormat(Format):
     def read(self, path: Path, options: ReadOptions) -> Asset:
         document, found, soup = self._read(contents(path), path)
         named = [(name, piece, _mentions(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
+        shapes, notes = self.meant(document, found)
         return Asset(
             path=path,
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(Geom(name, BODY, piece.shape, mentions=said) for name, piece, said in named if piece.shape),
+            geoms=tuple(Geom(name, BODY, shapes[name], mentions=said) for name, _, said in named if name in shapes),
             document=document,
             opaque=tuple(
                 Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces), mentions=said)
                 for name, piece, said in named
                 if not piece.shape
             ),
+            visuals=_seen(soup),
             files=tuple(dict.fromkeys(companions(path).values())),
+            notes=notes,
         )
+
+    def meant(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
+        """The shapes of the hulls of a file by their names, and what a user should know about how they were read."""
+        return {name: p.shape for name, p in zip(document.names, found, strict=True) if p.shape}, ()
+
+    def called(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+        """The names that made hulls get in a file."""
+        return [geom.name for geom in geoms]
 
     def taken_apart(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
         """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
@@ -111,14 +125,19 @@ class PlainFormat(Format):
     def _read(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
         soup = self.soup(data, path)
         try:
-            found = pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
+            found = (
+                marked_pieces(soup)
+                if soup.marked
+                else pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
+            )
         except GeometryError as error:
             raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
-        owner = np.zeros(len(soup.faces), dtype=np.int64)
+        owner = np.full(len(soup.faces), -1)
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
-        groups = len(np.unique(soup.group))
-        return PlainDocument(data, tuple(piece_names(found, soup.names)), owner, groups), found, soup
+        groups = len(np.unique(soup.group[soup.group >= 0]))
+        names = tuple(piece_names(found, soup.names))
+        return PlainDocument(data, names, owner, groups, soup.marked), found, soup
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
@@ -131,8 +150,12 @@ class PlainFormat(Format):
         beside = companions(asset.path)
         if not gone and not new:
             return Output(document.data, copies=beside)
-        parts, notes = as_parts(new)
-        data, names = self._settled(Edit(document, asset.path, gone, parts), kept | {p.name for p in parts})
+        parts, notes = as_parts(new, NATIVE if document.marked else ())
+        made = dict(zip((geom.name for geom in new), self.called(document, new), strict=True))
+        parts = tuple(replace(part, name=made[part.name]) for part in parts)
+        data, read = self._settled(Edit(document, asset.path, gone, parts), {*kept, *made.values()})
+        called = {**{name: name for name in kept}, **made}
+        names = {name: read.get(now, now) for name, now in called.items() if read.get(now, now) != name}
         return Output(data, copies=beside, notes=(*notes, *renaming(names)), names=names)
 
     def create(self, asset: Asset, name: str) -> Output:
@@ -146,6 +169,12 @@ class PlainFormat(Format):
         """The edited file, and the names that read back otherwise; with explicit names where that mends them."""
         if not edit.owners:
             raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
+        if edit.document.marked and set(edit.owners) == {SEEN}:
+            raise AssetError(
+                "the edit leaves no collision in this file",
+                where=str(edit.path),
+                remedy="Leave one hull: without any, what is seen would be taken for collision.",
+            )
         data = self.edited(edit)
         wanted = self._wanted(edit)
         names = self._checked(data, edit.path, wanted, hulls, edit.path)
@@ -162,8 +191,8 @@ class PlainFormat(Format):
 
     def _checked(self, data: bytes, path: Path, wanted: Wanted, hulls: Collection[str], where: Path) -> dict[str, str]:
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
-        document, found = self.taken_apart(data, path)
-        return read_back(document, found, wanted, hulls, str(where))
+        document, found, soup = self._read(data, path)
+        return read_back(document, found, soup, wanted, hulls, str(where))
 
 
 def _mentions(soup: Soup, piece: Piece) -> Mentions:
@@ -171,3 +200,12 @@ def _mentions(soup: Soup, piece: Piece) -> Mentions:
     return without_repeats(
         (kind, names[k]) for kind, owner, names in soup.spoken for k in np.unique(owner[piece.face_indices]).tolist()
     )
+
+
+def _seen(soup: Soup) -> tuple[Surface, ...]:
+    """What is only seen of a file whose names mark collision."""
+    faces = soup.faces[soup.group < 0]
+    if not len(faces):
+        return ()
+    used, numbers = np.unique(faces, return_inverse=True)
+    return (Surface(soup.vertices[used], numbers.reshape(-1, 3), BODY),)

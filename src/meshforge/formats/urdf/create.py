@@ -18,7 +18,8 @@ from meshforge.formats.urdf.elements import fresh, mesh_tag
 from meshforge.formats.urdf.features import MESHES
 from meshforge.formats.urdf.made import Maker
 from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
-from meshforge.formats.visual_files import VisualFiles, visuals_of
+from meshforge.formats.visual_files import VisualFiles
+from meshforge.formats.visuals import visuals_of
 from meshforge.formats.xml import escaped
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 from meshforge.words import counted, listed

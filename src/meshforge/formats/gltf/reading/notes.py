@@ -16,6 +16,7 @@ _HOW: dict[Convention, str] = {
     "omi collider": "its colliders are those of OMI_collider",
     "unreal": "its collision is the nodes that Unreal takes by their names, UCX_ and the like",
     "godot": "its collision is the nodes that Godot takes by their names, -col and the like",
+    "unity": "its collision is what lies below nodes called _colliders, as files for Unity have it",
 }
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
 _KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")

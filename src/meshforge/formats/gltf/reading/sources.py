@@ -10,19 +10,18 @@ import numpy as np
 from meshforge.errors import GeometryError
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.reading.bodies import rigid
-from meshforge.formats.gltf.reading.conventions import convention_of, source_name
-from meshforge.formats.gltf.reading.names import godot_kind, unreal_kind
+from meshforge.formats.gltf.reading.conventions import below_colliders, convention_of, source_name
 from meshforge.formats.gltf.reading.physics import collider_of, has_collider
 from meshforge.formats.gltf.reading.shapes import Z_TO_Y, Described
-from meshforge.formats.gltf.reading.unreal import unreal_shape
 from meshforge.formats.mesh_parts import MeshPart, mesh_parts, placed
 from meshforge.formats.meshfile import RawSurface, joined
 from meshforge.formats.meshfile.gltf import Placement, Scene, Triangles
 from meshforge.formats.meshfile.gltf.instances import NAME as INSTANCING
 from meshforge.formats.meshfile.gltf.instances import is_instanced, repeated
+from meshforge.formats.naming.marks import godot_kind
+from meshforge.formats.naming.unreal_shapes import unreal_shape
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Pose, Sphere, convex_hull, pieces
 
-_SHAPES = {"UBX": "box", "USP": "sphere", "UCP": "capsule"}
 _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 
 
@@ -48,13 +47,16 @@ class Reader:
     convention: Convention = "plain"
     notes: list[str] = field(default_factory=list)
     _pieces: dict[int, list[Piece]] = field(default_factory=dict)
+    _colliding: frozenset[int] = frozenset()  # in files for Unity
 
     def sources(self) -> list[Source]:
         """All nodes with collision, in the order of the scene."""
         self.convention = convention_of(self.scene)
+        self._colliding = below_colliders(self.scene)
         read: dict[Convention, Callable[[Placement], Source | None]] = {
             "unreal": self._unreal,
             "godot": self._godot,
+            "unity": self._unity,
             "plain": self._plain,
         }
         each = read.get(self.convention, self._physics)
@@ -113,18 +115,16 @@ class Reader:
 
     def _unreal(self, placement: Placement) -> Source | None:
         name = source_name(self.scene, placement, "unreal")
-        kind = unreal_kind(name)
-        if kind is None:
+        if name is None:
             return None
         mesh = self.scene.placed(placement)
         if not len(mesh[0].faces):
             return None
         part = self._hull(*mesh)
-        if part.shape is not None and kind != "UCX":
-            shape = unreal_shape(kind, part.shape)
-            if shape is None:
-                self.notes.append(f"{name!r} is no {_SHAPES[kind]}: it is read as a hull")
-            part = MeshPart(shape or part.shape)
+        if part.shape is not None:
+            shape, note = unreal_shape(name, part.shape)
+            self.notes += [note] if note else []
+            part = MeshPart(shape)
         return Source(placement.index, name, [part])
 
     def _godot(self, placement: Placement) -> Source | None:
@@ -142,6 +142,9 @@ class Reader:
             return None
         name = source_name(self.scene, placement, "plain")
         return self._pieced(placement.index, name, placement.node["mesh"], *self.scene.placed(placement))
+
+    def _unity(self, placement: Placement) -> Source | None:
+        return self._plain(placement) if placement.index in self._colliding else None
 
     def _pieced(
         self, node: int, name: str | None, index: int, mesh: Triangles, linear: Floats, offset: Floats

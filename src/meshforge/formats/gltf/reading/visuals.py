@@ -9,11 +9,11 @@ from meshforge.asset import Surface
 from meshforge.errors import MeshForgeError
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.reading.colors import coloured
-from meshforge.formats.gltf.reading.conventions import convention_of
-from meshforge.formats.gltf.reading.names import godot_kind, unreal_kind
+from meshforge.formats.gltf.reading.conventions import below_colliders, convention_of
 from meshforge.formats.mesh_parts import placed
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.meshfile.gltf.items import entry
+from meshforge.formats.naming.marks import godot_kind, unreal_kind
 from meshforge.formats.visuals import LazySurfaces
 
 
@@ -45,10 +45,11 @@ def visible(scene: Scene, convention: Convention) -> list[int]:
     """The nodes of meshes that are there to be seen; none where all meshes are taken for collision."""
     if convention == "plain":
         return []
+    colliding = below_colliders(scene) if convention == "unity" else frozenset()
     return [
         index
         for index, placement in scene.placements.items()
-        if "mesh" in placement.node and not _only_collides(scene, index, convention)
+        if "mesh" in placement.node and index not in colliding and not _only_collides(scene, index, convention)
     ]
 
 

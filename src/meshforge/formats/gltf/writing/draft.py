@@ -100,11 +100,13 @@ class Draft:
     def surface_mesh(self, points: Floats, faces: Ints, name: str, material: int | None = None) -> tuple[int, Floats]:
         """The same of vertices (n, 3) and faces (m, 3)."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        part: Json = {"attributes": {"POSITION": self.geometry.points(points - middle)}}
+        return self.add_mesh({"name": name, "primitives": [self.part_of(points - middle, faces, material)]}), middle
+
+    def part_of(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
+        """A primitive of vertices (n, 3) and faces (m, 3), where they are."""
+        part: Json = {"attributes": {"POSITION": self.geometry.points(points)}}
         part["indices"] = self.geometry.triangles(faces)
-        if material is not None:
-            part["material"] = material
-        return self.add_mesh({"name": name, "primitives": [part]}), middle
+        return part if material is None else {**part, "material": material}
 
     def parted(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
         """A mesh of some pieces only: with the vertices, attributes and materials of the whole.

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 from meshforge.asset import Geom
 from meshforge.formats.gltf.document import Authored
-from meshforge.formats.gltf.reading.names import godot_kind, without_suffix
 from meshforge.formats.gltf.writing.styles import Style
 from meshforge.formats.meshfile.gltf.items import entry
+from meshforge.formats.naming.marks import godot_kind, without_suffix
 
 
 class GodotStyle(Style):

@@ -10,6 +10,7 @@ from meshforge.asset import Geom, Opaque, Surface
 from meshforge.formats.gltf.document import Authored
 from meshforge.formats.gltf.writing.draft import plain_material
 from meshforge.formats.gltf.writing.styles import Style
+from meshforge.formats.naming.marks import holds_colliders
 
 
 class PlainStyle(Style):
@@ -30,16 +31,22 @@ class PlainStyle(Style):
             draft.node(element.node)["mesh"] = draft.add_mesh(parted, mesh)
             draft.expected[element.node] = names
         else:
+            node = draft.node(element.node)
+            if holds_colliders(node.get("name")):  # else what lies below would be all that collides
+                node["name"] += "_"
             self.split(element, kept, mesh, names)
 
     def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
-        draft = self.draft
-        holder = draft.holder_of(body, parent.node if parent else None)
+        draft, holder = self.draft, self.holder(body, parent)
         source = draft.scene.placements[parent.node].node if parent else {}
         material = plain_material(draft.scene.tree, source["mesh"]) if "mesh" in source else None
         mesh, middle = draft.made_mesh(draft.in_holder(geom.shape, holder), own, material)
         node = draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, holder)
         draft.expected[node] = (geom.name,)
+
+    def holder(self, body: int | None, parent: Authored | None) -> int | None:
+        """The node below which a made hull goes."""
+        return self.draft.holder_of(body, parent.node if parent else None)
 
     def make_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
         """Add a surface that is no hull."""

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from meshforge.asset import Geom
 from meshforge.formats.gltf.document import Authored
-from meshforge.formats.gltf.reading.names import render_name, unreal_kind
 from meshforge.formats.gltf.writing.styles import Style
 from meshforge.formats.meshfile.gltf.items import entries
-
-_PREFIXES = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}
+from meshforge.formats.naming.marks import render_name, unreal_kind
+from meshforge.formats.naming.unreal import NATIVE, next_name
 
 
 class UnrealStyle(Style):
     """A hull is a node with a mesh, called after the mesh it stands for: `UCX_table_02`."""
 
-    holds = ("polytope", *_PREFIXES)
+    holds = ("polytope", *NATIVE)
     lacks = "Unreal has no"
 
     def remove(self, element: Authored) -> None:
@@ -29,18 +27,16 @@ class UnrealStyle(Style):
     def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
         draft = self.draft
         holder = draft.holder_of(body, parent.node if parent else None)
-        name = self._free(_PREFIXES.get(geom.shape.kind, "UCX"), parent)
+        name = self._free(geom, parent)
         mesh, middle = draft.made_mesh(draft.in_holder(geom.shape, holder), name)
         node = draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
         draft.expected[node] = (geom.name,)
 
-    def _free(self, prefix: str, parent: Authored | None) -> str:
+    def _free(self, geom: Geom, parent: Authored | None) -> str:
         """The next name of a collision node of the mesh that the parent stands for."""
         nodes, meshes = entries(self.draft.tree, "nodes"), entries(self.draft.tree, "meshes")
         names = [str(thing.get("name", "")) for thing in (*nodes, *meshes)]
         shown = [str(node["name"]) for node in nodes if node.get("name") and "mesh" in node]
         rendered = [name for name in shown if not unreal_kind(name)]
         base = render_name(parent.names[0], rendered) if parent else next(iter(rendered), "hull")
-        taken = [re.fullmatch(rf"U\w\w_{re.escape(base)}_(\d+)", name, re.I) for name in names]
-        number = max((int(found[1]) for found in taken if found), default=0) + 1
-        return f"{prefix}_{base}_{number:02}"
+        return next_name(geom, base, names)

@@ -21,6 +21,7 @@ from meshforge.formats.gltf.writing.packing import based, packed
 from meshforge.formats.gltf.writing.physics_style import PhysicsStyle
 from meshforge.formats.gltf.writing.plain_style import PlainStyle
 from meshforge.formats.gltf.writing.styles import Style
+from meshforge.formats.gltf.writing.unity_style import UnityStyle
 from meshforge.formats.gltf.writing.unreal_style import UnrealStyle
 from meshforge.formats.meshfile.gltf import Scene, damage_at
 from meshforge.formats.plain.parts import renaming
@@ -75,6 +76,8 @@ def style_of(convention: Convention, draft: Draft) -> Style:
             return UnrealStyle(draft)
         case "godot":
             return GodotStyle(draft)
+        case "unity":
+            return UnityStyle(draft)
     return PhysicsStyle(draft, convention)
 
 

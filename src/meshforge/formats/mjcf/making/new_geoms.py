@@ -12,8 +12,8 @@ from meshforge.formats.losses import Loss
 from meshforge.formats.mjcf.elements import Native, geom_attributes, mesh_geom_attributes, pose_attributes, tag
 from meshforge.formats.mjcf.making.mesh_assets import MeshAssets
 from meshforge.formats.mjcf.making.shown_whole import shown_whole
-from meshforge.formats.visual_files import VisualFiles, visuals_of
-from meshforge.formats.visuals import Rgba
+from meshforge.formats.visual_files import VisualFiles
+from meshforge.formats.visuals import Rgba, visuals_of
 from meshforge.formats.xml import shown
 from meshforge.geometry import Pose
 

@@ -22,7 +22,8 @@ from meshforge.formats.sdf.reading.frames import WORLD
 from meshforge.formats.sdf.writing.made import Maker
 from meshforge.formats.slots import Slot
 from meshforge.formats.urdf.moving import LIGHT
-from meshforge.formats.visual_files import Shown, VisualFiles, visuals_of
+from meshforge.formats.visual_files import Shown, VisualFiles
+from meshforge.formats.visuals import visuals_of
 from meshforge.formats.xml import escaped
 from meshforge.geometry import Pose, Shape
 from meshforge.words import counted, listed

@@ -21,8 +21,7 @@ from meshforge.formats.usd.writing.bytes import layer_bytes, wants_crate
 from meshforge.formats.usd.writing.masses import author
 from meshforge.formats.usd.writing.package import packed
 from meshforge.formats.usd.writing.specs import Space, apply_schemas, collider, mesh, native, new_prim, place, prim_name
-from meshforge.formats.visual_files import visuals_of
-from meshforge.formats.visuals import Visual
+from meshforge.formats.visuals import Visual, visuals_of
 from meshforge.geometry import Pose
 from meshforge.words import counted, listed
 

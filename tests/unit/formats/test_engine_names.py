@@ -1,0 +1,293 @@
+"""Files that are named for Unreal, Godot and Unity: what is seen, what collides, what is told, and edits of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from meshforge.asset import Asset, Geom, Opaque, Surface
+from meshforge.checks import check
+from meshforge.errors import AssetError, UsageError
+from meshforge.formats import Names, read, save
+from meshforge.geometry import Box, Pose, Sphere, convex_hull
+from meshforge.symbolic import SymbolicMesh
+from tests.conversion_samples import SAMPLES, block, foreign, wedge
+from tests.gltf_files import SceneFile, tree_of
+from tests.gltf_validation import errors
+from tests.soups import Soup, angle, box, together
+
+NAMED: list[tuple[Names, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
+
+
+def names(asset: Asset) -> list[str]:
+    return [geom.name for geom in asset.geoms]
+
+
+def group(soup: Soup, start: int, *lines: str) -> str:
+    """A group of an OBJ; start: the vertices ahead of it."""
+    corners = "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in soup[0].tolist())
+    faces = "".join("f " + " ".join(str(c + 1 + start) for c in face) + "\n" for face in soup[1].tolist())
+    return "".join(f"{line}\n" for line in lines) + corners + faces
+
+
+SEEN = "# a crate\nmtllib crate.mtl\n" + group(angle(), 0, "o SM_crate", "usemtl oak") + "vt 0 0\n"
+HULLS = group(box((3, 0, 0)), 12, "o UCX_SM_crate_00") + group(box((5, 0, 0)), 20, "o UBX_SM_crate_01")
+
+
+def crate(folder: Path, text: str = SEEN + HULLS) -> Path:
+    path = folder / "crate.obj"
+    path.write_text(text)
+    return path
+
+
+def made(shape: Box | Sphere, parent: str = "UCX_SM_crate_00") -> Geom:
+    return Geom(f"{parent}~1", "body", shape, parent)
+
+
+# Reading an OBJ of Unreal
+
+
+def test_of_an_obj_of_unreal_only_what_is_named_so_collides(tmp_path: Path) -> None:
+    asset = read(crate(tmp_path))
+    assert [(geom.name, geom.shape.kind) for geom in asset.geoms] == [
+        ("UCX_SM_crate_00", "polytope"),
+        ("UBX_SM_crate_01", "box"),
+    ]
+    assert not asset.opaque
+    assert [len(surface.faces) for surface in asset.visuals] == [len(angle()[1])]
+    np.testing.assert_array_equal(asset.visuals[0].vertices, angle()[0])
+
+
+def test_a_group_of_unreal_is_one_hull_whatever_its_pieces(tmp_path: Path) -> None:
+    apart = together(box(), box((2, 0, 0)))
+    text = group(box((0, 0, 9)), 0, "o crate") + group(apart, 8, "o any", "g UCX_crate_00")
+    text += group(angle(), 24, "o ucx_crate_1", "g top") + group(box((0, 0, 5)), 36, "g bottom")
+    asset = read(crate(tmp_path, text))
+    assert names(asset) == ["UCX_crate_00", "ucx_crate_1"]
+    np.testing.assert_allclose(asset.geoms[0].shape.aabb.size, [3, 1, 1])
+    assert asset.geoms[1].shape.aabb.max[2] == 6
+
+
+def test_a_mesh_that_is_not_what_its_prefix_says_is_a_hull_and_told(tmp_path: Path) -> None:
+    corner = convex_hull(np.eye(4, 3))
+    text = SEEN + group((corner.vertices, corner.faces), 12, "o UBX_SM_crate_00")
+    asset = read(crate(tmp_path, text))
+    assert [geom.shape.kind for geom in asset.geoms] == ["polytope"]
+    assert asset.notes[1:] == ("'UBX_SM_crate_00' is no box: it is read as a hull",)
+
+
+def test_a_flat_group_of_unreal_is_opaque(tmp_path: Path) -> None:
+    flat: Soup = (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
+    asset = read(crate(tmp_path, SEEN + HULLS + group(flat, 28, "o UCX_SM_crate_02")))
+    assert len(asset.geoms) == 2 and [piece.name for piece in asset.opaque] == ["UCX_SM_crate_02"]
+
+
+# Editing one
+
+
+def test_an_edit_of_an_obj_of_unreal_leaves_what_is_seen_byte_for_byte(tmp_path: Path) -> None:
+    asset = read(crate(tmp_path))
+    kept = [geom for geom in asset.geoms if geom.name != "UCX_SM_crate_00"]
+    ball = made(Sphere(Pose.of_translation([0, 0, 9]), 0.5))
+    saved = save(asset.with_geoms([*kept, ball]), tmp_path / "out" / "crate.obj")
+    assert saved.path.read_text().startswith(SEEN)
+    assert saved.path.read_text().count("\no USP_SM_crate_02\ng USP_SM_crate_02\n") == 1
+    assert saved.names == {"UCX_SM_crate_00~1": "USP_SM_crate_02"}
+    assert saved.notes == ("hulls are called otherwise in what is written: UCX_SM_crate_00~1 is now USP_SM_crate_02",)
+    after = read(saved.path)
+    assert [(g.name, g.shape.kind) for g in after.geoms] == [("UBX_SM_crate_01", "box"), ("USP_SM_crate_02", "sphere")]
+    np.testing.assert_array_equal(after.visuals[0].vertices, asset.visuals[0].vertices)
+
+
+def test_hulls_ahead_of_what_is_seen_go_without_it(tmp_path: Path) -> None:
+    text = group(box((3, 0, 0)), 0, "o UCX_a_00") + group(angle(), 8, "o a") + group(box((5, 0, 0)), 20, "o UCX_a_01")
+    asset = read(crate(tmp_path, text))
+    after = read(save(asset.with_geoms(asset.geoms[1:]), tmp_path / "out.obj").path)
+    assert names(after) == ["UCX_a_01"]
+    np.testing.assert_array_equal(after.visuals[0].vertices, angle()[0])
+
+
+@pytest.mark.parametrize("place", ["crate.obj", ""])
+def test_an_edit_that_leaves_nothing_but_what_is_seen_is_refused(tmp_path: Path, place: str) -> None:
+    folder = tmp_path / "in"
+    folder.mkdir()
+    crate(folder)
+    (folder / "other.obj").write_text(group(box(), 0, "o other"))
+    asset = read(folder / place)
+    left = asset.with_geoms([geom for geom in asset.geoms if "crate" not in geom.name])
+    with pytest.raises(AssetError) as caught:
+        save(left, tmp_path / "out" / place)
+    assert caught.value.message == (
+        f"{folder / 'crate.obj'}: the edit leaves no collision in this file\n"
+        "  Leave one hull: without any, what is seen would be taken for collision."
+    )
+
+
+def test_a_folder_with_an_obj_of_unreal_has_its_hulls_and_shows_the_rest(tmp_path: Path) -> None:
+    folder = tmp_path / "in"
+    folder.mkdir()
+    crate(folder)
+    asset = read(folder)
+    assert names(asset) == ["crate/UCX_SM_crate_00", "crate/UBX_SM_crate_01"] and len(asset.visuals) == 1
+    after = read(save(asset.with_geoms(asset.geoms[:1]), tmp_path / "out").path)
+    assert len(after.geoms) == 1 and len(after.visuals) == 1
+
+
+# Making files
+
+
+@pytest.mark.parametrize("sample", SAMPLES)
+def test_the_khronos_validator_finds_no_error_in_named_files(sample: str, tmp_path: Path) -> None:
+    paths = [save(SAMPLES[sample](), tmp_path / n / f"a{suffix}", names=n).path for n, suffix in NAMED]
+    assert errors(paths) == [{}] * len(paths)
+
+
+def test_what_is_seen_of_a_body_is_one_mesh_of_its_colours(tmp_path: Path) -> None:
+    saved = save(SAMPLES["doors"](), tmp_path / "a.glb", names="godot")
+    tree = tree_of(saved.path.read_bytes())
+    door = next(node for node in tree["nodes"] if node["name"] == "door")
+    assert [part["material"] for part in tree["meshes"][door["mesh"]]["primitives"]] == [0]
+    assert [surface.rgba for surface in read(saved.path).visuals].count((1.0, 0.25, 0.0, 1.0)) == 1
+
+
+def test_where_nothing_is_seen_unreal_gets_what_collides_to_show_and_others_nothing(tmp_path: Path) -> None:
+    asset = SAMPLES["crowd"]()
+    saved = save(asset, tmp_path / "a.glb", names="unreal")
+    assert "Unreal needs a mesh to be seen: what collides stands for it in left, right, base" in saved.notes
+    shown = trimesh.load_scene(saved.path).geometry
+    hulls = [geom.shape.tessellated() for geom in asset.geoms if geom.body == "left"]
+    assert shown["left"].volume == pytest.approx(sum(hull.volume for hull in hulls))
+    for other in ("godot", "unity"):
+        assert not read(save(asset, tmp_path / other / "a.glb", names=other).path).visuals
+
+
+def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
+    asset = SAMPLES["opaque"]()
+    bare = save(asset, tmp_path / "bare.glb", names="unreal")
+    vertices, faces = box()
+    shown = replace(asset, visuals=(Surface(vertices, faces, "room"),))
+    seen = save(shown, tmp_path / "seen.obj", names="unreal")
+    told = {loss.what.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
+    assert told["opaque pieces"] is None  # the body shows something of its own
+    assert [loss.instead for loss in bare.report.lost if loss.what.many == "opaque pieces"] == [
+        "written to be seen alone"
+    ]
+    for saved in (bare, seen):
+        assert names(read(saved.path)) == ["UBX_room_00"]
+    walls = Opaque("walls", "body", "not convex", Surface(*angle()))
+    only = foreign({"body": Pose.identity()}, [], walls)
+    with pytest.raises(AssetError, match="there is no hull to write"):
+        save(only, tmp_path / "only.glb", names="unreal")
+    assert [piece.name for piece in read(save(only, tmp_path / "g.glb", names="godot").path).opaque] == [
+        "walls-colonly"
+    ]
+
+
+def test_the_one_body_of_a_file_without_bodies_is_called_after_the_file(tmp_path: Path) -> None:
+    asset = foreign({"body": Pose.identity()}, [("leg", "body", wedge(0))])
+    saved = save(asset, tmp_path / "old table.obj", names="unreal")
+    assert [line for line in saved.path.read_text().splitlines() if line[0] == "g"] == [
+        "g old_table",
+        "g UCX_old_table_00",
+    ]
+
+
+def test_an_obj_for_unreal_stands_upright_there_and_says_how_to_scale_it(tmp_path: Path) -> None:
+    standing = replace(foreign({"body": Pose.identity()}, [("leg", "body", block(0, 5, 0))]), format="gltf", up="y")
+    saved = save(standing, tmp_path / "a.obj", names="unreal")
+    assert read(saved.path).geoms[0].shape.aabb.center == pytest.approx([0, 0, 5])
+    assert saved.notes[:2] == (
+        "the asset is turned about X to stand upright: glTF is y-up, OBJ for Unreal z-up",
+        "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of"
+        " 100",
+    )
+
+
+def test_hulls_beyond_the_limits_of_unity_are_told_with_the_remedy(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    ball = rng.normal(size=(400, 3))
+    large = convex_hull(ball / np.linalg.norm(ball, axis=1, keepdims=True))
+    flat = convex_hull(ball[:200] / np.linalg.norm(ball[:200], axis=1, keepdims=True))  # 200 vertices, 396 faces
+    asset = foreign(
+        {"body": Pose.identity()}, [("ball", "body", large), ("many", "body", flat), ("leg", "body", wedge(5))]
+    )
+    findings = check(SymbolicMesh.of(asset), "unity")
+    assert {name for finding in findings if finding.severity == "error" for name in finding.hulls} == {"ball", "many"}
+    saved = save(asset, tmp_path / "a.glb", names="unity")
+    assert saved.notes[0] == (
+        "Unity makes partial hulls of more than 255 vertices or flat faces: ball, many; "
+        "meshforge check --engine unity --fix makes them simpler"
+    )
+
+
+def test_an_obj_that_is_not_for_unreal_has_no_name_that_unreal_takes(tmp_path: Path) -> None:
+    asset = foreign({"body": Pose.identity()}, [("UCX_a_00", "body", wedge(0)), ("top", "body", wedge(5))])
+    saved = save(asset, tmp_path / "a.obj")
+    assert names(read(saved.path)) == ["_UCX_a_00", "top"]
+    assert saved.names == {"UCX_a_00": "_UCX_a_00"}
+
+
+# Names for Unity, read and edited
+
+
+def closet() -> SceneFile:
+    scene = SceneFile()
+    hulls = [scene.node("side", box()), scene.node("door", box((2, 0, 0)))]
+    group = scene.node("closet_colliders", children=hulls)
+    scene.node("closet", angle(), children=[group], translation=[0, 0, 7])
+    return scene
+
+
+def test_what_lies_below_a_node_of_colliders_collides_and_the_rest_is_seen(tmp_path: Path) -> None:
+    asset = read(closet().write(tmp_path / "a.gltf"))
+    assert names(asset) == ["side", "door"] and len(asset.visuals) == 1
+    assert asset.geoms[0].shape.aabb.min[2] == 7
+    assert asset.notes[0] == "its collision is what lies below nodes called _colliders, as files for Unity have it"
+
+
+def test_hulls_made_for_unity_lie_below_the_same_node(tmp_path: Path) -> None:
+    asset = read(closet().write(tmp_path / "a.gltf"))
+    parentless = Geom("new", "body", block(0, 5, 0))
+    geoms = [asset.geoms[1], made(Box(Pose.of_translation([0, 3, 7]), np.full(3, 0.5)), "side"), parentless]
+    saved = save(asset.with_geoms(geoms), tmp_path / "out" / "a.gltf")
+    after = read(saved.path)
+    assert sorted(names(after)) == ["door", "new", "side~1"] and len(after.visuals) == 1
+    assert {g.name: g.shape.aabb.center.round(6).tolist() for g in after.geoms}["side~1"] == [0, 3, 7]
+    with pytest.raises(AssetError, match="leaves no collision"):
+        save(asset.with_geoms([]), tmp_path / "none.gltf")
+
+
+def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_unity(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("top", box((0, 5, 0)))
+    scene.node("all_colliders", together(box(), box((2, 0, 0)), box((4, 0, 0))))
+    asset = read(scene.write(tmp_path / "a.gltf"))
+    left = [geom for geom in asset.geoms if geom.name != "all_colliders#1"]
+    after = read(save(asset.with_geoms(left), tmp_path / "out" / "a.gltf").path)
+    assert names(after) == ["top", "all_colliders#0", "all_colliders#2"] and not after.visuals
+
+
+# Errors
+
+
+@pytest.mark.parametrize(
+    ("place", "engine", "message"),
+    [
+        ("a.obj", "godot", "OBJ files cannot be named for Godot\n  Formats that can: .glb, .gltf."),
+        ("a.obj", "unity", "OBJ files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
+        ("a.urdf", "unreal", "URDF files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
+        ("a.stl", "unity", "STL files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
+        ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
+    ],
+)
+def test_formats_without_such_names_are_refused_with_those_that_have_them(
+    place: str, engine: Names, message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(UsageError) as caught:
+        save(SAMPLES["crowd"](), tmp_path / place, names=engine)
+    assert caught.value.message == message
+    assert not list(tmp_path.iterdir())
