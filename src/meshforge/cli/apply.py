@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Backend, Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.batch import AssetJob, Failed, Outcome, Summary
     from meshforge.checks import Measures
     from meshforge.language import Program
     from meshforge.symbolic import SymbolicMesh
+
+NOTHING = " (nothing was written)"
 
 
 def apply(
@@ -34,7 +36,7 @@ def apply(
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep",
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")] = False,
+    dry_run: DryRun = False,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
     report: Annotated[
         Path | None, typer.Option("--report", help="An HTML page with pictures before and after, failures first.")
@@ -78,7 +80,7 @@ def apply(
             else:
                 typer.echo(told(outcome))
     if not json:
-        typer.echo(f"{summary}{' (nothing was written)' if dry_run else ''}")
+        typer.echo(f"{summary}{NOTHING if dry_run else ''}")
     if report:
         _write_report(report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.apply import told_failed
-from meshforge.cli.options import Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.apply import NOTHING, told_failed
+from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.asset import Feature
@@ -36,7 +36,9 @@ def convert(
     labels: Labels = None,
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False,
+    dry_run: DryRun = False,
     workers: Workers = None,
+    backend: Backend = "local",
     timeout: Timeout = None,
     memory: Memory = None,
     json: Json = False,
@@ -47,19 +49,23 @@ def convert(
     names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
     stopped goes on where it was, and the exit code is 1 when some failed.
     """
+    from meshforge.batch import TIMEOUT
     from meshforge.errors import UsageError
 
     if len(paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
     *sources, out = paths
     if to is None:
+        if dry_run:
+            raise UsageError("--dry-run is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --dry-run")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
         return _one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
     if overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
-    bounds = timeout, memory
-    _many(sources, Path(out), _suffix(to), labels, names, link=link, workers=workers, bounds=bounds, json=json)
+    options = {"names": names, "link": link, "dry_run": dry_run, "workers": workers, "backend": backend}
+    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
+    _many(sources, Path(out), _suffix(to), labels, {**options, **bounds}, json=json)
     return None
 
 
@@ -80,43 +86,27 @@ def _many(
     out: Path,
     suffix: str,
     labels: Path | None,
-    names: Names | None,
+    options: Mapping[str, Any],
     *,
-    link: bool,
-    workers: int | None,
-    bounds: tuple[float | None, int | None],
     json: bool,
 ) -> None:
-    from meshforge.batch import TIMEOUT, Summary, apply, expand, json_line, plan
+    from meshforge.batch import Summary, apply, expand, json_line, plan
     from meshforge.batch import jobs as jobs_of
     from meshforge.cli.output import print_json, progress, remark
     from meshforge.language import Program
 
-    jobs, summary, (timeout, memory) = jobs_of(expand(sources), labels), Summary(), bounds
+    jobs, summary = jobs_of(expand(sources), labels), Summary()
     if len(jobs) > 1:
         remark(str(plan(jobs, out)))
-    seconds = TIMEOUT if timeout is None else timeout or None
     with progress(len(jobs), "converting") as advance:
-        work = apply(
-            Program(),
-            jobs,
-            out,
-            to=suffix,
-            names=names,
-            link=link,
-            workers=workers,
-            timeout=seconds,
-            memory=memory,
-            progress=advance,
-        )
-        for outcome in work:
+        for outcome in apply(Program(), jobs, out, to=suffix, progress=advance, **options):
             summary.add(outcome)
             if json:
                 print_json(json_line(outcome), compact=True)
             else:
                 typer.echo(_told(outcome))
     if not json:
-        typer.echo(str(summary).replace("unchanged", "written", 1))
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING * options["dry_run"])
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 

@@ -25,6 +25,7 @@ Labels = Annotated[
     typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
 Backend = Annotated[
     Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
 ]

@@ -183,6 +183,9 @@ def test_convert_leaves_labels_that_are_there_alone(run: Run) -> None:
 def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -> None:
     write_tables(Path("many"), 3)
     Path("many/table1/model.obj").write_text("v 1 2\n")
+    told = run("convert", "many", "made", "--to", "usda", "--dry-run")
+    assert told.code == 1 and told.out.endswith("2 written, 1 failed; hulls 12 -> 12 (nothing was written)\n")
+    assert not Path("made").exists()
     told = run("convert", "many", "made", "--to", "USDA")
     assert told.code == 1
     assert [line.split(":")[0] for line in told.out.splitlines() if line[0] != " "] == [
