@@ -1,0 +1,41 @@
+"""A project of two cups, one of which shows nothing: a program that makes one hull of each, applied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from meshforge.geometry import Box
+from meshforge.language import Program
+from meshforge.project import Project
+from tests.cups import BOTTOM, WALLS
+
+CUP, BARE = "cup.urdf", "bare.urdf"
+FILLING = "labels cup\n\nIs(cup) => Merge\n"
+
+
+def cup_urdf(shown: bool = True) -> str:
+    """A cup of five boxes; shown: whether it has a visual, too."""
+
+    def element(kind: str, name: str, box: Box) -> str:
+        x, y, z = box.pose.translation
+        a, b, c = 2 * box.half
+        origin, size = f'<origin xyz="{x} {y} {z}"/>', f'<geometry><box size="{a} {b} {c}"/></geometry>'
+        return f'<{kind} name="{name}">{origin}{size}</{kind}>'
+
+    boxes = {f"b{k}": box for k, box in enumerate((BOTTOM, *WALLS))}
+    kinds = ("visual", "collision") if shown else ("collision",)
+    return f'<robot name="cup"><link name="cup">{"".join(element(k, n, b) for k in kinds for n, b in boxes.items())}</link></robot>'
+
+
+def cup_project(folder: Path) -> Project:
+    """The project, whose outputs are cups filled by one hull."""
+    assets = folder / "assets"
+    assets.mkdir()
+    for name, shown in ((CUP, True), (BARE, False)):
+        (assets / name).write_text(cup_urdf(shown))
+    project = Project.create(folder / "project", [assets / "*.urdf"], name="cups", vocabulary=("cup",))
+    for asset in project.assets():
+        project.set_labels(asset, {hull.name: "cup" for hull in project.mesh(asset).hulls})
+    project.accept(Program.parse(FILLING))
+    list(project.apply(workers=0))
+    return project
