@@ -1,4 +1,4 @@
-"""A project of two cups, one of which shows nothing: a program that makes one hull of each, applied."""
+"""A project of two cups, of which one shows nothing, and a program that makes one hull of each."""
 
 from __future__ import annotations
 
@@ -11,26 +11,28 @@ from tests.cups import BOTTOM, WALLS
 
 CUP, BARE = "cup.urdf", "bare.urdf"
 FILLING = "labels cup\n\nIs(cup) => Merge\n"
+FILLED = "cup/b0~1"
+"""The hull that fills a cup in the output."""
 
 
-def cup_urdf(shown: bool = True) -> str:
+def cup_urdf(shown: bool) -> str:
     """A cup of five boxes; shown: whether it has a visual, too."""
 
     def element(kind: str, name: str, box: Box) -> str:
         x, y, z = box.pose.translation
         a, b, c = 2 * box.half
-        origin, size = f'<origin xyz="{x} {y} {z}"/>', f'<geometry><box size="{a} {b} {c}"/></geometry>'
-        return f'<{kind} name="{name}">{origin}{size}</{kind}>'
+        place, size = f'<origin xyz="{x} {y} {z}"/>', f'<geometry><box size="{a} {b} {c}"/></geometry>'
+        return f'<{kind} name="{name}">{place}{size}</{kind}>'
 
-    boxes = {f"b{k}": box for k, box in enumerate((BOTTOM, *WALLS))}
     kinds = ("visual", "collision") if shown else ("collision",)
-    return f'<robot name="cup"><link name="cup">{"".join(element(k, n, b) for k in kinds for n, b in boxes.items())}</link></robot>'
+    elements = "".join(element(kind, f"b{k}", box) for kind in kinds for k, box in enumerate((BOTTOM, *WALLS)))
+    return f'<robot name="cup"><link name="cup">{elements}</link></robot>'
 
 
 def cup_project(folder: Path) -> Project:
-    """The project, whose outputs are cups filled by one hull."""
+    """The project below a folder; its outputs are written: cups that are filled by one hull."""
     assets = folder / "assets"
-    assets.mkdir()
+    assets.mkdir(parents=True)
     for name, shown in ((CUP, True), (BARE, False)):
         (assets / name).write_text(cup_urdf(shown))
     project = Project.create(folder / "project", [assets / "*.urdf"], name="cups", vocabulary=("cup",))

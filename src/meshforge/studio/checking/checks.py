@@ -22,7 +22,7 @@ from meshforge.studio.wire.checks import Checked, CheckPicture, Fault, Part
 from meshforge.studio.workers import TIMEOUT, Workers, alone
 from meshforge.views import png
 
-SIZE = (720, 540)
+SIZE = (800, 600)
 Result = TypeVar("Result")
 
 

@@ -18,15 +18,15 @@ def fit_figures(was: Examination, now: Examination) -> Iterator[Figure]:
     if after is None:
         return
     yield _figure("Hulls stick out, at most", "m", before, after, lambda fit: fit.out)
-    yield _figure("Visual surface without a hull", "%", before, after, lambda fit: 100 * fit.bare_share)
-    yield _figure("It lies off all hulls, at most", "m", before, after, lambda fit: fit.bare)
+    yield _figure("Visual surface uncovered", "%", before, after, lambda fit: 100 * fit.bare_share)
+    yield _figure("It lies off hulls, at most", "m", before, after, lambda fit: fit.bare)
 
 
 def clearance_figures(was: Examination, now: Examination) -> Iterator[Figure]:
     """What hulls close and open of the space about the visual mesh; then what the edit did."""
     if now.clearance:
-        yield _figure("Closed of what is seen free", "l", was.clearance, now.clearance, lambda c: c.closed)
-        yield _figure("Opened of what is seen filled", "l", was.clearance, now.clearance, lambda c: c.opened)
+        yield _figure("Closed, against the visual", "l", was.clearance, now.clearance, lambda c: c.closed)
+        yield _figure("Opened, against the visual", "l", was.clearance, now.clearance, lambda c: c.opened)
     if now.changed:
         yield _figure("Closed by the edit", "l", None, now.changed, lambda c: c.closed)
         yield _figure("Opened by the edit", "l", None, now.changed, lambda c: c.opened)

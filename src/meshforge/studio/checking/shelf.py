@@ -37,14 +37,13 @@ class Shelf:
 
     def missing(self, key: str) -> tuple[Part, ...]:
         """The parts that were not measured yet."""
-        return tuple(part for part in PARTS if not (self.folder / f"{key}.{part}.json").is_file())
+        return tuple(part for part in PARTS if self.checked(key, part) is None)
 
     def faults(self, key: str) -> tuple[Fault, ...] | None:
         """All that was found, once every part is measured."""
-        parts = [self.checked(key, part) for part in PARTS] if not self.missing(key) else [None]
-        rows = [found for checked in parts if checked for found in checked.findings]
-        whole = all(parts)
-        return tuple(dict.fromkeys(map(_fault, rows))) if whole else None
+        parts = [checked for part in PARTS if (checked := self.checked(key, part))]
+        whole = len(parts) == len(PARTS)
+        return tuple(_fault(found) for checked in parts for found in checked.findings) if whole else None
 
     def pictures(self, key: str, part: Part) -> tuple[CheckPicture, ...] | None:
         """The pictures of a part that were drawn."""
