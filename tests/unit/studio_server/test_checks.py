@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
 from pathlib import Path
@@ -54,10 +53,7 @@ def told(project: Project, of: Literal["asset", "output"], measures: Measures) -
     """What `meshforge check` tells of the cup, or of its output against it."""
     source, folder = project.path(CUP), project.layout.edited
     path, against = (source, None) if of == "asset" else (folder / CUP, source)
-    line: dict[str, Any] = json.loads(
-        json.dumps(examine(path, path.parent, None, Wanted(measures, against=against)).to_json())
-    )
-    return line
+    return examine(path, path.parent, None, Wanted(measures, against=against)).to_json()
 
 
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: Checks) -> None:
@@ -98,9 +94,7 @@ def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: 
         checks.picture(BARE, key_of(project, BARE), "fit-out")
 
 
-def test_all_results_are_checked_once_and_known_after_a_restart(
-    project: Project, checks: Checks, workers: Workers
-) -> None:
+def test_all_results_are_checked_once_and_known_after_a_restart(project: Project, checks: Checks) -> None:
     over: list[None] = []
     first = dict(checks.every(project, (CUP, BARE), lambda: over.append(None), lambda: False))
     assert len(over) == 2
@@ -116,7 +110,6 @@ def test_all_results_are_checked_once_and_known_after_a_restart(
 def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path: Path, workers: Workers) -> None:
     project = cup_project(tmp_path)
     checks, before = Checks(tmp_path / "checks", workers), key_of(project, BARE)
-    project.drop_corrections(BARE)
     output = project.layout.edited / BARE
     text = output.read_text()
     output.write_text(text + " ")
@@ -157,10 +150,8 @@ def test_a_file_that_cannot_be_read_counts_as_not_measured(tmp_path: Path) -> No
 
 
 def test_a_line_tells_what_does_not_hold_or_why_that_is_not_known() -> None:
-    faults = tuple(
-        Fault(rule=rule, severity="warning", engine=engine)
-        for rule, engine in (("fit-out", None), ("unity-thin", "unity"))
-    )
-    assert check_line("a", faults).text == "fit-out"
+    own = Fault(rule="fit-out", severity="warning")
+    engines = Fault(rule="unity-thin", severity="warning", engine="unity")
+    assert check_line("a", (own, engines)).text == "fit-out"
     assert check_line("a", ()).status == "done"
     assert check_line("a", "it died").status == "failed"
