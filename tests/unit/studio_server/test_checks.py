@@ -8,7 +8,7 @@ from typing import Any, Literal
 import pytest
 
 from meshforge.batch import Wanted, examine
-from meshforge.batch.stamp import read_stamp
+from meshforge.batch.stamp import read_stamp, stamp_path
 from meshforge.checks import ENGINES, Measures
 from meshforge.errors import ProjectError
 from meshforge.project import Project
@@ -126,6 +126,18 @@ def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path:
     assert checks.part(project, BARE, "engines").result(60).findings == ()
     gone = Work(alone(project, BARE), BARE, before)
     assert "another by now" in (_measure_all((gone, Shelf(tmp_path / "other"))) or "")
+
+
+def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project, checks: Checks) -> None:
+    found = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+    stamp = stamp_path(project.layout.edited, CUP)
+    kept = stamp.read_bytes()
+    stamp.unlink()
+    try:
+        later = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+    finally:
+        stamp.write_bytes(kept)
+    assert "no output" in str(later[CUP]) and later[BARE] == found[BARE]
 
 
 def test_what_nobody_waits_for_any_more_ends(project: Project, tmp_path: Path) -> None:

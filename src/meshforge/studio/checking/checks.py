@@ -69,12 +69,18 @@ class Checks:
         done: called whenever one is over. Raises StoppedError where it was told to stop; what was measured stays.
         """
         fresh = []
-        for work in (_work(project, asset) for asset in assets):
+        for asset in assets:
+            try:
+                work = _work(project, asset)
+            except ProjectError as error:  # its output went meanwhile
+                done()
+                yield asset, error.sentence
+                continue
             if self._shelf.missing(work.key):
                 fresh.append(work)
             else:
                 done()
-                yield work.asset, self.faults(work.key) or ()
+                yield asset, self.faults(work.key) or ()
         bound = share(min(processors(), max(len(fresh), 1)))
         todo = [(work, self._shelf) for work in fresh]
         results = isolated(_measure_all, todo, timeout=TIMEOUT, memory=bound, done=done, stop=stop)
