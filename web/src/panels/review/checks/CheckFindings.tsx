@@ -17,14 +17,25 @@ export function CheckFindings({ asset, findings }: { asset: string; findings: re
     <ul className={review.findings}>
       {findings.map((finding, k) => (
         <li key={k} data-severity={finding.severity}>
-          <Finding asset={asset} finding={finding} />
+          <Finding asset={asset} finding={finding} remedied={isFirst(findings, k)} />
         </li>
       ))}
     </ul>
   );
 }
 
-function Finding({ asset, finding }: { asset: string; finding: CheckFinding }) {
+/** Whether no finding of its rule comes before: what can be done is told once. */
+const isFirst = (findings: readonly CheckFinding[], k: number): boolean =>
+  findings.findIndex(({ rule, new: fresh }) => fresh && rule === findings[k]?.rule) === k;
+
+interface FindingProps {
+  asset: string;
+  finding: CheckFinding;
+  /** Whether what can be done is told, too. */
+  remedied: boolean;
+}
+
+function Finding({ asset, finding, remedied }: FindingProps) {
   const { rule, engine, severity, text, remedy, hulls, new: fresh } = finding;
   const Icon = ICONS[severity];
   const [only] = hulls.length === 1 ? hulls : [];
@@ -39,7 +50,7 @@ function Finding({ asset, finding }: { asset: string; finding: CheckFinding }) {
         <span className={css.words} title={text}>
           {text}
         </span>
-        {fresh && <span className={css.dim}>{remedy}</span>}
+        {remedied && <span className={css.dim}>{remedy}</span>}
       </span>
     </>
   );
