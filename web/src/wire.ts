@@ -30,7 +30,7 @@ export type Event =
   | ReachChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob;
+export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob;
 
 export interface Everything {
   ActionForm: ActionForm;
@@ -44,7 +44,11 @@ export interface Everything {
   Card: Card;
   CardsChanged: CardsChanged;
   CarriedOver: CarriedOver;
+  CheckFinding: CheckFinding;
+  CheckJob: CheckJob;
+  CheckPicture: CheckPicture;
   CheckRequest: CheckRequest;
+  Checked: Checked;
   ChoiceView: ChoiceView;
   CorrectByHand: CorrectByHand;
   CorrectionView: CorrectionView;
@@ -54,8 +58,11 @@ export interface Everything {
   Done: Done;
   DropCorrections: DropCorrections;
   EditedHeader: EditedHeader;
+  EngineView: EngineView;
   Event: Event;
   ExportJob: ExportJob;
+  Fault: Fault;
+  Figure: Figure;
   FindingView: FindingView;
   ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
@@ -422,6 +429,8 @@ export interface AssetsChanged {
  * changed since the output was made; corrections: edits by hand, a number.
  * sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
+ * check: the digest of the output and of what it was made from, null where there is no output; faults: what checks
+ * found of it, null where it was not checked.
  */
 export interface Card {
   asset: string;
@@ -443,6 +452,17 @@ export interface Card {
   prepared: string[];
   picture: string | null;
   edited_picture: string | null;
+  check: string | null;
+  faults: Fault[] | null;
+}
+/**
+ * A rule that does not hold. engine: whose limit it is, null for none; new: whether that came with the edit.
+ */
+export interface Fault {
+  rule: string;
+  severity: "error" | "warning";
+  engine: string | null;
+  new: boolean;
 }
 /**
  * Cards that are other now; gone: ids of assets that are no more.
@@ -461,10 +481,57 @@ export interface CarriedOver {
   next: string | null;
 }
 /**
+ * The same with the hulls that it concerns, by the names they have in the output.
+ */
+export interface CheckFinding {
+  rule: string;
+  severity: "error" | "warning";
+  engine: string | null;
+  new: boolean;
+  hulls: string[];
+  text: string;
+  remedy: string;
+}
+/**
+ * Measure the outputs of all assets in every way.
+ */
+export interface CheckJob {
+  kind: "check";
+}
+/**
+ * A picture that is drawn: the name that its address takes, and what it shows.
+ */
+export interface CheckPicture {
+  name: string;
+  text: string;
+}
+/**
  * Is this text a program?
  */
 export interface CheckRequest {
   text: string;
+}
+/**
+ * What was measured. gone: how many findings about the asset are none of the output any more; notes: what could
+ * not be told, and why; cell: what is smaller is not seen [m]; pictured: whether pictures can be drawn of it.
+ */
+export interface Checked {
+  part: "engines" | "physics" | "clearance" | "fit";
+  figures: Figure[];
+  findings: CheckFinding[];
+  gone: number;
+  notes: string[];
+  cell: number | null;
+  pictured: boolean;
+}
+/**
+ * A figure before and after the edit; null where it cannot be told.
+ */
+export interface Figure {
+  what: string;
+  unit: "m" | "m/s" | "kg" | "l" | "%" | "°" | "";
+  before: number | null;
+  after: number | null;
 }
 /**
  * One way to go on; select: names of hulls as the rule meets them.
@@ -539,7 +606,16 @@ export interface FindingView {
   hull: string | null;
 }
 /**
- * Everything that is known, on connecting. tour: whether the page is to show the guided tour.
+ * An engine whose limits are known; title: as its makers write it.
+ */
+export interface EngineView {
+  name: string;
+  title: string;
+}
+/**
+ * Everything that is known, on connecting.
+ *
+ * tour: whether the page is to show the guided tour; engines: whose limits can be checked.
  */
 export interface Hello {
   kind: "hello";
@@ -554,6 +630,7 @@ export interface Hello {
   reach: Reach[];
   jobs: Job[];
   tour: boolean;
+  engines: EngineView[];
 }
 /**
  * The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
@@ -767,7 +844,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask";
+  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask" | "check";
   title: string;
   done: number;
   total: number;

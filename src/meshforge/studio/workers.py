@@ -7,8 +7,10 @@ from concurrent.futures import Future, TimeoutError
 from threading import Lock
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
+from meshforge.batch import Found
 from meshforge.batch.pool import processors, workers_context
 from meshforge.errors import MeshForgeError
+from meshforge.project import Project
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -52,6 +54,11 @@ class Workers:
         if pool:
             pool.stop()  # type: ignore[no-untyped-call]  # pebble has no types
             pool.join()
+
+
+def alone(project: Project, asset: str) -> Project:
+    """The same project with one asset, for a worker process."""
+    return Project(project.folder, Found(project.found.base, (project.path(asset),)))
 
 
 def arrived(future: Future[Result]) -> Result:

@@ -1,8 +1,8 @@
 // What a person does with results: apply, accept, flag, correct, export, and go to the next that wants a look.
 import { startDraft } from "../store/beginning";
-import { openAsset, openStage, useDesk, visit } from "../store/desk";
+import { openAsset, openStage, setChecks, useDesk, visit } from "../store/desk";
 import { perform } from "../store/edits";
-import { applyTo, notApplicable } from "../store/jobs";
+import { applyTo, checkAll, notApplicable, notCheckable } from "../store/jobs";
 import { useProject } from "../store/project";
 import { acceptable, after, reviewQueue } from "../store/reviews";
 import { complainedOf, told } from "../store/toasts";
@@ -127,6 +127,25 @@ export const reviewing: readonly Command[] = [
       openStage("review");
       void applyTo(null);
     },
+  },
+  {
+    id: "check-all",
+    title: "Check all results",
+    group: "Review",
+    keys: [],
+    enabled: () => notCheckable() === null,
+    run: () => {
+      openStage("review");
+      void checkAll();
+    },
+  },
+  {
+    id: "checks",
+    title: "Show or hide the checks of the result",
+    group: "Review",
+    keys: ["Shift+C"],
+    enabled: () => useDesk.getState().stage === "review",
+    run: () => setChecks({ open: !useDesk.getState().checks.open }),
   },
   {
     id: "next-to-review",

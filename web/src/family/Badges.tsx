@@ -10,7 +10,9 @@ import {
   Pencil,
   RefreshCw,
   Tag,
+  TriangleAlert,
 } from "lucide-react";
+import { useDesk } from "../store/desk";
 import type { Card } from "../wire";
 import css from "./card.module.css";
 import { type Badge, badges, fitting } from "./words";
@@ -25,17 +27,19 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   flagged: Flag,
   failed: CircleAlert,
   corrected: Hand,
+  findings: TriangleAlert,
 };
 
 /** room: for signs and their counts [px]. */
 export function Badges({ card, room }: { card: Card; room: number }) {
-  const { shown, rest } = fitting(badges(card), room);
+  const engine = useDesk((desk) => desk.checks.engine);
+  const { shown, rest } = fitting(badges(card, engine), room);
   return (
     <span className={css.badges}>
-      {shown.map(({ name, text, count }) => {
+      {shown.map(({ name, text, count, old }) => {
         const Icon = ICONS[name];
         return (
-          <span key={name} className={css.badge} data-badge={name} title={text}>
+          <span key={name} className={css.badge} data-badge={name} data-old={old} title={text}>
             <Icon size={12} aria-hidden />
             {count}
           </span>

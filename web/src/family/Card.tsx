@@ -28,13 +28,14 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const current = useDesk((desk) => desk.asset === asset);
   const found = useRelabelledAsset(asset);
   const relabelled = useDesk((desk) => desk.stage === "label") ? found : null;
+  const engine = useDesk((desk) => desk.checks.engine);
   if (!card) return null;
   return (
     <div
       id={cardId(asset)}
       role="option"
       aria-selected={current}
-      aria-label={[spoken(card), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
+      aria-label={[spoken(card, engine), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}

@@ -14,6 +14,7 @@ const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
   unlabelled: "Most without a label first",
   unsure: "Most unsure labels first",
   changed: "Most changed first",
+  findings: "Worst by the checks first",
 };
 
 export function Filters() {
@@ -53,7 +54,8 @@ function SearchField() {
 /** A chip for each way to stand that some asset has; several together show any of them. */
 function Chips() {
   const only = useDesk((desk) => desk.filters.only);
-  const counts = counted(useProject((state) => state.cards));
+  const engine = useDesk((desk) => desk.checks.engine);
+  const counts = counted(useProject((state) => state.cards), engine);
   const there = FILTERS.filter((name) => counts[name] > 0 || only.includes(name));
   if (there.length === 0) return null;
   return (

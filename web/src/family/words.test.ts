@@ -23,6 +23,8 @@ const card: Card = {
   prepared: [],
   picture: null,
   edited_picture: null,
+  check: null,
+  faults: null,
 };
 
 test("long names lose their middle, more of the front than of the end", () => {

@@ -1,6 +1,7 @@
 // Words on cards: names that fit, and what a screen reader says.
 import type { FilterName } from "../store/desk";
 import { has, unlabelled } from "../store/family";
+import { byEdit, faultsOf, foundText } from "../store/faults";
 import type { Card, RelabelledAsset } from "../wire";
 
 /** A text of at most so many letters, shortened in the middle, where ids differ least. */
@@ -17,17 +18,21 @@ export interface Badge {
   /** What it says, in words. */
   text: string;
   count?: number;
+  /** Whether it was there before the edit already. */
+  old?: boolean;
 }
 
-/** How an asset stands, what matters most first. */
-export function badges(card: Card): readonly Badge[] {
+/** How an asset stands, what matters most first; engine: whose limits count. */
+export function badges(card: Card, engine = ""): readonly Badge[] {
   const { output, review, corrections, stale } = card;
   const [bare, unsure] = [unlabelled(card), card.unsure.length];
+  const faults = faultsOf(card, engine);
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
     has(card, "flagged") && { name: "flagged", text: flagged(card) },
     review === "accepted" && { name: "accepted", text: "Accepted" },
     has(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
+    faults.length > 0 && { name: "findings", count: faults.length, text: foundText(faults), old: !byEdit(faults) },
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
     corrections > 0 && counted("corrected", corrections, "edit by hand", "edits by hand"),
     output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
@@ -70,8 +75,8 @@ export function relabelledText({ new: fresh, changed }: RelabelledAsset): string
 }
 
 /** A card as a screen reader says it. */
-export function spoken(card: Card): string {
+export function spoken(card: Card, engine = ""): string {
   const amount = card.hulls === null ? (card.error ?? "being read") : hulls(card.hulls);
   const after = card.after !== null && card.output !== "none" ? `, ${card.after} after` : "";
-  return [card.asset, amount + after, ...badges(card).map((badge) => badge.text)].join("; ");
+  return [card.asset, amount + after, ...badges(card, engine).map((badge) => badge.text)].join("; ");
 }

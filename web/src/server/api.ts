@@ -2,6 +2,8 @@
 import type {
   AnyEdit,
   AssetView,
+  Checked,
+  CheckPicture,
   Done,
   EditedHeader,
   Generalised,
@@ -39,6 +41,12 @@ export const api = {
   picture: async (asset: string, rule: number) => openedPicture(await getBytes("api/picture", { asset, rule })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     address("api/thumbnail", { asset, of, v: version }),
+  checked: (asset: string, part: Checked["part"], stop: AbortSignal) =>
+    getJson<Checked>("api/checked", { asset, part }, stop),
+  checkPictures: (asset: string, part: Checked["part"], stop: AbortSignal) =>
+    getJson<CheckPicture[]>("api/checked/pictures", { asset, part }, stop),
+  checkPicture: (asset: string, name: string, version: string) =>
+    address("api/checked/picture", { asset, name, v: version }),
   edit: (edit: AnyEdit) => postJson<Done>("api/edit", edit),
   undo: () => postJson<Done>("api/undo", {}),
   redo: () => postJson<Done>("api/redo", {}),

@@ -24,8 +24,8 @@ export function address(path: string, query: Record<string, string | number> = {
   return `${path}?${words}`;
 }
 
-export async function getJson<T>(path: string, query: Record<string, string | number> = {}): Promise<T> {
-  return (await asked(withQuery(path, query), { method: "GET" })).json() as Promise<T>;
+export async function getJson<T>(path: string, query: Record<string, string | number> = {}, stop?: AbortSignal): Promise<T> {
+  return (await asked(withQuery(path, query), { method: "GET", ...(stop ? { signal: stop } : {}) })).json() as Promise<T>;
 }
 
 export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {

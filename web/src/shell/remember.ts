@@ -7,10 +7,11 @@ const KEY = "meshforge.desk";
 
 /** Takes up what was kept, and keeps what changes from now on. */
 export function remember(): void {
-  const { theme, columns, view, sort, layout } = restored(initialKept, stored());
+  const { theme, columns, checks, view, sort, layout } = restored(initialKept, stored());
   useDesk.setState((desk) => ({
     theme,
     columns,
+    checks,
     view: { ...desk.view, ...view },
     filters: { ...desk.filters, sort },
   }));

@@ -51,7 +51,7 @@ export interface ViewSettings {
 export interface Filters {
   search: string;
   only: readonly FilterName[];
-  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed";
+  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed" | "findings";
 }
 export type FilterName =
   | "unlabelled"
@@ -61,7 +61,15 @@ export type FilterName =
   | "accepted"
   | "flagged"
   | "failed"
-  | "stale";
+  | "stale"
+  | "findings";
+
+export interface CheckSettings {
+  /** Whether results are measured as they are looked at. */
+  open: boolean;
+  /** The engine whose limits count, empty for none. */
+  engine: string;
+}
 
 export interface DeskState {
   asset: string | null;
@@ -82,6 +90,7 @@ export interface DeskState {
   highlight: Highlight | null;
   view: ViewSettings;
   filters: Filters;
+  checks: CheckSettings;
   theme: "system" | "light" | "dark";
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
@@ -117,6 +126,7 @@ export const initialDesk: DeskState = {
     divider: 0.5,
   },
   filters: { search: "", only: [], sort: "name" },
+  checks: { open: false, engine: "" },
   theme: "system",
   columns: { family: 280, panel: 360 },
   overlay: "none",
@@ -188,6 +198,10 @@ export function setView(change: Partial<ViewSettings>): void {
 
 export function setFilters(change: Partial<Filters>): void {
   set((state) => ({ filters: { ...state.filters, ...change } }));
+}
+
+export function setChecks(change: Partial<CheckSettings>): void {
+  set((state) => ({ checks: { ...state.checks, ...change } }));
 }
 
 export function lookFrom(to: DeskState["cameraOrder"]["to"]): void {

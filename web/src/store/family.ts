@@ -1,6 +1,7 @@
 // Which assets the family shows, and in which order.
 import type { Card, ProjectView } from "../wire";
 import { type FilterName, type Filters, useDesk } from "./desk";
+import { faultsOf, weightOf } from "./faults";
 import { useProject } from "./project";
 
 export const FILTERS: readonly FilterName[] = [
@@ -12,6 +13,7 @@ export const FILTERS: readonly FilterName[] = [
   "flagged",
   "failed",
   "stale",
+  "findings",
 ];
 
 type Cards = Readonly<Record<string, Card>>;
@@ -19,7 +21,7 @@ type Cards = Readonly<Record<string, Card>>;
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label < 0).length;
 
-const HAS: Readonly<Record<FilterName, (card: Card) => boolean>> = {
+const HAS: Readonly<Record<FilterName, (card: Card, engine: string) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label < 0),
   unsure: (card) => card.unsure.length > 0,
   demonstrated: (card) => card.demonstrated,
@@ -28,14 +30,16 @@ const HAS: Readonly<Record<FilterName, (card: Card) => boolean>> = {
   flagged: (card) => card.review === "flagged" || card.flags.length > 0,
   failed: (card) => card.output === "failed" || card.error !== null,
   stale: (card) => card.output !== "none" && card.stale.length > 0,
+  findings: (card, engine) => faultsOf(card, engine).length > 0,
 };
 
-export const has = (card: Card, filter: FilterName): boolean => HAS[filter](card);
+/** engine: whose limits count as findings of checks. */
+export const has = (card: Card, filter: FilterName, engine = ""): boolean => HAS[filter](card, engine);
 
 /** How many cards each filter would show. */
-export function counted(cards: Cards): Record<FilterName, number> {
+export function counted(cards: Cards, engine = ""): Record<FilterName, number> {
   const all = Object.values(cards);
-  return Object.fromEntries(FILTERS.map((name) => [name, all.filter(HAS[name]).length])) as Record<FilterName, number>;
+  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => HAS[name](card, engine)).length])) as Record<FilterName, number>;
 }
 
 /** The assets to show: any of the filters that are on, every word of the search, sorted. */
@@ -44,16 +48,17 @@ export function filtered(
   order: readonly string[],
   filters: Filters,
   project: Pick<ProjectView, "vocabulary">,
+  engine = "",
 ): readonly string[] {
   const words = filters.search.toLowerCase().split(/\s+/).filter(Boolean);
   const labels = project.vocabulary.map((label) => label.name.toLowerCase());
   const kept = order.filter((asset) => {
     const card = cards[asset];
     if (!card) return false;
-    const wanted = filters.only.length === 0 || filters.only.some((name) => HAS[name](card));
+    const wanted = filters.only.length === 0 || filters.only.some((name) => HAS[name](card, engine));
     return wanted && words.every((word) => found(card, word, labels));
   });
-  return sorted(kept, cards, filters.sort);
+  return sorted(kept, cards, filters.sort, engine);
 }
 
 /** Whether a word stands in the id of an asset, or begins a label that one of its hulls has. */
@@ -62,21 +67,23 @@ function found(card: Card, word: string, labels: readonly string[]): boolean {
   return card.labels.some((label) => labels[label]?.startsWith(word));
 }
 
-const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card) => number>> = {
+const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card, engine: string) => number>> = {
   hulls: (card) => card.hulls ?? -1,
   unlabelled,
   unsure: (card) => card.unsure.length,
   changed: (card) => (card.after === null || card.hulls === null ? -1 : Math.abs(card.hulls - card.after)),
+  findings: (card, engine) => weightOf(card, engine),
 };
 
-function sorted(assets: readonly string[], cards: Cards, by: Filters["sort"]): readonly string[] {
+function sorted(assets: readonly string[], cards: Cards, by: Filters["sort"], engine: string): readonly string[] {
   const natural = [...assets].sort(byName.compare);
   if (by === "name") return natural;
-  const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by)]));
+  const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by, engine)]));
   return natural.sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
 }
 
-const amount = (card: Card | undefined, by: Exclude<Filters["sort"], "name">) => (card ? AMOUNT[by](card) : -1);
+const amount = (card: Card | undefined, by: Exclude<Filters["sort"], "name">, engine: string) =>
+  card ? AMOUNT[by](card, engine) : -1;
 
 const byName = new Intl.Collator("en", { numeric: true });
 
@@ -98,20 +105,20 @@ export function neighbour(
   return null;
 }
 
-let last: { cards: Cards; order: readonly string[]; filters: Filters; labels: unknown; shown: readonly string[] } | null =
+let last: { cards: Cards; order: readonly string[]; filters: Filters; engine: string; labels: unknown; shown: readonly string[] } | null =
   null;
 
 /** The assets that the family shows now; the same array as long as it is the same. */
 export function shownAssets(): readonly string[] {
   const { cards, order, project } = useProject.getState();
-  const { filters } = useDesk.getState();
+  const { filters, checks } = useDesk.getState();
+  const { engine } = checks;
   const labels = project.vocabulary;
-  if (last && last.cards === cards && last.order === order && last.filters === filters && last.labels === labels) {
-    return last.shown;
-  }
-  const fresh = filtered(cards, order, filters, project);
+  const same = last?.cards === cards && last.order === order && last.filters === filters && last.labels === labels;
+  if (last && same && last.engine === engine) return last.shown;
+  const fresh = filtered(cards, order, filters, project, engine);
   const shown = last && equal(last.shown, fresh) ? last.shown : fresh;
-  last = { cards, order, filters, labels, shown };
+  last = { cards, order, filters, engine, labels, shown };
   return shown;
 }
 

@@ -53,6 +53,15 @@ export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<
 export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
   start({ kind: "export", folder, accepted_only });
 
+/** Why results cannot be checked, null where they can. */
+export function notCheckable(): string | null {
+  const { cards, jobs } = useProject.getState();
+  if (jobs.some((job) => job.kind === "check" && job.state === "running")) return "They are being checked now.";
+  return Object.values(cards).some((card) => card.check !== null) ? null : "Nothing is written yet: apply the program.";
+}
+
+export const checkAll = (): Promise<boolean> => start({ kind: "check" });
+
 export function cancelJob(id: string): void {
   api.cancelJob(id).catch(complainedOf);
 }

@@ -18,6 +18,7 @@ const hello: Hello = {
   reach: [],
   jobs: [],
   tour: false,
+  engines: [],
 };
 const begun = received(emptyProject, hello);
 

@@ -1,7 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { Card, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach, Relabelled } from "../wire";
+import type { Card, EngineView, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach, Relabelled } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -22,6 +22,8 @@ export interface ProjectState {
   reach: Readonly<Record<string, Reach>>;
   jobs: readonly Job[];
   tour: boolean;
+  /** Engines whose limits can be checked. */
+  engines: readonly EngineView[];
   /** How often everything was told anew, and of how many edits of this page. */
   hellos: number;
   own: number;
@@ -71,6 +73,7 @@ export const emptyProject: ProjectState = {
   reach: {},
   jobs: [],
   tour: false,
+  engines: [],
   hellos: 0,
   own: 0,
   revisions: {},
@@ -98,6 +101,7 @@ export function received(state: ProjectState, event: Event): ProjectState {
         reach: byAsset(event.reach),
         jobs: event.jobs,
         tour: event.tour,
+        engines: event.engines,
         hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection
         revisions: raised(state.revisions, event.cards.map((card) => card.asset)),

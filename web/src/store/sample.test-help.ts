@@ -21,5 +21,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   prepared: [],
   picture: null,
   edited_picture: null,
+  check: null,
+  faults: null,
   ...change,
 });

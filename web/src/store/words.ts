@@ -5,6 +5,11 @@ export function counted(count: number, one: string, many = `${one}s`): string {
   return `${count.toLocaleString("en-GB")} ${count === 1 ? one : many}`;
 }
 
+/** A text as a sentence: with a capital, and a full stop. */
+export function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
+}
+
 /** `a`, `a and b`, `a, b and c`; of more than `most` only the first ones and how many there are besides. */
 export function listed(words: readonly string[], most = 4): string {
   const rest = words.length - most;

@@ -49,7 +49,8 @@ class Rest:
 
     jitter: root mean square of the speed of its shakiest body about its mean, at half its size from the centre [m/s];
     fastest: the highest speed of any body in the first 0.2 s [m/s]; moved: how far it wandered sideways [m];
-    tilt: how far it turned from upright [degrees]; sunk: how deep it reaches into the plane at the end [m].
+    tilt: how far it turned from upright [degrees]; sunk: how deep it reaches into the plane at the end [m];
+    mass: of all bodies, by the file, or of water where that tells none that can be [kg].
     """
 
     jitter: float
@@ -57,6 +58,7 @@ class Rest:
     moved: float
     tilt: float
     sunk: float
+    mass: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -171,7 +173,8 @@ def _rested(mesh: SymbolicMesh, tree: Tree) -> Rest | None:
     ends = data.xmat[moving].reshape(-1, 3, 3)
     turned = [np.clip((upright[k] @ ends[k].T)[2, 2], -1, 1) for k in roots]
     moved = max(float(np.linalg.norm((data.xipos[moving][k] - start[k])[:2])) for k in roots)
-    return Rest(jitter, fastest, moved, float(np.degrees(np.arccos(min(turned)))), _sunk(data))
+    tilt, mass = float(np.degrees(np.arccos(min(turned)))), float(model.body_subtreemass[0])
+    return Rest(jitter, fastest, moved, tilt, _sunk(data), mass)
 
 
 def _speeds(velocities: Floats, size: Floats) -> Floats:

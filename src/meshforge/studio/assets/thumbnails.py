@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Literal
 
-from meshforge.batch import Found, read_stamp
+from meshforge.batch import read_stamp
 from meshforge.errors import MeshForgeError
 from meshforge.files import write_atomically
 from meshforge.formats import load
@@ -19,7 +19,7 @@ from meshforge.project.reviewing import output_digest
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.showing.pictures import edited_digest, picture_digest, thumbnail
 from meshforge.studio.showing.shapes import upright
-from meshforge.studio.workers import Workers, arrived
+from meshforge.studio.workers import Workers, alone, arrived
 
 Of = Literal["source", "output"]
 
@@ -57,11 +57,11 @@ class Thumbnails:
         kept = self._folder / f"{digest}.png"
         if kept.is_file():
             return _done(kept.read_bytes())
-        alone = Project(project.folder, Found(project.found.base, (project.path(asset),)))
+        wanted = _Work(alone(project, asset), asset, of, digest, kept)
         with self._lock:
             if digest in self._drawing:
                 return self._drawing[digest]
-            work, future = self._waiting.pop(digest, (_Work(alone, asset, of, digest, kept), Future[bytes]()))
+            work, future = self._waiting.pop(digest, (wanted, Future[bytes]()))
             self._waiting[digest] = work, future  # now the one that was asked for last
         self._next()
         return future

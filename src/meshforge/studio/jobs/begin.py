@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING, assert_never
 
 from meshforge.studio.jobs.apply import apply_job
 from meshforge.studio.jobs.ask import ask_job, forecast_job
+from meshforge.studio.jobs.check import check_job
 from meshforge.studio.jobs.decompose import decompose_job
 from meshforge.studio.jobs.export import export_job
 from meshforge.studio.jobs.propagate import propagate_job
 from meshforge.studio.wire.jobs import (
     ApplyJob,
     AskJob,
+    CheckJob,
     DecomposeJob,
     ExportJob,
     ForecastJob,
@@ -39,5 +41,7 @@ def begin(desk: Desk, request: JobRequest) -> Job:
             return forecast_job(desk, request)
         case AskJob():
             return ask_job(desk, request)
+        case CheckJob():
+            return check_job(desk)
         case _:
             assert_never(request)

@@ -6,13 +6,20 @@ from collections.abc import Sequence
 
 from meshforge.project import AssetStatus
 from meshforge.studio.showing.pictures import edited_digest, picture_digest
+from meshforge.studio.wire.checks import Fault
 from meshforge.studio.wire.family import Card
 from meshforge.symbolic import GIVEN_SOURCES
 from meshforge.views import UNSURE
 
 
-def card(status: AssetStatus, vocabulary: Sequence[str], orient: str) -> Card:
-    """The card of an asset; orient: the orientation's text, in whose frame it is drawn."""
+def card(
+    status: AssetStatus,
+    vocabulary: Sequence[str],
+    orient: str,
+    check: str | None = None,
+    faults: tuple[Fault, ...] | None = None,
+) -> Card:
+    """The card of an asset; orient: the orientation's text, in whose frame it is drawn; the others as of `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
     labels = tuple(places.get(label.name, -1) if label else -1 for label in status.labels)
     picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
@@ -36,6 +43,8 @@ def card(status: AssetStatus, vocabulary: Sequence[str], orient: str) -> Card:
         prepared=status.prepared,
         picture=picture,
         edited_picture=edited_digest(picture, status.output_digest) if status.output_digest and picture else None,
+        check=check,
+        faults=faults,
     )
 
 

@@ -16,6 +16,7 @@ from meshforge.errors import UsageError
 from meshforge.files import relative_name
 from meshforge.project import Offers, Project
 from meshforge.studio.assets import KeptProject, Meshes, Thumbnails, Uploads
+from meshforge.studio.checking import Checks
 from meshforge.studio.edits import Edit
 from meshforge.studio.edits.own import TakeLearned
 from meshforge.studio.errors import NotHereError
@@ -59,7 +60,7 @@ class Desk:
     def __init__(self, opening: Opening) -> None:
         self.opening = opening
         self._mutex = RLock()
-        self.readers, self._drawers = Workers(READERS), Workers()
+        self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
         self.project = KeptProject.of(Project.open(opening.folder), Meshes(self.readers))
         self.history = History(self.project, _derived)
         self.relabelling = Relabelling(self.history)
@@ -69,6 +70,7 @@ class Desk:
         self.offers = Offers()
         self.jobs = Jobs(self.shown.set_job)
         self.thumbnails = Thumbnails(self.state / "thumbnails", self._drawers)
+        self.checks = Checks(self.state / "checks", self._checkers)
         self.uploads = Uploads(self.state / "uploads")
         self.lessons = Lessons(Learner(self.project.folder), self.shown, self._is_taught, self._learned)
         refreshing = Refreshing(self)
@@ -99,6 +101,7 @@ class Desk:
         self.lessons.close()
         self.readers.close()
         self._drawers.close()
+        self._checkers.close()
         self.hub.close()
 
     # Looking

@@ -6,8 +6,10 @@ import logging
 from functools import partial
 from typing import TYPE_CHECKING
 
+from meshforge.batch import read_stamp
 from meshforge.errors import MeshForgeError, StoppedError, told
 from meshforge.project import Project, Status, first_to_show
+from meshforge.studio.checking import check_key
 from meshforge.studio.showing.cards import card
 from meshforge.studio.showing.next_step import next_step
 from meshforge.studio.showing.project import project_view
@@ -56,7 +58,11 @@ class Refreshing:
         status = project.status(assets, progress=self._count, stop=desk.chores.is_closed)
         settings = project.settings
         self._names |= {row.id: row.names for row in status.assets}
-        desk.shown.set_cards([card(row, settings.vocabulary, settings.orient) for row in status.assets])
+        keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
+        desk.shown.set_cards(
+            card(row, settings.vocabulary, settings.orient, key, desk.checks.faults(key))
+            for row, key in zip(status.assets, keys, strict=True)
+        )
         self._tell()
         if desk.chores.left == 0 or len(assets) < self.portion():
             desk.shown.set_relabelled(desk.relabelling.relabelled(self._names))

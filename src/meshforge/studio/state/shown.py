@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from threading import RLock
 
+from meshforge.checks import ENGINES
 from meshforge.studio.state.hub import Hub, Page
 from meshforge.studio.wire import events
+from meshforge.studio.wire.checks import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.jobs import Job
 from meshforge.studio.wire.labelling import Relabelled
@@ -14,6 +16,9 @@ from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
 
 FINISHED = 20
 """Jobs that are over and still shown to pages that connect."""
+
+
+_ENGINES = tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values())
 
 
 class Shown:
@@ -66,6 +71,7 @@ class Shown:
                 reach=self._reach,
                 jobs=tuple(self._jobs.values()),
                 tour=self._tour,
+                engines=_ENGINES,
             )
             self._hub.join(page, hello)
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire.checks import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
 from meshforge.studio.wire.jobs import Job
 from meshforge.studio.wire.labelling import Relabelled
@@ -26,7 +27,10 @@ class Problem(Wire):
 
 
 class Hello(Wire):
-    """Everything that is known, on connecting. tour: whether the page is to show the guided tour."""
+    """Everything that is known, on connecting.
+
+    tour: whether the page is to show the guided tour; engines: whose limits can be checked.
+    """
 
     kind: Literal["hello"] = "hello"
     version: str
@@ -40,6 +44,7 @@ class Hello(Wire):
     reach: tuple[Reach, ...] = ()
     jobs: tuple[Job, ...] = ()
     tour: bool = False
+    engines: tuple[EngineView, ...] = ()
 
 
 class CardsChanged(Wire):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire.checks import Fault
 from meshforge.studio.wire.labelling import CarriedOver
 
 Output = Literal["none", "edited", "unchanged", "failed"]
@@ -22,6 +23,8 @@ class Card(Wire):
     changed since the output was made; corrections: edits by hand, a number.
     sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
+    check: the digest of the output and of what it was made from, null where there is no output; faults: what checks
+    found of it, null where it was not checked.
     """
 
     asset: str
@@ -43,6 +46,8 @@ class Card(Wire):
     prepared: tuple[str, ...] = ()
     picture: str | None = None
     edited_picture: str | None = None
+    check: str | None = None
+    faults: tuple[Fault, ...] | None = None
 
 
 class VocabularyLabel(Wire):

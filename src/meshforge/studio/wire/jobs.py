@@ -6,7 +6,7 @@ from typing import Literal
 
 from meshforge.studio.wire.base import Wire
 
-JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask"]
+JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check"]
 
 
 class JobLine(Wire):
@@ -82,4 +82,10 @@ class AskJob(Wire):
     max_cost: float | None = None
 
 
-JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob
+class CheckJob(Wire):
+    """Measure the outputs of all assets in every way."""
+
+    kind: Literal["check"] = "check"
+
+
+JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob

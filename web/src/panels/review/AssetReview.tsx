@@ -2,6 +2,7 @@
 import { useDesk } from "../../store/desk";
 import { useProject } from "../../store/project";
 import { Note, Section } from "../../ui/Section";
+import { Checks } from "./checks/Checks";
 import { Corrections } from "./Corrections";
 import { Findings } from "./Findings";
 import { NumbersTable } from "./NumbersTable";
@@ -40,6 +41,7 @@ function OneAsset({ asset }: { asset: string }) {
         <>
           <NumbersTable before={result.scene.view.hulls} edit={result.scene.edit} />
           <Findings edit={result.scene.edit} />
+          <Checks asset={asset} />
           <Trace asset={asset} of={result.of} edit={result.scene.edit} />
         </>
       )}

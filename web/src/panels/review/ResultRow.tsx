@@ -2,6 +2,7 @@
 import { memo, useEffect } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { openAsset, useDesk } from "../../store/desk";
+import { byEdit, faultsOf, foundText } from "../../store/faults";
 import { staleText } from "../../store/reviews";
 import { errorParts, shortName } from "../../store/words";
 import { useVerdicts, verdict, verdictKey } from "../../store/verdicts";
@@ -25,7 +26,7 @@ export const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card;
         <strong>{shortName(card.asset)}</strong>
         {written && (
           <span className={css.facts}>
-            {card.output === "unchanged" ? `${card.hulls ?? 0} hulls, unchanged` : `${card.hulls ?? 0} → ${card.after ?? 0} hulls`} <Legality card={card} />
+            {card.output === "unchanged" ? `${card.hulls ?? 0} hulls, unchanged` : `${card.hulls ?? 0} → ${card.after ?? 0} hulls`} <Legality card={card} /> <Found card={card} />
           </span>
         )}
         <Line card={card} />
@@ -51,6 +52,18 @@ function Failure({ card }: { card: Card }) {
       <span className={css.bad}>✗ {message}</span>
       {remedy && <span className={css.dim}>{remedy}</span>}
     </>
+  );
+}
+
+/** What the checks found, where they were made. */
+function Found({ card }: { card: Card }) {
+  const engine = useDesk((state) => state.checks.engine);
+  const found = faultsOf(card, engine);
+  if (!found.length) return null;
+  return (
+    <span className={byEdit(found) ? css.warn : undefined} title={foundText(found)}>
+      · ⚠&nbsp;{found.length}
+    </span>
   );
 }
 

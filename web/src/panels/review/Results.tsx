@@ -7,6 +7,7 @@ import { useProject } from "../../store/project";
 import { acceptable, grouped, type Group, GROUPS } from "../../store/reviews";
 import type { Card } from "../../wire";
 import { Button } from "../../ui/Button";
+import { CheckAll } from "./checks/CheckAll";
 import { ResultRow } from "./ResultRow";
 import css from "./review.module.css";
 
@@ -30,7 +31,10 @@ export function Results({ onOpen }: { onOpen: () => void }) {
   const lines = useMemo(() => linesOf(inOrder, sample ?? []), [inOrder, sample]);
   return (
     <div className={css.results}>
-      <AcceptLegal count={acceptable(inOrder).length} />
+      <div className={css.family}>
+        <CheckAll />
+        <AcceptLegal count={acceptable(inOrder).length} />
+      </div>
       <List lines={lines} onOpen={onOpen} />
     </div>
   );
@@ -75,16 +79,14 @@ function AcceptLegal({ count }: { count: number }) {
   if (!count && !progress) return null;
   const run = () => void acceptLegal((done, total) => setProgress({ done, total })).finally(() => setProgress(null));
   return (
-    <div className={css.acceptLegal}>
-      <Button
-        icon={CheckCheck}
-        disabled={progress !== null}
-        tip="Accepts all outputs that are up to date, without a flag, and not illegal; nobody reviewed them yet"
-        onClick={run}
-      >
-        {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}
-      </Button>
-    </div>
+    <Button
+      icon={CheckCheck}
+      disabled={progress !== null}
+      tip="Accepts all outputs that are up to date, without a flag, and not illegal; nobody reviewed them yet"
+      onClick={run}
+    >
+      {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}
+    </Button>
   );
 }
 
