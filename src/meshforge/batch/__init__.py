@@ -1,6 +1,6 @@
 """Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
 
-from meshforge.batch.apply import TIMEOUT, Backend, apply
+from meshforge.batch.apply import Backend, apply
 from meshforge.batch.correction import Correction, replay
 from meshforge.batch.digests import (
     asset_digests,
@@ -21,11 +21,13 @@ from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, 
 from meshforge.batch.plan import Plan, plan, size_text
 from meshforge.batch.pool import Lost, isolated
 from meshforge.batch.report import ReportAsset, write_report
+from meshforge.batch.spread import HERE, TIMEOUT, Spread
 from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
 
 __all__ = [
+    "HERE",
     "OWN_FOLDERS",
     "SETTINGS",
     "STATE",
@@ -44,6 +46,7 @@ __all__ = [
     "ReportAsset",
     "RuleLine",
     "Skipped",
+    "Spread",
     "Stamp",
     "Summary",
     "Task",

@@ -19,15 +19,12 @@ from meshforge.batch.lock import locked
 from meshforge.batch.memory import share
 from meshforge.batch.outcome import Failed, Outcome
 from meshforge.batch.pool import Lost, isolated, processors
+from meshforge.batch.spread import TIMEOUT
 from meshforge.errors import UsageError
 from meshforge.formats import Mass
 from meshforge.language import Program, Template
 
 Backend = Literal["local", "ray"]
-TIMEOUT = 600.0
-"""Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
-
-
 _Results = Generator[Worked | Lost, None, None]
 
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from meshforge.batch import Spread
 
 
 def _gibibytes(text: str) -> int:
@@ -45,3 +48,10 @@ InProject = Annotated[
 ]
 AssetFile = Annotated[Path, typer.Argument(help="A file with collision hulls, or a folder of mesh files.")]
 AssetFiles = Annotated[list[str], typer.Argument(help="Files, folders or globs of assets.")]
+
+
+def spread_of(workers: int | None, timeout: float | None, memory: int | None) -> Spread:
+    """How work is spread by these options."""
+    from meshforge.batch import TIMEOUT, Spread
+
+    return Spread(workers, TIMEOUT if timeout is None else timeout or None, memory)
