@@ -45,7 +45,10 @@ def label(
 ) -> bool:
     """Label a project, and say what came of it; whether some labels could not be taken."""
     from meshforge.cli.label_summary import summarise
+    from meshforge.cli.output import remark
 
+    if len(project.assets()) > 1:
+        remark(project.plan_labels())
     telling = Telling(json=json)
     closing = _labelled(project, source, labels, given, spread, telling)
     summarise(project, sheets, json=json)

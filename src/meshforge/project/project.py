@@ -46,7 +46,7 @@ from meshforge.project import (
 )
 from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
-from meshforge.project.labels import labelling, naming, proposing, sheets, tallying
+from meshforge.project.labels import labelling, naming, planning, proposing, sheets, tallying
 from meshforge.project.labels.from_files import filing
 from meshforge.project.labels.from_files.reading import Filing
 from meshforge.project.labels.labelling import Labelled
@@ -305,6 +305,10 @@ class Project:
     ) -> Proposals:
         """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
         return proposing.from_names(self, meanings, vocabulary, spread)
+
+    def plan_labels(self) -> str:
+        """What there is to be labelled, in words: how many assets of what, and how many have labels by now."""
+        return planning.planned(self)
 
     def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
         """How many hulls have which labels: from where, and how sure."""

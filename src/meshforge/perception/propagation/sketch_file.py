@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 import zlib
 from collections.abc import Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ def write_arrays(path: Path, key: str, arrays: Arrays) -> None:
 def read_arrays(path: Path, key: str, *names: str) -> list[NDArray[Any]] | None:
     """The arrays of some names; None where none are kept, they were made from something else, or are damaged."""
     try:
-        with np.load(path, allow_pickle=False) as kept:
+        with np.load(BytesIO(path.read_bytes()), allow_pickle=False) as kept:
             return [kept[name] for name in names] if str(kept[_KEY]) == key else None
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
