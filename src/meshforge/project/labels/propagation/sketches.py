@@ -1,6 +1,6 @@
 """The sketches of the assets of a project: made in worker processes, and kept until an asset changes.
 
-Measured: a table of 42 hulls takes 70 to 130 ms, and to read its sketch again 1 ms.
+Measured on 42 tables of 42 hulls: 6.4 s of processor time with, 0.4 s without having to describe them.
 """
 
 from __future__ import annotations
