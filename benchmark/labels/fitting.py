@@ -11,8 +11,9 @@ from scipy.optimize import minimize
 
 from benchmark.assets import Sample
 from meshforge.geometry import Floats
-from meshforge.perception.propagation.describe import WIDTH, described
+from meshforge.perception.propagation.describe import WIDTH
 from meshforge.perception.propagation.family import Scale
+from meshforge.perception.propagation.sketch import Sketcher
 
 PURE = 0.8
 """Hulls of a lower purity teach nothing, and are not counted."""
@@ -39,7 +40,7 @@ class Rows:
 def rows_of(samples: Sequence[Sample]) -> Rows:
     """The hulls of some samples."""
     sizes = [len(sample.mesh.hulls) for sample in samples]
-    rows = np.concatenate([described(sample.mesh) for sample in samples])
+    rows = np.concatenate([Sketcher(sample.mesh).sketch().rows for sample in samples])
     return Rows(
         Scale.of(rows)(rows),
         np.array([hull.label for sample in samples for hull in sample.mesh.hulls]),

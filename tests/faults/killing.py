@@ -52,10 +52,10 @@ class Applying:
         return "after it was done" if not was_running else "in the midst" if is_begun else "before the first output"
 
 
-class Labelling:
+class _Labelling:
     """`label` killed: what a person said stays byte for byte, files are whole, and another run completes it."""
 
-    title = "`label --with propagate`, killed"
+    way: tuple[str, ...]
 
     def __init__(self, folder: Path) -> None:
         table_family(folder, _TABLES)
@@ -67,7 +67,7 @@ class Labelling:
             project.set_labels(asset, {name: label.name for name, label in true.items()})
         shutil.copytree(project.folder, folder / "begun")
         began = time.monotonic()
-        assert ended(begun(["label", "p", "--with", "propagate"], folder))[0] == 0
+        assert ended(begun(["label", "p", "--with", *self.way], folder))[0] == 0
         self._longest = time.monotonic() - began
         self._before, self._whole = outputs(folder / "begun/labels"), outputs(folder / "p/labels")
 
@@ -75,7 +75,7 @@ class Labelling:
         project = self._folder / "p"
         shutil.rmtree(project)
         shutil.copytree(self._folder / "begun", project)
-        words = ["label", "p", "--with", "propagate"]
+        words = ["label", "p", "--with", *self.way]
         was_running = killed(begun(words, self._folder), draw.uniform(0.2, self._longest), draw)
         left = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
         assert is_part_of(left, self._whole), "a labels file is neither as before nor as it should be"
@@ -84,6 +84,24 @@ class Labelling:
         now = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
         assert now == self._whole, "the second run leaves other labels"
         return "after it was done" if not was_running else "in the midst" if left != self._before else "before a label"
+
+
+class Propagating(_Labelling):
+    """Labels of two assets carried to the others."""
+
+    title, way = "`label --with propagate`, killed", ("propagate",)
+
+
+class FromFiles(_Labelling):
+    """Labels of the files beside the assets."""
+
+    title, way = "`label --with file`, killed", ("file",)
+
+
+class FromNames(_Labelling):
+    """Labels that the names of hulls say."""
+
+    title, way = "`label --with names`, killed", ("names", "--pattern", "convex_0*=panel")
 
 
 class Studio:
@@ -124,4 +142,4 @@ class Studio:
         return "with one in the air" if asked != told else "between two"
 
 
-KILLING = (Applying, Labelling, Studio)
+KILLING = (Applying, Propagating, FromFiles, FromNames, Studio)

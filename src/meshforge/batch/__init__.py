@@ -22,12 +22,13 @@ from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, 
 from meshforge.batch.plan import Plan, plan, size_text
 from meshforge.batch.pool import Lost, isolated
 from meshforge.batch.report import ReportAsset, write_report
-from meshforge.batch.spread import TIMEOUT, Backend, spread
+from meshforge.batch.spread import HERE, TIMEOUT, Backend, Spread
 from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
 
 __all__ = [
+    "HERE",
     "OWN_FOLDERS",
     "SETTINGS",
     "STATE",
@@ -47,6 +48,7 @@ __all__ = [
     "ReportAsset",
     "RuleLine",
     "Skipped",
+    "Spread",
     "Stamp",
     "Summary",
     "Task",
@@ -78,7 +80,6 @@ __all__ = [
     "size_text",
     "software",
     "source_files",
-    "spread",
     "status",
     "template_folders",
     "text_digest",

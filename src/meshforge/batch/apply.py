@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -16,12 +16,10 @@ from meshforge.batch.ledger import Ledger
 from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Failed, Outcome
 from meshforge.batch.pool import Lost
-from meshforge.batch.spread import TIMEOUT, Backend, spread
+from meshforge.batch.spread import TIMEOUT, Backend, Spread
 from meshforge.errors import UsageError
 from meshforge.formats import Mass, Names, format_for, with_names
 from meshforge.language import Program, Template
-
-_Results = Generator[Worked | Lost, None, None]
 
 
 def apply(
@@ -62,11 +60,12 @@ def apply(
     jobs = tuple(assets)
     task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to, names)
     _check(jobs, task)
-    work = partial(spread, backend, workers=workers, timeout=timeout, memory=memory, done=progress, stop=stop)
-    return _run(jobs, task, work)
+    return _run(jobs, task, Spread(workers, timeout, memory, stop, backend), progress)
 
 
-def _run(jobs: tuple[AssetJob, ...], task: Task, work: Callable[..., _Results]) -> Iterator[Outcome]:
+def _run(
+    jobs: tuple[AssetJob, ...], task: Task, spread: Spread, progress: Callable[[], None] | None
+) -> Iterator[Outcome]:
     with ExitStack() as stack:
         ledger = None
         if not task.dry_run:
@@ -74,7 +73,7 @@ def _run(jobs: tuple[AssetJob, ...], task: Task, work: Callable[..., _Results]) 
             stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
-        results = work(partial(edit, task), jobs)
+        results = spread.over(partial(edit, task), jobs, progress)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result

@@ -15,7 +15,7 @@ from meshforge.batch.job import AssetJob
 from meshforge.batch.journal import Seen
 from meshforge.batch.mending import write_mended
 from meshforge.batch.pool import Lost
-from meshforge.batch.spread import TIMEOUT, Backend, spread
+from meshforge.batch.spread import Spread
 from meshforge.checks import Examination, Fixed, Measures, engine_named, examine_mesh, fix, pictures
 from meshforge.errors import AssetError, MeshForgeError, UsageError, told
 from meshforge.formats import load
@@ -101,22 +101,18 @@ def examine(path: Path, base: Path, labels: Path | None, wanted: Wanted) -> Exam
 def examine_all(
     work: Sequence[AssetJob],
     wanted: Wanted,
+    spread: Spread,
     *,
-    backend: Backend = "local",
-    workers: int | None = None,
-    timeout: float | None = TIMEOUT,
-    memory: int | None = None,
     done: Callable[[], None] | None = None,
     known: Mapping[str, Seen] = MappingProxyType({}),
 ) -> Iterator[Examined | None]:
-    """The examinations of many assets, in their order, in worker processes; where, and bounds, as of `spread`.
+    """The examinations of many assets, in their order, in worker processes.
 
     One that crashes, takes too long or too much memory is an error of its own. known: what earlier examinations
     depended on, by id; None for an asset of which that is as it was.
     """
     items = [(job, known.get(job.id)) for job in work]
-    one = partial(_examine, wanted)
-    results = spread(backend, one, items, workers=workers, timeout=timeout, memory=memory, done=done)
+    results = spread.over(partial(_examine, wanted), items, done)
     for job, result in zip(work, results, strict=True):
         yield Examined(job.path, f"{job.path}: {result.why}") if isinstance(result, Lost) else result
 

@@ -38,11 +38,14 @@ class Plan:
         """Whether the disk may not hold as much again as the assets that no earlier run was at."""
         return self.free < self.size * (self.count - self.earlier) / max(self.count, 1)
 
-    def __str__(self) -> str:
+    @property
+    def assets(self) -> str:
+        """How many there are of what, in words."""
         kinds = ", ".join(f"{number:,} {kind}" for kind, number in self.kinds.items())
-        told = [f"{counted(self.count, 'asset')} ({kinds}; {size_text(self.size)}), {self.labelled:,} with labels"]
-        if self.out is None:
-            return told[0]
+        return f"{counted(self.count, 'asset')} ({kinds}; {size_text(self.size)}), {self.labelled:,} with labels"
+
+    def __str__(self) -> str:
+        told = [self.assets]
         known = (
             f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
         )

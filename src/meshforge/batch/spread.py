@@ -1,38 +1,44 @@
-"""Where the work of a batch is done: on this machine, or on a cluster. Results are the same."""
+"""How work on many assets is spread over worker processes, here or on a cluster, and what one asset may take."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
-from typing import Literal, TypeVar
+from dataclasses import dataclass
+from typing import Literal
 
 from meshforge.batch.cluster import on_cluster
 from meshforge.batch.memory import share
-from meshforge.batch.pool import Lost, isolated, processors
-
-Item = TypeVar("Item")
-Result = TypeVar("Result")
+from meshforge.batch.pool import Item, Lost, Result, isolated, processors
 
 Backend = Literal["local", "ray"]
 TIMEOUT = 600.0
 """Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
 
 
-def spread(
-    backend: Backend,
-    function: Callable[[Item], Result],
-    items: Sequence[Item],
-    *,
-    workers: int | None = None,
-    timeout: float | None = TIMEOUT,
-    memory: int | None = None,
-    done: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
-) -> Generator[Result | Lost, None, None]:
-    """The results of `function` on the items, in their order, as of `isolated` or of `on_cluster`.
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """All as of `isolated`; timeout [s] and memory [bytes] for one asset, an even share of the machine's when None.
 
-    memory: bytes for one item; None is an even share of what the machine has.
+    backend: the workers of this machine, or those of a Ray cluster, as of `on_cluster`. Results are the same.
     """
-    work = on_cluster if backend == "ray" else isolated
-    if backend == "local" and memory is None:
-        memory = share(min(workers or processors(), len(items)))
-    return work(function, items, workers=workers, timeout=timeout, memory=memory, done=done, stop=stop)
+
+    workers: int | None = None
+    timeout: float | None = TIMEOUT
+    memory: int | None = None
+    stop: Callable[[], bool] | None = None
+    backend: Backend = "local"
+
+    def over(
+        self, function: Callable[[Item], Result], items: Sequence[Item], done: Callable[[], None] | None = None
+    ) -> Generator[Result | Lost, None, None]:
+        """The results of `function` on the items, in their order. Raises as `isolated` and `on_cluster`."""
+        memory, work = self.memory, on_cluster if self.backend == "ray" else isolated
+        if self.backend == "local" and memory is None:
+            memory = share(min(self.workers or processors(), len(items)))
+        return work(
+            function, items, workers=self.workers, timeout=self.timeout, memory=memory, done=done, stop=self.stop
+        )
+
+
+HERE = Spread(workers=0)
+"""In this process, one asset after the other: nothing has to be started, and nothing is bounded."""

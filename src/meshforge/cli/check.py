@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Timeout, Workers, spread_of
 
 if TYPE_CHECKING:
     from meshforge.batch import Examined, Journal
@@ -72,7 +72,7 @@ def check(
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    from meshforge.batch import TIMEOUT, Wanted, examine_all, expand, jobs, journal, plan
+    from meshforge.batch import Wanted, examine_all, expand, jobs, journal, plan
     from meshforge.checks import Measures
     from meshforge.cli.output import print_json, progress, remark
     from meshforge.errors import UsageError
@@ -88,14 +88,13 @@ def check(
     work = jobs(expand(assets), labels)
     if len(work) > _FEW:
         remark(str(plan(work, out)))
-    seconds = TIMEOUT if timeout is None else timeout or None
     if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
     failed = 0
-    bounds: dict[str, Any] = {"workers": workers, "timeout": seconds, "memory": memory}
+    spread = spread_of(workers, timeout, memory, backend)
     with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
         known = book.seen if book else {}
-        results = examine_all(work, wanted, backend=backend, known=known, done=advance, **bounds)
+        results = examine_all(work, wanted, spread, known=known, done=advance)
         for job, examined in zip(work, results, strict=True):
             row = _row(book, job.id, examined)
             failed += row["failed"]

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Json
-
-if TYPE_CHECKING:
-    from meshforge.cli.label_proposals import GivenOptions
-    from meshforge.project import Labelled, Project
+from meshforge.cli.options import Backend, Json, Memory, Timeout, Workers, spread_of
 
 
 def label(
@@ -81,19 +75,20 @@ def label(
     ] = None,
     dry_run: Annotated[
         bool,
-        typer.Option(
-            "--dry-run", help="Take nothing: show what names or files would give, or what vlm would send and cost."
-        ),
+        typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
     ] = False,
+    workers: Workers = None,
+    backend: Backend = "local",
+    timeout: Timeout = None,
+    memory: Memory = None,
     json: Json = False,
 ) -> None:
     """Give labels to hulls; what a person labelled is never overwritten by a machine.
 
-    Exit code 1 when some labels could not be taken (each named).
+    Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
+    Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
-    from meshforge.cli import label_proposals, label_vlm
-    from meshforge.cli.label_summary import summarise
-    from meshforge.cli.output import print_json
+    from meshforge.cli import label_given, label_proposals, label_vlm
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
@@ -102,66 +97,24 @@ def label(
     options = label_vlm.VlmOptions(model, base_url, mode, max_cost)
     if source != "vlm" and options.given:
         raise UsageError(f"{options.given} is for --with vlm", remedy="Leave it out.")
-    if source == "propagate" and dry_run:
-        raise UsageError("--dry-run is for --with names, file and vlm", remedy="Leave it out.")
+    spread = spread_of(workers, timeout, memory, backend)
+    if source == "vlm" and spread != spread_of():
+        remedy = "Leave it out; how many questions are asked at a time is `concurrency` in [vlm]."
+        raise UsageError("--workers, --backend, --timeout and --memory are not for --with vlm", remedy=remedy)
     given = label_proposals.GivenOptions(pattern or (), classes, align, points_up)
     given.refuse_for(source)
     opened = Project.open(project)
     words = [word.strip() for word in vocabulary.split(",") if word.strip()] if vocabulary else None
-    if dry_run and source != "vlm":
-        label_proposals.propose(opened, source, labels, words, given, json=json)
+    if dry_run and source == "vlm":
+        label_vlm.foretell(opened, options, words, json=json)
         return
     if dry_run:
-        label_vlm.foretell(opened, options, words, json=json)
+        label_proposals.propose(opened, source, labels, words, given, spread, json=json)
         return
     if words is not None:
         opened.set_vocabulary(words)
-    asked = label_vlm.ask(opened, options) if source == "vlm" else None
-    reports, closing = (asked.reports, "") if asked else _labelled(opened, source, labels, given)
-    for report in reports:
-        if json:
-            print_json(asdict(report) | (label_vlm.as_json(asked, report.asset) if asked else {}), compact=True)
-            continue
-        typer.echo(f"{report.asset}: {_told(report)}")
-        for problem in report.problems:
-            typer.echo(f"    left out: {problem}")
-        if asked:
-            label_vlm.say_open(asked, report.asset)
-    summarise(opened, sheets, json=json)
-    if closing and not json:
-        typer.echo(closing)
-    if asked:
-        label_vlm.close(opened, asked, json=json)
-    raise typer.Exit(int(any(report.problems for report in reports) or bool(asked and asked.ended)))
-
-
-def _labelled(
-    project: Project, source: str, labels: Path | None, given: GivenOptions
-) -> tuple[Sequence[Labelled], str]:
-    """What became of the labels of each asset, and a closing sentence."""
-    from meshforge.cli.output import progress
-    from meshforge.words import counted
-
-    match source:
-        case "names":
-            return project.label_from_names(given.meanings), ""
-        case "propagate":
-            with progress(len(project.assets()), "reading") as advance:
-                carried = project.propagate_labels(progress=advance)
-            helpful = f"If some are wrong, label or correct this one next: {carried.next}" if carried.next else ""
-            return carried.reports, helpful
-        case _:
-            reports = project.label_from_files(labels, given.filing)
-            bare = len(project.assets()) - len(reports)
-            return reports, f"{counted(bare, 'asset')} without a labels file" if bare else ""
-
-
-def _told(report: Labelled) -> str:
-    from meshforge.words import counted
-
-    parts = [f"{counted(report.taken, 'label')} taken"]
-    parts += [f"{report.same} there already"] if report.same else []
-    parts += [f"{report.kept} kept as a person gave them"] if report.kept else []
-    parts += [f"{report.unsure} unsure"] if report.unsure else []
-    parts += [f"{counted(report.unlabelled, 'hull')} without a label"] if report.unlabelled else []
-    return ", ".join(parts)
+    if source == "vlm":
+        failed = label_vlm.label(opened, options, sheets, json=json)
+    else:
+        failed = label_given.label(opened, source, labels, given, spread, sheets, json=json)
+    raise typer.Exit(int(failed))

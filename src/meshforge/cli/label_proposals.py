@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
+    from meshforge.batch import Spread
     from meshforge.project import Filing, Project, Proposal, Proposals
 
 _NAMES = 3  # names of a row that are shown
@@ -64,16 +65,20 @@ def propose(
     labels: Path | None,
     vocabulary: Sequence[str] | None,
     options: GivenOptions,
+    spread: Spread,
     *,
     json: bool,
 ) -> None:
-    """Show what names or files would give, with nothing written; vocabulary: the one to be tried, if another."""
-    from meshforge.cli.output import print_json
+    """Show what would be given, with nothing written; vocabulary: the one to be tried, if another."""
+    from meshforge.cli.output import print_json, progress
 
-    if source == "names":
-        found = project.propose_from_names(options.meanings, vocabulary)
-    else:
-        found = project.propose_from_files(labels, options.filing, vocabulary)
+    match source:
+        case "names":
+            found = project.propose_from_names(options.meanings, vocabulary, spread=spread)
+        case "propagate":
+            found = project.propose_propagated(vocabulary, spread=spread, stage=progress)
+        case _:
+            found = project.propose_from_files(labels, options.filing, vocabulary, spread=spread)
     if json:
         print_json(_as_json(found))
     else:

@@ -7,7 +7,8 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -63,7 +64,22 @@ def foretell(project: Project, options: VlmOptions, vocabulary: Sequence[str] | 
         _say_forecast(found)
 
 
-def ask(project: Project, options: VlmOptions) -> VlmLabelled:
+def label(project: Project, options: VlmOptions, sheets: Path | None, *, json: bool) -> bool:
+    """Label a project, and say what came of it; whether some labels could not be taken, or it ended early."""
+    from meshforge.cli.label_given import Telling
+    from meshforge.cli.label_summary import summarise
+
+    found, telling = _asked(project, options), Telling(json=json)
+    for report in found.reports:
+        telling(report, {"open": found.open.get(report.asset, {})})
+        if not json:
+            _say_open(found, report.asset)
+    summarise(project, sheets, json=json)
+    _close(project, found, json=json)
+    return telling.failed or bool(found.ended)
+
+
+def _asked(project: Project, options: VlmOptions) -> VlmLabelled:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     from meshforge.cli.interruption import interruptible
     from meshforge.cli.output import progress
@@ -94,7 +110,7 @@ def _said_at(stop: Callable[[], bool], text: str) -> Iterator[None]:
         over.set()
 
 
-def say_open(found: VlmLabelled, asset: str) -> None:
+def _say_open(found: VlmLabelled, asset: str) -> None:
     """Name the hulls of an asset that got no label, by why."""
     from meshforge.words import listed
 
@@ -105,7 +121,7 @@ def say_open(found: VlmLabelled, asset: str) -> None:
         typer.echo(f"    no label: {listed(hulls, _SHOWN)} ({why})")
 
 
-def close(project: Project, found: VlmLabelled, *, json: bool) -> None:
+def _close(project: Project, found: VlmLabelled, *, json: bool) -> None:
     """Say what it all came to, and where it can be looked at."""
     from meshforge.cli.output import print_json, remark
     from meshforge.words import listed
@@ -124,11 +140,6 @@ def close(project: Project, found: VlmLabelled, *, json: bool) -> None:
         remark(f"The asking ended early: {found.ended}")
     if found.unasked:
         remark(f"not labelled: {listed(found.unasked, _SHOWN)}; run it again to go on")
-
-
-def as_json(found: VlmLabelled, asset: str) -> dict[str, Any]:
-    """What is told of an asset besides its report."""
-    return {"open": found.open.get(asset, {})}
 
 
 def _bill(bill: Bill) -> str:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
+
+if TYPE_CHECKING:
+    from meshforge.batch import Spread
 
 
 def _gibibytes(text: str) -> int:
@@ -49,3 +52,15 @@ InProject = Annotated[
 ]
 AssetFile = Annotated[Path, typer.Argument(help="A file with collision hulls, or a folder of mesh files.")]
 AssetFiles = Annotated[list[str], typer.Argument(help="Files, folders or globs of assets.")]
+
+
+def spread_of(
+    workers: int | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    backend: Literal["local", "ray"] = "local",
+) -> Spread:
+    """How work is spread by these options."""
+    from meshforge.batch import TIMEOUT, Spread
+
+    return Spread(workers, TIMEOUT if timeout is None else timeout or None, memory, backend=backend)

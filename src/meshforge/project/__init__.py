@@ -5,11 +5,11 @@ from meshforge.project.advice import Advice
 from meshforge.project.answers_file import AnswerLine, AnswersFile, ConfirmedLine, RepairLine
 from meshforge.project.beginning import first_to_show
 from meshforge.project.family import Family, looked_at
-from meshforge.project.labels.from_files.filing import Filing
 from meshforge.project.labels.from_files.points import Reading
+from meshforge.project.labels.from_files.reading import Filing
 from meshforge.project.labels.labelling import Labelled
 from meshforge.project.labels.offering import Offered, Offers
-from meshforge.project.labels.propagating import Carried
+from meshforge.project.labels.propagation.propagating import Carried
 from meshforge.project.labels.proposing import Proposal, Proposals
 from meshforge.project.labels.tallying import SURE, Share, Tally
 from meshforge.project.labels.vlm.forecast import VlmForecast

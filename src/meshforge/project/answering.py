@@ -84,7 +84,7 @@ def confirm(project: Project, right: Correction) -> str:
         line = ConfirmedLine(id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before)
         # the record first: killed in between, the repair is merely proposed again
         write_answers(project, said.adding(line))
-        labelling.write_merged(project, right.asset, mended)
+        labelling.write_merged(project, right.asset, labelling.digests(mesh), mended, project.vocabulary)
     return identity
 
 
@@ -126,14 +126,15 @@ def _given(correction: Correction) -> Label:
     return Label(correction.to, 1.0, "repair")
 
 
-def _mended(project: Project, mesh: SymbolicMesh, right: Correction) -> tuple[SymbolicMesh, str | None]:
-    """The mesh with the label mended, and why that cannot be."""
-    mended, report = labelling.merged(right.asset, mesh, {right.hull: _given(right)}, project.vocabulary)
+def _mended(project: Project, mesh: SymbolicMesh, right: Correction) -> tuple[dict[str, Label], str | None]:
+    """The labels of a mesh with that one mended, and why that cannot be."""
+    given = {right.hull: _given(right)}
+    mended, report = labelling.merged(right.asset, mesh.index, mesh.labels, given, project.vocabulary)
     if report.problems:
-        return mesh, report.problems[0]
+        return mended, report.problems[0]
     label = mesh.named(right.hull).label
     if label not in (right.was, right.to):
-        return mesh, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
+        return mended, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
     return mended, None
 
 
@@ -149,7 +150,8 @@ def _restored(project: Project, line: ConfirmedLine) -> str | None:
         said = f"labelled {current.name}" if current else "without a label"
         return f"{line.hull} in {line.asset} is left {said}, as it was changed after the repair"
     if current != before:
-        labelling.write_merged(project, line.asset, mesh.labelled({line.hull: before}))
+        labels = mesh.labelled({line.hull: before}).labels
+        labelling.write_merged(project, line.asset, labelling.digests(mesh), labels, project.vocabulary)
     return None
 
 

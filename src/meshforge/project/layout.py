@@ -75,6 +75,11 @@ class Layout:
         return self.folder / STATE / "survey.json"
 
     @property
+    def sketches(self) -> Path:
+        """How the hulls of assets are described, so that labels are soon carried over again."""
+        return self.folder / STATE / "sketches"
+
+    @property
     def vlm(self) -> Path:
         """What was sent to models, and what came back."""
         return self.folder / STATE / "vlm"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, Stamp, Task, inputs_of, read_stamp
+from meshforge.batch import AssetJob, Spread, Stamp, Task, inputs_of, read_stamp
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program
 from meshforge.project.accepting import standing
@@ -38,7 +38,8 @@ def status(
     for asset in only or ():
         project.path(asset)
     settings, ids, work, reviews = project.settings, project.found.ids, jobs(project, only), project.reviews()
-    facts = survey(project.found, project.layout, only, workers=workers, progress=progress, stop=stop)
+    spread = Spread(workers=workers, stop=stop)
+    facts = survey(project.found, project.layout, only, spread=spread, progress=progress)
     program, what, problem = _program(project)
     assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
     stands = standing(project, program)

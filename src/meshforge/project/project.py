@@ -8,7 +8,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import TIMEOUT, AssetJob, Backend, Correction, Found, Outcome, apply, locked, named_templates
+from meshforge.batch import (
+    HERE,
+    TIMEOUT,
+    AssetJob,
+    Backend,
+    Correction,
+    Found,
+    Outcome,
+    Spread,
+    apply,
+    locked,
+    named_templates,
+)
 from meshforge.formats import Mass
 from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
 from meshforge.language import Action, Orient, Program, Template
@@ -34,14 +46,17 @@ from meshforge.project import (
 )
 from meshforge.project.accepting import Standing
 from meshforge.project.answers_file import AnswersFile
-from meshforge.project.labels import labelling, naming, propagating, proposing, sheets, tallying
+from meshforge.project.labels import labelling, naming, planning, proposing, sheets, tallying
 from meshforge.project.labels.from_files import filing
-from meshforge.project.labels.from_files.filing import Filing
+from meshforge.project.labels.from_files.reading import Filing
 from meshforge.project.labels.labelling import Labelled
 from meshforge.project.labels.name_patterns import Meanings
 from meshforge.project.labels.offering import Offered, Offers
-from meshforge.project.labels.propagating import Carried
+from meshforge.project.labels.propagation import propagating
+from meshforge.project.labels.propagation.propagating import Carried
+from meshforge.project.labels.propagation.stages import Stage, untold
 from meshforge.project.labels.proposing import Proposals
+from meshforge.project.labels.taking import Report, unheard
 from meshforge.project.labels.tallying import Tally
 from meshforge.project.labels.vlm import forecast as vlm_forecast
 from meshforge.project.labels.vlm import labelling as vlm_labelling
@@ -53,7 +68,7 @@ from meshforge.project.preparing import Prepared
 from meshforge.project.reviewing import Review, Verdict
 from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
 from meshforge.project.status import AssetStatus, Status
-from meshforge.symbolic import LabelFile, Source, SymbolicMesh, read_labels
+from meshforge.symbolic import LabelFile, Source, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
 from meshforge.synthesis import Correction as LabelCorrection
 from meshforge.synthesis import Outcome as Lesson
@@ -162,7 +177,7 @@ class Project:
 
     def named_meshes(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """The same with their ids, of some assets only."""
-        return reading.named_meshes(self, self.assets() if assets is None else assets)
+        return reading.named_meshes(self, self.assets() if assets is None else tuple(assets))
 
     # Preparation
 
@@ -234,8 +249,7 @@ class Project:
 
     def labels(self, asset: str) -> LabelFile:
         """The labels of an asset as they are kept; empty where there are none."""
-        path = self.layout.labels(asset)
-        return read_labels(path) if path.exists() else LabelFile()
+        return reading.kept_labels(self.layout.labels(asset))
 
     def set_labels(
         self, asset: str, labels: Mapping[str, str | None], *, source: Source = "user", confidence: float = 1.0
@@ -243,35 +257,58 @@ class Project:
         """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
         return labelling.give(self, asset, labels, source, confidence)
 
-    def label_from_files(self, source: Path | None = None, how: Filing | None = None) -> tuple[Labelled, ...]:
+    def label_from_files(
+        self,
+        source: Path | None = None,
+        how: Filing | None = None,
+        *,
+        spread: Spread = HERE,
+        report: Report = unheard,
+    ) -> tuple[Labelled, ...]:
         """Take over what files say: labels files, segmented points and meshes, and PartNet's semantics of links.
 
         source: a file for a single asset, a folder that mirrors the assets, or None for those beside them; how: the way
-        they are read. A project without a vocabulary takes that of the files.
+        they are read. A project without a vocabulary takes that of the files. spread: over worker processes, where one
+        asset that crashes or hangs costs no more than itself; unless said, the work is done in this process. report:
+        called with what became of each asset, as soon as its labels are written, in the order of the assets.
         """
-        return filing.take_over(self, source, how or Filing())
+        return filing.take_over(self, source, how or Filing(), spread, report)
 
     def propose_from_files(
-        self, source: Path | None = None, how: Filing | None = None, vocabulary: Sequence[str] | None = None
+        self,
+        source: Path | None = None,
+        how: Filing | None = None,
+        vocabulary: Sequence[str] | None = None,
+        *,
+        spread: Spread = HERE,
     ) -> Proposals:
         """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
-        return filing.from_files(self, source, how or Filing(), vocabulary)
+        return filing.from_files(self, source, how or Filing(), vocabulary, spread)
 
     def offered_labels(self) -> Offered:
         """What `label_from_files` and `label_from_names` would give; see `Offers` for asking often."""
         return Offers().of(self)
 
-    def label_from_names(self, meanings: Meanings = ()) -> tuple[Labelled, ...]:
+    def label_from_names(
+        self, meanings: Meanings = (), *, spread: Spread = HERE, report: Report = unheard
+    ) -> tuple[Labelled, ...]:
         """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
 
         By patterns first: `meanings`, then those of the project's settings; then by the words of the vocabulary, and
-        words that are nearly those. Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
+        words that are nearly those. spread, report: as of `label_from_files`.
+        Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
         """
-        return naming.label_from_names(self, meanings)
+        return naming.label_from_names(self, meanings, spread, report)
 
-    def propose_from_names(self, meanings: Meanings = (), vocabulary: Sequence[str] | None = None) -> Proposals:
+    def propose_from_names(
+        self, meanings: Meanings = (), vocabulary: Sequence[str] | None = None, *, spread: Spread = HERE
+    ) -> Proposals:
         """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
-        return proposing.from_names(self, meanings, vocabulary)
+        return proposing.from_names(self, meanings, vocabulary, spread)
+
+    def plan_labels(self) -> str:
+        """What there is to be labelled, in words: how many assets of what, and how many have labels by now."""
+        return planning.planned(self)
 
     def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
         """How many hulls have which labels: from where, and how sure."""
@@ -288,17 +325,27 @@ class Project:
 
     def propagate_labels(
         self,
-        progress: Callable[[], None] | None = None,
-        stop: Callable[[], bool] | None = None,
+        *,
+        spread: Spread = HERE,
+        stage: Stage = untold,
+        report: Report = unheard,
         keeping: propagating.Keeping = nullcontext,
     ) -> Carried:
         """Carry the labels of a few assets to all others; what a person or a file says stays.
 
-        progress: called for each asset that was read; stop: asked often whether to end with nothing written;
-        keeping: the block in which all is written, given the asset that would help most.
-        Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop.
+        How the hulls of an asset look is kept in the project, so that another time is quick. spread, report: as of
+        `label_from_files`; stage: gives what is entered for each part of the work; keeping: the block in which all is
+        written, given the asset that would help most.
+        Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop, with nothing
+        written.
         """
-        return propagating.propagate(self, progress, stop, keeping)
+        return propagating.propagate(self, spread, stage, report, keeping)
+
+    def propose_propagated(
+        self, vocabulary: Sequence[str] | None = None, *, spread: Spread = HERE, stage: Stage = untold
+    ) -> Proposals:
+        """What `propagate_labels` would give, with nothing written; vocabulary: one to be tried."""
+        return propagating.foretold(self, vocabulary, spread, stage)
 
     def label_with_vlm(
         self,

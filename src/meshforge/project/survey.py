@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from time import monotonic
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.asset import Mentions
-from meshforge.batch import Found, Lost, asset_digests, isolated, software, source_files, text_digest
+from meshforge.batch import Found, Lost, Spread, asset_digests, software, source_files, text_digest
 from meshforge.errors import told
 from meshforge.files import relative_name, write_atomically
 from meshforge.formats import read
@@ -18,8 +19,8 @@ from meshforge.geometry import digest
 from meshforge.preparation import Preparation, prepared, read_preparation, record_digest, sources
 from meshforge.project.layout import Layout
 
-TIMEOUT = 600.0
-"""Seconds for reading one asset."""
+_OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a kill does not lose more
+_SHARE = 20  # and as many times as long as keeping it took
 
 
 class Facts(BaseModel):
@@ -59,28 +60,69 @@ def survey(
     layout: Layout,
     only: Collection[str] | None = None,
     *,
-    workers: int | None = None,
+    spread: Spread | None = None,
     progress: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
 ) -> dict[str, Facts]:
-    """The facts of all assets by id, or of some; those whose files changed since are read, in worker processes.
+    """The facts of all assets by id, or of some; all as of `surveyed`."""
+    return dict(surveyed(found, layout, only, spread=spread, progress=progress))
 
-    layout: where the project keeps preparations, and these facts; workers, progress, stop: as of `isolated`.
+
+def surveyed(
+    found: Found,
+    layout: Layout,
+    only: Collection[str] | None = None,
+    *,
+    spread: Spread | None = None,
+    progress: Callable[[], None] | None = None,
+) -> Generator[tuple[str, Facts], None, None]:
+    """The ids of all assets in order, or of some, with their facts, as soon as these are known.
+
+    Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
+    project keeps preparations, and these facts; progress: called for each that had to be read.
     """
-    memory, ids = layout.survey, found.ids
-    known = _remembered(memory)
-    wanted = {key: path for key, path in ids.items() if only is None or key in only}
+    known = _Known(layout.survey, found.ids)
+    wanted = {key: path for key, path in found.ids.items() if only is None or key in only}
     work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
-    fresh = {key: known[key] for key, own in work.items() if key in known and _holds(known[key], own)}
-    todo = {key: own for key, own in work.items() if key not in fresh}
-    results = isolated(_facts, tuple(todo.values()), workers=workers, timeout=TIMEOUT, done=progress, stop=stop)
-    for key, result in zip(todo, results, strict=True):
-        fresh[key] = Facts(error=result.why) if isinstance(result, Lost) else result
-    every = known | fresh
-    kept = {key: every[key] for key in ids if key in every and not every[key].error}
-    if todo or kept.keys() != known.keys():
-        write_atomically(memory, _SurveyFile(form=3, software=software(), assets=kept).model_dump_json())
-    return {key: fresh[key] for key in wanted}
+    fresh = {key for key, own in work.items() if key in known.facts and _holds(known.facts[key], own)}
+    todo = tuple(own for key, own in work.items() if key not in fresh)
+    results = (spread or Spread()).over(_facts, todo, progress)
+    try:
+        for key, own in work.items():
+            if key not in fresh:
+                result = next(results)
+                known.add(key, Facts(error=f"{own.path}: {result.why}") if isinstance(result, Lost) else result)
+            yield key, known.facts[key]
+    finally:  # also when the caller stops early
+        results.close()
+        known.keep()
+
+
+class _Known:
+    """What is known of assets, in memory and in a file; ids: of those that there are."""
+
+    def __init__(self, file: Path, ids: Collection[str]) -> None:
+        self._file, self._ids = file, ids
+        kept = _remembered(file)
+        self.facts = {key: kept[key] for key in ids if key in kept}
+        self._has_news = len(self.facts) < len(kept)
+        self._kept_at, self._pause = monotonic(), _OFTEN
+
+    def add(self, key: str, facts: Facts) -> None:
+        """Take up the facts of an asset."""
+        self.facts[key] = facts
+        self._has_news = True
+        if monotonic() - self._kept_at > self._pause:
+            self.keep()
+
+    def keep(self) -> None:
+        """Write what is new, and next time only after so long that this takes a small share of the time."""
+        if not self._has_news:
+            return
+        began = monotonic()
+        every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
+        write_atomically(self._file, _SurveyFile(form=3, software=software(), assets=every).model_dump_json())
+        self._has_news, self._kept_at = False, monotonic()
+        self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 
 
 def geometry_digest(hulls: Mapping[str, str]) -> str:

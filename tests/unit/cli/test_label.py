@@ -85,3 +85,42 @@ def test_a_folder_of_labels_files_is_for_files_only(run: Run, source: str) -> No
     told = run("label", "p", "--with", source, "--labels", "elsewhere")
     assert told.code == 2
     assert f"--labels names labels files, which --with {source} does not read" in told.err
+
+
+def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> None:
+    project = Project.open(tmp_path / "p")
+    project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
+    shown = run("label", "p", "--with", "propagate", "--dry-run")
+    assert shown.code == 0
+    assert shown.out.endswith(
+        "12 labels would be taken; 0 hulls left without one; 6 hulls would stay as they are. Nothing was written.\n"
+    )
+    assert [line.split()[:2] for line in shown.out.splitlines()[2:5]] == [
+        ["top", "likeness"],
+        ["leg", "likeness"],
+        ["crumb", "likeness"],
+    ]
+    assert not project.labels("t1.obj").labels
+
+
+@pytest.mark.parametrize("source", ["file", "names", "propagate"])
+def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path: Path, source: str) -> None:
+    project = Project.open(tmp_path / "p")
+    project.set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
+    (tmp_path / "assets/t1.obj").write_text("nothing of use")
+    for name in ("t1", "t2"):
+        (tmp_path / f"assets/{name}.labels.json").write_text('{"hulls": {"top": "top"}}')
+    told = run("label", "p", "--with", source, "--workers", "2", "--timeout", "60", "--memory", "1")
+    assert told.code == 1
+    assert told.err == "3 assets (3 OBJ; 0.0 MiB), 1 with labels, 1 of them by a person\n"
+    assert "t1.obj: 0 labels taken\n    left out: " in told.out
+    assert project.labels("t2.obj").labels and not project.labels("t1.obj").labels
+
+
+def test_a_damaged_labels_file_costs_its_asset(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "assets/t0.labels.json").write_text("{")
+    (tmp_path / "assets/t1.labels.json").write_text('{"hulls": {"top": "top"}}')
+    told = run("label", "p")
+    assert told.code == 1
+    assert f"t0.obj: 0 labels taken\n    left out: {tmp_path}/assets/t0.labels.json:1:2: the labels are no" in told.out
+    assert "t1.obj: 1 label taken" in told.out

@@ -10,14 +10,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmark.assets import samples
-from meshforge.geometry import Aabb, Box, Polytope, Pose
-from meshforge.perception.propagation.describe import WIDTH, described
+from meshforge.geometry import Aabb, Box, Floats, Polytope, Pose
+from meshforge.perception.propagation.describe import WIDTH
 from meshforge.perception.propagation.metric import weights
 from meshforge.perception.propagation.points import inside, on_surface
+from meshforge.perception.propagation.sketch import Sketcher
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.synthesis_boxes import boxes
 
 CHAIR = samples("chair", calibration=True)[0].mesh
+
+
+def described(mesh: SymbolicMesh) -> Floats:
+    return Sketcher(mesh).sketch().rows
 
 
 def test_every_hull_has_a_row_of_finite_numbers_as_wide_as_the_metric() -> None:

@@ -126,3 +126,16 @@ def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> N
     assert everyone[:1] == found.next_to_label()
     kinds = {hull.label for k in everyone[:3] for hull in rows[k].mesh.hulls}
     assert len(kinds) > len({hull.label for hull in rows[everyone[-1]].mesh.hulls})
+
+
+def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
+    from meshforge.perception.propagation.family import Family, Scale
+    from meshforge.perception.propagation.likeness import by_likeness
+
+    count, rare = 7_000, 7
+    rows = np.linspace(0.0, 1.0, count)[:, None]
+    family = Family(rows, Scale.of(rows), np.arange(count), np.full(count, -1), (), np.zeros((0, 2), np.int64))
+    told = family.taught(["rare" if k < rare else "common" for k in range(count - 10)] + [None] * 10)
+    chances = by_likeness(told, np.ones(1))
+    assert chances.argmax(axis=1)[-10:].tolist() == [0] * 10
+    assert told.labels == ("common", "rare")

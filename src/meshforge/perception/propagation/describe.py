@@ -9,7 +9,7 @@ from meshforge.geometry import Floats
 from meshforge.perception.propagation import shape, surroundings
 from meshforge.perception.propagation.shape import shapes
 from meshforge.perception.propagation.surroundings import whole_of
-from meshforge.perception.propagation.upright import standing, upright
+from meshforge.perception.propagation.upright import standing
 from meshforge.symbolic import SymbolicMesh
 
 _LOOK = slice(0, 6)  # of the columns of `shapes`, those by which hulls of one mesh look alike
@@ -19,11 +19,6 @@ WIDTH = surroundings.WIDTH + 3 * shape.WIDTH + COUNTED
 """Columns of `described`."""
 SHAPES = slice(surroundings.WIDTH, surroundings.WIDTH + shape.WIDTH)
 """Those of them that tell what a hull is itself."""
-
-
-def described(mesh: SymbolicMesh) -> Floats:
-    """A row for each hull (n, WIDTH), with up what seems to be up."""
-    return Describer(mesh).described(upright(mesh)) if mesh.hulls else np.zeros((0, WIDTH))
 
 
 class Describer:

@@ -9,8 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from meshforge.geometry import Floats, Ints
-from meshforge.perception.propagation.describe import WIDTH, described
-from meshforge.symbolic import SymbolicMesh
+from meshforge.perception.propagation.describe import WIDTH
 
 UNTOLD = -1
 """The code of a hull whose label nobody told."""
@@ -70,24 +69,20 @@ class Family:
         return replace(self, codes=codes, labels=labels)
 
 
-def family_of(meshes: Sequence[SymbolicMesh]) -> Family:
-    """A family of which no label is told yet."""
-    rows = np.concatenate([np.zeros((0, WIDTH)), *map(described, meshes)])
-    sizes = [len(mesh.hulls) for mesh in meshes]
-    starts = np.cumsum([0, *sizes])[:-1]
-    pairs = [
-        (start + a, start + b)
-        for start, mesh in zip(starts.tolist(), meshes, strict=True)
-        for a, b in sorted(mesh.contacts)
-    ]
+def family_of(seen: Sequence[tuple[Floats, Ints]]) -> Family:
+    """A family of which no label is told yet; seen: `rows` and `touching` of the sketch of each mesh."""
+    rows = np.concatenate([np.zeros((0, WIDTH)), *(own for own, _ in seen)])
+    sizes = np.array([len(own) for own, _ in seen], dtype=np.int64)
+    starts = np.cumsum(sizes) - sizes
+    pairs = (touching + start for (_, touching), start in zip(seen, starts, strict=True))
     scale = Scale.of(rows)
     return Family(
         scale(rows),
         scale,
-        np.repeat(np.arange(len(meshes)), sizes),
+        np.repeat(np.arange(len(seen)), sizes),
         np.full(len(rows), UNTOLD),
         (),
-        np.array(pairs, dtype=np.int64).reshape(-1, 2),
+        np.concatenate([np.zeros((0, 2), np.int64), *pairs]),
     )
 
 

@@ -11,6 +11,7 @@ from meshforge.perception.propagation.family import UNTOLD, Family, evenly
 _ROUNDS = 2  # times that hulls which are nearly certain help with the others
 _CERTAIN = 0.8  # from which chance on they do
 _HELP = 0.5  # what such a hull counts beside one that is told
+_TOLD = 6000  # hulls at most whose label is told, so that labelling grows with the family, not with its square
 _HELPERS = 3000  # such hulls at most, evenly chosen
 _AT_ONCE = 2000  # hulls that are compared at a time
 _FARTHEST = 1e6  # beyond any distance of two hulls
@@ -22,15 +23,27 @@ def by_likeness(family: Family, metric: Floats) -> Floats:
     metric: the weight of each column (columns,).
     """
     rows = family.rows * metric
-    known = np.eye(len(family.labels))[family.codes[family.told]]
+    told, stands_for = _told(family)
+    known = np.eye(len(family.labels))[family.codes[told]]
     helpers = np.zeros(0, dtype=np.int64)
     chances = np.zeros((len(rows), len(family.labels)))
     for _ in range(1 + _ROUNDS):
-        voters = np.concatenate([family.told, helpers])
-        counts = np.repeat([1.0, _HELP], [len(family.told), len(helpers)])
+        voters = np.concatenate([told, helpers])
+        counts = np.concatenate([stands_for, np.full(len(helpers), _HELP)])
         chances = _voted(rows, family.owner, voters, counts, np.concatenate([known, chances[helpers]]))
         helpers = _helpers(family, chances)
     return chances
+
+
+def _told(family: Family) -> tuple[Ints, Floats]:
+    """The hulls that are told, of very many of one label some, evenly, and how many each stands for."""
+    most = max(1, _TOLD // max(1, len(family.labels)))
+    of_labels = [family.told[family.codes[family.told] == code] for code in range(len(family.labels))]
+    chosen = [evenly(hulls, most) for hulls in of_labels]
+    voters = np.concatenate([np.zeros(0, dtype=np.int64), *chosen])
+    shares = [len(hulls) / len(some) for hulls, some in zip(of_labels, chosen, strict=True)]
+    order = np.argsort(voters)
+    return voters[order], np.repeat(shares, [len(some) for some in chosen])[order]
 
 
 def _helpers(family: Family, chances: Floats) -> Ints:

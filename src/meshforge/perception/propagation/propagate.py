@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -14,7 +14,8 @@ from meshforge.perception.propagation.agreement import agreeing
 from meshforge.perception.propagation.family import Family, family_of
 from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
-from meshforge.perception.propagation.righting import OtherSides, righted
+from meshforge.perception.propagation.righting import doubtful_sides, righted
+from meshforge.perception.propagation.sketch import Sketcher
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label, SymbolicMesh
 from meshforge.views.coloring import UNSURE
 
@@ -31,7 +32,7 @@ class Propagated:
 
     def labels(self, mesh: int) -> list[Label | None]:
         """The likeliest label of each hull of a mesh, with its chance; None where no label is known at all."""
-        rows = self.chances[self.family.owner == mesh]
+        rows = self.chances[slice(*np.searchsorted(self.family.owner, (mesh, mesh + 1)))]
         if not self.family.labels:
             return [None] * len(rows)
         found = zip(rows.argmax(axis=1).tolist(), rows, strict=True)
@@ -48,8 +49,10 @@ class Relatives:
     """Meshes of one kind, described once; labels may then be told again and again."""
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
-        self.family = family_of(meshes)
-        self._sides = lru_cache(_REMEMBERED)(lambda mesh: OtherSides(meshes[mesh]))
+        sketches = [Sketcher(mesh).sketch() for mesh in meshes]
+        self.family = family_of([(sketch.rows, sketch.touching) for sketch in sketches])
+        self._sides = [sketch.sides for sketch in sketches]
+        self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(Sketcher(meshes[mesh]).on_side))
 
     def propagated(self, told: Sequence[str | None], metric: Floats | None = None) -> Propagated:
         """What some labels say about all hulls, these included.
@@ -59,10 +62,16 @@ class Relatives:
         """
         metric = weights() if metric is None else metric
         family = self.family.taught(told)
-        if not family.labels:
-            return Propagated(family, np.zeros((len(family.codes), 0)))
-        family = righted(family, self._sides, metric)
-        return Propagated(family, agreeing(family, by_likeness(family, metric)))
+        doubtful = doubtful_sides(family, self._sides.__getitem__, metric)
+        looked = ((mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful)
+        return compared_hulls(righted(family, looked, metric), metric)
+
+
+def compared_hulls(family: Family, metric: Floats | None = None) -> Propagated:
+    """What the labels that are told say about all hulls of a family whose meshes stand upright."""
+    if not family.labels:
+        return Propagated(family, np.zeros((len(family.codes), 0)))
+    return Propagated(family, agreeing(family, by_likeness(family, weights() if metric is None else metric)))
 
 
 def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:

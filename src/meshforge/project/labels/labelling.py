@@ -9,14 +9,8 @@ from typing import TYPE_CHECKING
 
 from meshforge.errors import ProjectError, nearest
 from meshforge.files import write_atomically
-from meshforge.symbolic import (
-    HUMAN_SOURCES,
-    Label,
-    Source,
-    SymbolicMesh,
-    follow_labels,
-    write_labels,
-)
+from meshforge.geometry import digest
+from meshforge.symbolic import HUMAN_SOURCES, Label, LabelFile, Source, SymbolicMesh, label_homes, labels_text
 from meshforge.views import UNSURE
 
 if TYPE_CHECKING:
@@ -50,52 +44,69 @@ def give(project: Project, asset: str, labels: Mapping[str, str | None], source:
     away = [name for name, label in labels.items() if label is None]
     with project.lock():
         mesh, vocabulary = project.mesh(asset), project.vocabulary
-        labelled, report = merged(asset, mesh, given, vocabulary)
+        labelled, report = merged(asset, mesh.index, mesh.labels, given, vocabulary)
         gone = [f"there is no hull {name!r}{_hint(name, mesh.index)}" for name in away if name not in mesh.index]
         problems = [*report.problems, *gone]
         if problems:
             remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
             raise ProjectError(problems[0], where=asset, remedy=remedy)
-        write_merged(project, asset, labelled.labelled(dict.fromkeys(away)))
+        kept = {name: label for name, label in labelled.items() if name not in away}
+        write_merged(project, asset, digests(mesh), kept, vocabulary)
     return report
 
 
-def write_merged(project: Project, asset: str, mesh: SymbolicMesh, away: Collection[str] = ()) -> None:
-    """Write the labels of a mesh; those of hulls that are gone stay in the file, since hulls may come back.
+def digests(mesh: SymbolicMesh) -> dict[str, str]:
+    """The digests of all hulls of a mesh by name, in order."""
+    return {hull.name: digest(hull.shape) for hull in mesh.hulls}
 
-    away: names of hulls whose labels do not stay.
+
+def write_merged(
+    project: Project,
+    asset: str,
+    hulls: Mapping[str, str],
+    labels: Mapping[str, Label],
+    vocabulary: Sequence[str],
+    away: Collection[str] = (),
+) -> None:
+    """Write labels of an asset; those of hulls that are gone stay in the file, since hulls may come back.
+
+    hulls: the digests of all, by name, in order; away: names of hulls that are gone whose labels do not stay.
     """
     path = project.layout.labels(asset)
-    gone = [name for name in follow_labels(project.labels(asset), mesh).gone if name not in away]
-    if not gone:
-        write_labels(path, mesh, project.vocabulary)
-        return
-    old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(write_labels(None, mesh, project.vocabulary))
-    new["hulls"] |= {name: old["hulls"][name] for name in gone}
-    new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
-    write_atomically(path, json.dumps(new, ensure_ascii=False, indent=2) + "\n")
+    present = {name: labels[name] for name in hulls if name in labels}
+    text = labels_text(LabelFile(tuple(vocabulary), present, hulls))
+    if gone := [name for name in label_homes(project.labels(asset), hulls).gone if name not in away]:
+        old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
+        new["hulls"] |= {name: old["hulls"][name] for name in gone}
+        new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
+        text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
+    write_atomically(path, text)
 
 
 def merged(
-    asset: str, mesh: SymbolicMesh, given: Mapping[str, Label], vocabulary: Sequence[str]
-) -> tuple[SymbolicMesh, Labelled]:
-    """The mesh with the labels that may be taken, and what became of each of them."""
-    taken, same, kept, problems = {}, 0, 0, []
+    asset: str,
+    hulls: Collection[str],
+    current: Mapping[str, Label],
+    given: Mapping[str, Label],
+    vocabulary: Sequence[str],
+) -> tuple[dict[str, Label], Labelled]:
+    """The labels of an asset with those that may be taken, and what became of each of these.
+
+    hulls: the names of all; current: the labels that there are, by hull.
+    """
+    taken, same, kept, problems = dict[str, Label](), 0, 0, list[str]()
     for name, label in given.items():
-        problem = _problem(name, label, mesh, vocabulary)
-        current = mesh.named(name).annotation if name in mesh.index else None
-        if problem:
+        if problem := _problem(name, label, hulls, vocabulary):
             problems.append(problem)
-        elif current == label:
+        elif current.get(name) == label:
             same += 1
-        elif is_kept(current, label):
+        elif is_kept(current.get(name), label):
             kept += 1
         else:
             taken[name] = label
-    labelled = mesh.labelled(taken)
-    bare = sum(hull.label is None for hull in labelled.hulls)
-    unsure = sum(hull.confidence is not None and hull.confidence < UNSURE for hull in labelled.hulls)
-    return labelled, Labelled(asset, len(taken), same, kept, bare, unsure, tuple(problems))
+    labels = {**current, **taken}
+    unsure = sum(label.confidence < UNSURE for label in labels.values())
+    return labels, Labelled(asset, len(taken), same, kept, len(hulls) - len(labels), unsure, tuple(problems))
 
 
 def is_kept(current: Label | None, given: Label) -> bool:
@@ -103,14 +114,14 @@ def is_kept(current: Label | None, given: Label) -> bool:
     return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
 
 
-def _problem(name: str, label: Label, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str | None:
-    if name not in mesh.index:
-        return f"there is no hull {name!r}{_hint(name, mesh.index)}"
+def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
+    if name not in hulls:
+        return f"there is no hull {name!r}{_hint(name, hulls)}"
     if label.name not in vocabulary:
         return f"{name}: the label {label.name!r} is not in the vocabulary{_hint(label.name, vocabulary)}"
     return None
 
 
-def _hint(name: str, available: Mapping[str, int] | Sequence[str]) -> str:
+def _hint(name: str, available: Collection[str]) -> str:
     like = nearest(name, available)
     return f"; did you mean {like!r}?" if like else ""

@@ -5,25 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from meshforge.errors import MeshForgeError, ProjectError
+from meshforge.batch import Spread
+from meshforge.errors import ProjectError
 from meshforge.perception.names import Names, Pattern, Told, told
-from meshforge.project.labels.labelling import Labelled, merged, write_merged
+from meshforge.project.labels.labelling import Labelled
 from meshforge.project.labels.name_patterns import Meanings, name_patterns
-from meshforge.project.survey import Facts
+from meshforge.project.labels.taking import Report, Taker, none_there
+from meshforge.project.survey import Facts, surveyed
 from meshforge.symbolic import Label, SymbolicMesh
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 
-def label_from_names(project: Project, meanings: Meanings = ()) -> tuple[Labelled, ...]:
+def label_from_names(project: Project, meanings: Meanings, spread: Spread, report: Report) -> tuple[Labelled, ...]:
     """Give the labels that names say to hulls that have none; a problem with one asset is told in its report.
 
     meanings: patterns besides those of the project, which they precede.
     Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
     """
     patterns = checked_patterns(project, project.vocabulary, meanings)
-    return tuple(_labelled(project, asset, patterns) for asset in project.assets())
+    taker, reports = Taker(project), list[Labelled]()
+    for asset, facts in surveyed(project.found, project.layout, spread=spread):
+        reports.append(_labelled(taker, asset, facts, patterns))
+        report(reports[-1])
+    return tuple(reports)
 
 
 def checked_patterns(project: Project, vocabulary: Sequence[str], meanings: Meanings) -> tuple[Pattern, ...]:
@@ -34,20 +40,12 @@ def checked_patterns(project: Project, vocabulary: Sequence[str], meanings: Mean
     return name_patterns(project.folder, project.settings, vocabulary, meanings)
 
 
-def _labelled(project: Project, asset: str, patterns: Sequence[Pattern]) -> Labelled:
-    with project.lock():
-        try:
-            mesh = project.mesh(asset)
-        except MeshForgeError as error:
-            return Labelled(asset, problems=(error.message,))
-        vocabulary = project.vocabulary
-        bare = (names for names in names_in(mesh) if mesh.named(names.hull).label is None)
-        said = ((names.hull, told(names, vocabulary, patterns)) for names in bare)
-        given = {hull: label for hull, one in said if one and (label := as_label(one))}
-        labelled, report = merged(asset, mesh, given, vocabulary)
-        if report.taken:
-            write_merged(project, asset, labelled)
-        return report
+def _labelled(taker: Taker, asset: str, facts: Facts, patterns: Sequence[Pattern]) -> Labelled:
+    if facts.error:
+        return Labelled(asset, problems=(facts.error,))
+    said = ((names.hull, told(names, taker.vocabulary, patterns)) for names in names_of(facts))
+    given = {hull: label for hull, one in said if one and (label := as_label(one))}
+    return taker.taken(asset, facts.hulls, given, none_there)
 
 
 def as_label(one: Told) -> Label | None:

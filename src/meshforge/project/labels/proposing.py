@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from meshforge.batch import Spread
 from meshforge.errors import MeshForgeError
 from meshforge.perception.names import Names, Told, told
 from meshforge.project.labels.name_patterns import Meanings
 from meshforge.project.labels.naming import as_label, checked_patterns, names_of
-from meshforge.project.survey import survey
+from meshforge.project.survey import surveyed
 from meshforge.symbolic import Label, label_homes
 from meshforge.views import UNSURE
 
@@ -66,7 +67,7 @@ class Proposals:
     problems: tuple[str, ...] = ()
 
 
-def from_names(project: Project, meanings: Meanings = (), vocabulary: Sequence[str] | None = None) -> Proposals:
+def from_names(project: Project, meanings: Meanings, vocabulary: Sequence[str] | None, spread: Spread) -> Proposals:
     """What names would give, told from the survey; vocabulary: that to be tried, the project's when None.
 
     Raises as `label_from_names`.
@@ -74,7 +75,7 @@ def from_names(project: Project, meanings: Meanings = (), vocabulary: Sequence[s
     words = project.vocabulary if vocabulary is None else tuple(vocabulary)
     patterns = checked_patterns(project, words, meanings)
     found, problems, labelled = list[Evidence](), list[str](), 0
-    for asset, facts in survey(project.found, project.layout).items():
+    for asset, facts in surveyed(project.found, project.layout, spread=spread):
         try:
             present = label_homes(project.labels(asset), facts.hulls).labels
         except MeshForgeError as error:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from meshforge.geometry import Shape, digest, overlap_volume
-from meshforge.project.labels.labelling import write_merged
+from meshforge.project.labels.labelling import digests, write_merged
 from meshforge.symbolic import Hull, Label, SymbolicMesh, follow_labels
 from meshforge.words import listed
 
@@ -30,13 +30,14 @@ class Relabelled:
 
     def write(self, *, keep_old: bool) -> None:
         """Write the labels; keep_old: those of hulls that go stay beside them."""
-        write_merged(self.project, self.asset, self.mesh, () if keep_old else self.gone)
+        project, mesh, away = self.project, self.mesh, () if keep_old else self.gone
+        write_merged(project, self.asset, digests(mesh), mesh.labels, project.vocabulary, away)
 
 
 def relabelled(project: Project, asset: str, old: Mapping[str, Shape], mesh: SymbolicMesh) -> Relabelled | None:
     """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned."""
     file = project.labels(asset)
-    here = {hull.name: digest(hull.shape) for hull in mesh.hulls}
+    here = digests(mesh)
     were = {name: digest(shape) for name, shape in old.items()}
     gone = {name: old[name] for name in file.labels if name in old and here.get(name) != were[name]}
     if not gone:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from meshforge.batch import isolated
 from meshforge.errors import MeshForgeError
+from meshforge.project.reading import Place, places
 from meshforge.views import UNLABELLED, label_colors, png, render, sheet, write_png
 
 if TYPE_CHECKING:
@@ -24,8 +25,7 @@ _TIMEOUT = 120.0
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    project: Project
-    asset: str
+    place: Place
     vocabulary: tuple[str, ...]
 
 
@@ -34,7 +34,7 @@ def contact_sheets(
 ) -> tuple[Path, ...]:
     """Writes `labels-001.png` and so on, in place of those of an earlier time; what cannot be drawn is left out."""
     vocabulary = project.vocabulary
-    works = [_Work(project, asset, vocabulary) for asset in assets]
+    works = [_Work(place, vocabulary) for place in places(project, assets)]
     images = isolated(_drawn, works, timeout=_TIMEOUT, done=progress)
     cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
     written = list[Path]()
@@ -49,7 +49,7 @@ def contact_sheets(
 
 def _drawn(work: _Work) -> bytes | None:
     try:
-        mesh = work.project.mesh(work.asset)
+        mesh = work.place.mesh()
     except MeshForgeError:
         return None
     return png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=work.vocabulary))

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 from uuid import uuid4
 
+from meshforge.batch import Spread
 from meshforge.errors import ProjectError
 from meshforge.preparation import record_digest
 from meshforge.project import Carried, Labelled, Project
@@ -37,7 +38,8 @@ def propagate_job(desk: Desk) -> Job:
             yield
 
     def work(running: Running) -> str:
-        carried = project.propagate_labels(running.advance, lambda: running.stopped, keeping)
+        spread = Spread(stop=lambda: running.stopped)
+        carried = project.propagate_labels(spread=spread, stage=running.stage, keeping=keeping)
         for report in carried.reports:
             running.line(_line(report))
         if not any(report.taken for report in carried.reports):

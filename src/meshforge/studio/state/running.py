@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from threading import Event, RLock
 from time import monotonic
 
@@ -50,6 +51,14 @@ class Running:
             now = self._job.done + 1 if done is None else done
             self._job = self._job.model_copy(update={"done": min(now, self._job.total)})
             self._show()
+
+    @contextmanager
+    def stage(self, total: int, what: str) -> Iterator[Callable[[], None]]:
+        """For one part of several, which is about so many things: gives what counts one more of them."""
+        with self._lock:
+            self._job = self._job.model_copy(update={"done": 0, "total": total} if total else {})
+            self._show()
+        yield self.advance
 
     def line(self, line: JobLine) -> None:
         """What became of one asset."""

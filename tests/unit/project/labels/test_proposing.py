@@ -53,10 +53,10 @@ def test_what_files_propose_is_what_is_taken_then_and_another_vocabulary_may_be_
     project = fresh(tmp_path)
     project.set_vocabulary(["top", "leg", "misc"])
     project.set_labels(SECOND, {"top": "leg"})
-    before = tree(project.folder)
+    before = tree(project.folder / "labels")
     shown = project.propose_from_files()
     other = project.propose_from_files(vocabulary=["top"])
-    assert tree(project.folder) == before
+    assert tree(project.folder / "labels") == before
     assert [row.label for row in shown.rows] == ["top", "leg", "misc"] and not shown.problems
     assert shown.labelled == 1
     reports = project.label_from_files()

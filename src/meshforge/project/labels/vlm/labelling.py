@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.errors import UsageError, told
-from meshforge.project.labels.found import write_found
-from meshforge.project.labels.labelling import Labelled
+from meshforge.project.labels.labelling import Labelled, digests
+from meshforge.project.labels.taking import Taker, gives_way
 from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
@@ -73,6 +73,7 @@ class _Run:
     ) -> None:
         self._project, self._client, self._labeller = project, client, labeller
         self._keeping, self._progress = keeping, progress
+        self._taker = Taker(project)
         self._pending: dict[str, tuple[SymbolicMesh, Pending]] = {}
         self._reports: dict[str, Labelled] = {}
         self._open: dict[str, Mapping[str, str]] = {}
@@ -122,7 +123,7 @@ class _Run:
             _write_page(self._project.layout.vlm, asset, said)
 
         def write() -> None:
-            report = write_found(self._project, asset, mesh, said.labels)
+            report = self._taker.take(asset, digests(mesh), said.labels, gives_way)
             self._reports[asset] = replace(report, problems=(*report.problems, *failed))
 
         if self._keeping:
