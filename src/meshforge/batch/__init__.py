@@ -1,8 +1,7 @@
 """Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
 
 from meshforge.batch.apply import apply
-from meshforge.batch.correction import Correction, replay
-from meshforge.batch.digests import (
+from meshforge.batch.assets.digests import (
     asset_digests,
     file_digest,
     program_digest,
@@ -11,21 +10,22 @@ from meshforge.batch.digests import (
     source_files,
     text_digest,
 )
+from meshforge.batch.assets.expand import Found, asset_id, common_folder, expand
+from meshforge.batch.assets.folder import OWN_FOLDERS, SETTINGS, STATE
+from meshforge.batch.assets.job import AssetJob, Task, jobs, labels_for
+from meshforge.batch.assets.plan import Plan, plan, size_text
+from meshforge.batch.checking.examination import Examined, Wanted, examine, examine_all
+from meshforge.batch.checking.journal import Journal, journal
+from meshforge.batch.correction import Correction, replay
 from meshforge.batch.edit import inputs_of
-from meshforge.batch.examination import Examined, Wanted, examine, examine_all
-from meshforge.batch.expand import Found, asset_id, common_folder, expand
-from meshforge.batch.folder import OWN_FOLDERS, SETTINGS, STATE
-from meshforge.batch.job import AssetJob, Task, jobs, labels_for
-from meshforge.batch.journal import Journal, journal
-from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
-from meshforge.batch.plan import Plan, plan, size_text
-from meshforge.batch.pool import Lost, isolated
+from meshforge.batch.outputs.lock import locked
+from meshforge.batch.outputs.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.report import ReportAsset, write_report
-from meshforge.batch.spread import HERE, TIMEOUT, Backend, Spread
-from meshforge.batch.stamp import Inputs, Stamp, read_stamp
 from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
+from meshforge.batch.workers.pool import Lost, isolated
+from meshforge.batch.workers.spread import HERE, TIMEOUT, Backend, Spread
 
 __all__ = [
     "HERE",

@@ -8,15 +8,15 @@ from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.draft import drafts
+from meshforge.batch.assets.folder import STATE
+from meshforge.batch.assets.job import AssetJob, Task
 from meshforge.batch.edit import Worked, edit
-from meshforge.batch.folder import STATE
-from meshforge.batch.job import AssetJob, Task
-from meshforge.batch.ledger import Ledger
-from meshforge.batch.lock import locked
 from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.pool import Lost
-from meshforge.batch.spread import TIMEOUT, Backend, Spread
+from meshforge.batch.outputs.draft import drafts
+from meshforge.batch.outputs.ledger import Ledger
+from meshforge.batch.outputs.lock import locked
+from meshforge.batch.workers.pool import Lost
+from meshforge.batch.workers.spread import TIMEOUT, Backend, Spread
 from meshforge.errors import UsageError
 from meshforge.formats import Mass, Names, format_for, with_names
 from meshforge.language import Program, Template

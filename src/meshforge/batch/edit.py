@@ -7,8 +7,7 @@ import time
 from dataclasses import dataclass, replace
 
 from meshforge.asset import Asset
-from meshforge.batch.correction import replay
-from meshforge.batch.digests import (
+from meshforge.batch.assets.digests import (
     asset_digests,
     corrections_digest,
     file_digest,
@@ -17,10 +16,11 @@ from meshforge.batch.digests import (
     software,
     template_digests,
 )
-from meshforge.batch.draft import STAMP, Draft, planned, written
-from meshforge.batch.job import AssetJob, Task
+from meshforge.batch.assets.job import AssetJob, Task
+from meshforge.batch.correction import replay
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Unchanged
-from meshforge.batch.stamp import Inputs, Stamp, read_stamp
+from meshforge.batch.outputs.draft import STAMP, Draft, planned, written
+from meshforge.batch.outputs.stamp import Inputs, Stamp, read_stamp
 from meshforge.errors import told
 from meshforge.formats import read
 from meshforge.language import RunResult

@@ -8,7 +8,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from meshforge.batch import Found
-from meshforge.batch.pool import processors, workers_context
+from meshforge.batch.workers.pool import processors, workers_context
 from meshforge.errors import MeshForgeError
 from meshforge.project import Project
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from meshforge.batch import Failed, Summary, Unchanged, apply, expand, isolated, jobs, plan, status
-from meshforge.batch.memory import MIB, share
 from meshforge.batch.summary import SHOWN
+from meshforge.batch.workers.memory import MIB, share
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables
 

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from meshforge.batch import Failed, apply, expand, jobs, status
-from meshforge.batch.cluster import on_cluster
-from meshforge.batch.pool import Lost
+from meshforge.batch.workers.cluster import on_cluster
+from meshforge.batch.workers.pool import Lost
 from meshforge.errors import MeshForgeError, StoppedError
 from meshforge.language import Program
 from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse

@@ -9,7 +9,7 @@ import weakref
 from pathlib import Path
 
 from meshforge.batch import Lost, isolated
-from meshforge.batch.pool import workers_context
+from meshforge.batch.workers.pool import workers_context
 
 
 def square(number: int) -> int:

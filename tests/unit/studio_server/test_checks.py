@@ -8,7 +8,7 @@ from typing import Any, Literal
 import pytest
 
 from meshforge.batch import Wanted, examine
-from meshforge.batch.stamp import read_stamp, stamp_path
+from meshforge.batch.outputs.stamp import read_stamp, stamp_path
 from meshforge.checks import ENGINES, Measures
 from meshforge.errors import ProjectError
 from meshforge.project import Project

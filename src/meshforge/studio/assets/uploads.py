@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 from threading import Lock
 from uuid import uuid4
 
-from meshforge.batch.folder import assets_in
+from meshforge.batch.assets.folder import assets_in
 from meshforge.errors import MeshForgeError, ProjectError, UsageError
 from meshforge.files import replacing
 from meshforge.formats import read

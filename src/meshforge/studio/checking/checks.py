@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from meshforge.batch import Lost, isolated, read_stamp
-from meshforge.batch.memory import share
-from meshforge.batch.pool import processors
+from meshforge.batch.workers.memory import share
+from meshforge.batch.workers.pool import processors
 from meshforge.checks import examine_mesh, pictures
 from meshforge.errors import MeshForgeError, ProjectError, told
 from meshforge.project import Project

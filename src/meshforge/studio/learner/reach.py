@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from meshforge.batch.digests import template_digests
+from meshforge.batch.assets.digests import template_digests
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program, Template
 from meshforge.studio.wire.lesson import Reach

@@ -11,7 +11,7 @@ from threading import RLock
 from typing import Literal
 
 from meshforge.batch import STATE
-from meshforge.batch.stamp import stamp_path
+from meshforge.batch.outputs.stamp import stamp_path
 from meshforge.errors import UsageError
 from meshforge.files import relative_name
 from meshforge.project import Offers, Project

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import HERE, Spread
-from meshforge.batch.memory import MIB
+from meshforge.batch.workers.memory import MIB
 from meshforge.files import changed_at
 from meshforge.project import Labelled, Project
 from tests.unit.batch.families import label_of, table_boxes, tree, write_table

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from meshforge.batch import Lost, Spread, isolated
-from meshforge.batch.pool import heed
+from meshforge.batch.workers.pool import heed
 from meshforge.errors import MeshForgeError
 from meshforge.geometry import Floats
 from meshforge.project.labels.propagation.sketches import Sketches

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from meshforge.batch.memory import bound
+from meshforge.batch.workers.memory import bound
 from meshforge.errors import MeshForgeError, StoppedError
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from typing import Any, TypeVar
 
-from meshforge.batch.memory import share
-from meshforge.batch.pool import OFTEN, Lost, heed, isolated
+from meshforge.batch.workers.memory import share
+from meshforge.batch.workers.pool import OFTEN, Lost, heed, isolated
 from meshforge.errors import MeshForgeError
 
 Item = TypeVar("Item")

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.asset import Asset
-from meshforge.batch.digests import file_digest, text_digest
-from meshforge.batch.folder import STATE
-from meshforge.batch.job import AssetJob, Task
+from meshforge.batch.assets.digests import file_digest, text_digest
+from meshforge.batch.assets.folder import STATE
+from meshforge.batch.assets.job import AssetJob, Task
 from meshforge.errors import AssetError
 from meshforge.formats import Mass, Names, labels_beside, placed, read, save
 from meshforge.symbolic import SymbolicMesh, write_labels

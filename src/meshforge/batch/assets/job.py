@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from meshforge.batch.assets.expand import Found, asset_id
 from meshforge.batch.correction import Correction
-from meshforge.batch.expand import Found, asset_id
 from meshforge.errors import UsageError
 from meshforge.formats import Mass, Names, labels_beside
 from meshforge.language import Program, Template

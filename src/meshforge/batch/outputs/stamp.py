@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch.digests import file_digest
-from meshforge.batch.folder import STATE
+from meshforge.batch.assets.digests import file_digest
+from meshforge.batch.assets.folder import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleLine, Skipped, Unchanged
 from meshforge.files import write_atomically
 
 if TYPE_CHECKING:
-    from meshforge.batch.draft import Draft
+    from meshforge.batch.outputs.draft import Draft
 
 
 class Inputs(BaseModel):

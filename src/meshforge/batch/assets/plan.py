@@ -8,9 +8,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch.job import AssetJob
-from meshforge.batch.memory import GIB, MIB
-from meshforge.batch.stamp import stamp_path
+from meshforge.batch.assets.job import AssetJob
+from meshforge.batch.outputs.stamp import stamp_path
+from meshforge.batch.workers.memory import GIB, MIB
 from meshforge.words import counted
 
 

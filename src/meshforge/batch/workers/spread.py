@@ -6,9 +6,9 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from meshforge.batch.cluster import on_cluster
-from meshforge.batch.memory import share
-from meshforge.batch.pool import Item, Lost, Result, isolated, processors
+from meshforge.batch.workers.cluster import on_cluster
+from meshforge.batch.workers.memory import share
+from meshforge.batch.workers.pool import Item, Lost, Result, isolated, processors
 
 Backend = Literal["local", "ray"]
 TIMEOUT = 600.0

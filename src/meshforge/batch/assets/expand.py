@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from meshforge.batch.folder import assets_in, is_own
+from meshforge.batch.assets.folder import assets_in, is_own
 from meshforge.errors import UsageError
 from meshforge.files import plain_path, relative_name
 from meshforge.formats import SUFFIXES, is_asset

@@ -9,13 +9,13 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from meshforge.batch.digests import software, source_files
-from meshforge.batch.expand import asset_id
-from meshforge.batch.job import AssetJob
-from meshforge.batch.journal import Seen
-from meshforge.batch.mending import write_mended
-from meshforge.batch.pool import Lost
-from meshforge.batch.spread import Spread
+from meshforge.batch.assets.digests import software, source_files
+from meshforge.batch.assets.expand import asset_id
+from meshforge.batch.assets.job import AssetJob
+from meshforge.batch.checking.journal import Seen
+from meshforge.batch.checking.mending import write_mended
+from meshforge.batch.workers.pool import Lost
+from meshforge.batch.workers.spread import Spread
 from meshforge.checks import Examination, Fixed, Measures, engine_named, examine_mesh, fix, pictures
 from meshforge.errors import AssetError, MeshForgeError, UsageError, told
 from meshforge.formats import load

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from meshforge.batch.digests import file_digest
-from meshforge.batch.draft import FILES, STAMP, Draft
+from meshforge.batch.assets.digests import file_digest
+from meshforge.batch.assets.folder import STATE
 from meshforge.batch.edit import NO_ROOM, Worked
-from meshforge.batch.folder import STATE
 from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.stamp import Stamp, all_stamps, stamp_in, stamp_path
+from meshforge.batch.outputs.draft import FILES, STAMP, Draft
+from meshforge.batch.outputs.stamp import Stamp, all_stamps, stamp_in, stamp_path
 from meshforge.errors import MeshForgeError
 
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from meshforge.batch.digests import file_digest, source_files, text_digest
-from meshforge.batch.job import AssetJob
-from meshforge.batch.lock import locked
+from meshforge.batch.assets.digests import file_digest, source_files, text_digest
+from meshforge.batch.assets.job import AssetJob
+from meshforge.batch.outputs.lock import locked
 from meshforge.errors import MeshForgeError
 
 _START = b'{"asset": '
