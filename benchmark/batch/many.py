@@ -1,4 +1,4 @@
-"""`meshforge apply` on a thousand to a hundred thousand assets: its rate, its memory, and what it adds to the work."""
+"""`meshforge apply` and `label` on very many assets: their rate, their memory, and what `apply` adds to the work."""
 
 from __future__ import annotations
 
@@ -12,11 +12,15 @@ from pathlib import Path
 from benchmark.batch.crowd import STOOLS, crowd, stools, tables
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.speed.watch import watched
+from meshforge.formats import labels_beside
+from meshforge.project import Project
 from meshforge.samples import TABLES
+from meshforge.symbolic import read_labels
 
 _WORKERS = 2
 _STOOLS = (1_000, 10_000, 100_000)
-_TABLES = (140, 1_400)
+_TABLES = (1_400, 7_000)
+_LABELLED = (("names", 10_000), ("propagate", 1_000))
 _QUICK = (20,), (14,)
 _MIB, _GIB = 1 << 20, 1 << 30
 _OVERHEAD, _FLAT = 0.05, 0.9
@@ -59,13 +63,21 @@ def measure(tell: Tell, quick: bool) -> Result:
             runs += _runs("six boxes", stools(folder / "models"), program, count, folder, tell)
         for count in some:
             runs += _runs("bundled tables", tables(), TABLES / "tables.mf", count, folder, tell)
+        labelled = [
+            run
+            for way, count in _LABELLED
+            for run in _labelled(way, stools(folder / "models"), 20 if quick else count, folder, tell)
+        ]
     return Result(
         "many",
         "A thousand assets, and a hundred thousand",
-        (Table(f"`meshforge apply`, {_WORKERS} workers", _COLUMNS, tuple(map(_row, runs))),),
+        (
+            Table(f"`meshforge apply`, {_WORKERS} workers", _COLUMNS, tuple(map(_row, runs))),
+            Table(f"`meshforge label`, six boxes, {_WORKERS} workers", _COLUMNS, tuple(map(_row, labelled))),
+        ),
         () if quick else _goals(runs),
         _NOTES,
-        tuple(asdict(run) for run in runs),
+        tuple(asdict(run) for run in (*runs, *labelled)),
     )
 
 
@@ -89,6 +101,27 @@ def _runs(kind: str, models: Sequence[Path], program: Path, count: int, folder: 
     return found
 
 
+def _labelled(way: str, models: Sequence[Path], count: int, folder: Path, tell: Tell) -> list[Run]:
+    """`label` in one way, on a project in which two assets are labelled, and again."""
+    assets, place = folder / "assets", folder / "project"
+    tell(f"labels by {way}: writing {count:,}")
+    crowd(models, count, assets)
+    project = Project.create(place, [assets], vocabulary=("panel", "leg", "misc"))
+    for asset in project.assets()[:2]:
+        true = read_labels(labels_beside(assets / asset)).labels
+        project.set_labels(asset, {name: label.name for name, label in true.items()})
+    found = []
+    for part in ("from nothing", "again"):
+        tell(f"labels by {way}, {count:,} {part}")
+        seen = watched(["label", str(place), "--with", way, "--workers", str(_WORKERS), "--json"])
+        rows = [json.loads(line) for line in seen.output.splitlines()]
+        taken = sum(row.get("taken", 0) for row in rows)
+        found.append(Run(way, part, count, seen.seconds, 0.0, seen.main, seen.worker, {"labels taken": taken}))
+    shutil.rmtree(assets)
+    shutil.rmtree(place)
+    return found
+
+
 _COLUMNS = ("", "", "assets", "s", "assets a second", "added to the work, %", "MiB, main", "MiB, largest worker", "")
 _NOTES = (
     "Assets are variants of another size each of two stools of six boxes, or of the 14 bundled tables (26 to 66 "
@@ -97,6 +130,8 @@ _NOTES = (
     "*Added to the work*: the time that the workers could have worked and did not (start of Python, finding the "
     "assets, putting outputs in place, waiting for the disk), as a share of what they worked. Memory: largest "
     "resident size.",
+    "`label` works on a project of the six boxes in which two assets were labelled by hand; in the end it draws a sheet of "
+    "some of them.",
 )
 
 

@@ -6,10 +6,11 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-_PAUSE = 0.02  # seconds between looks
+_PAUSE = 0.1  # seconds between looks, which cost time themselves
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,8 @@ def watched(arguments: list[str]) -> Watched:
         while process.poll() is None:
             for pid in [process.pid, *_below(process.pid)]:
                 largest[pid] = max(largest.get(pid, 0), _peak(pid))
-            time.sleep(_PAUSE)
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(_PAUSE)
         seconds = time.perf_counter() - began
         output.seek(0)
         text = output.read().decode("utf-8")
