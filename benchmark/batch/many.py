@@ -130,8 +130,8 @@ _NOTES = (
     "*Added to the work*: the time that the workers could have worked and did not (start of Python, finding the "
     "assets, putting outputs in place, waiting for the disk), as a share of what they worked. Memory: largest "
     "resident size.",
-    "`label` works on a project of the six boxes in which two assets were labelled by hand; in the end it draws a sheet of "
-    "some of them.",
+    "`label` works on a project of the six boxes in which two assets were labelled by hand; in the end it draws a "
+    "sheet of some of them.",
 )
 
 
