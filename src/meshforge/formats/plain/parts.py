@@ -140,7 +140,7 @@ def read_back(
     for name, piece in zip(wanted.owners, owner.tolist(), strict=True):
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
-    for name in hulls:
+    for name in sorted(hulls, key=natural):
         held = back.get(name, set())
         if len(held) != 1 or any(shared[k] > 1 or names[k] not in convex for k in held):
             raise AssetError(
