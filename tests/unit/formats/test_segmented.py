@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -115,6 +117,31 @@ def test_one_array_has_points_with_their_class_or_classes_alone(tmp_path: Path) 
     assert classes(found) == [3, 4] and found.vertices is None
 
 
+def lying(folder: Path, name: str) -> Path:
+    """Points of which the header counts far more than there are, alone or in an archive."""
+    rows = io.BytesIO()
+    header = {"descr": "<f8", "fortran_order": False, "shape": (2_000_000_000, 4)}
+    np.lib.format.write_array_header_1_0(rows, header)
+    rows.write(bytes(320))
+    path = folder / name
+    if path.suffix == ".npy":
+        path.write_bytes(rows.getvalue())
+    else:
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("points.npy", rows.getvalue())
+    return path
+
+
+def bomb(folder: Path) -> Path:
+    """An archive whose directory says that an array in it takes four gigabytes."""
+    path = arrays(folder, points=POINTS, labels=[0] * 4)
+    data = bytearray(path.read_bytes())
+    size = data.index(b"PK\1\2") + 24
+    data[size : size + 4] = (0xFFFFFFFE).to_bytes(4, "little")
+    path.write_bytes(data)
+    return path
+
+
 Make = Callable[[Path], Path]
 RECIPE = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 UNREADABLE = f"these arrays cannot be read: the file is damaged, of another kind, or holds Python objects\n  {RECIPE}"
@@ -186,6 +213,12 @@ REFUSED: dict[str, tuple[Make, str]] = {
     "objects": (lambda d: array(d, np.array([{}, {}])), UNREADABLE),
     "no array": (lambda d: put(d, "hello", "a.points.npy"), UNREADABLE),
     "no archive": (lambda d: put(d, "PK\3\4hello", "a.points.npz"), UNREADABLE),
+    "two thousand million points": (lambda d: lying(d, "a.points.npy"), UNREADABLE),
+    "as many in an archive": (lambda d: lying(d, "a.points.npz"), UNREADABLE),
+    "an archive that unpacks to gigabytes": (
+        bomb,
+        "its arrays would take 4,096 MiB, more than the 512 MiB that are read\n  Thin the points out.",
+    ),
     "a picture": (
         lambda d: array(d, np.zeros((4, 5, 3))),
         f"it has 4 x 5 x 3 numbers, where a class each is expected, or x, y, z and a class each\n  {RECIPE}",

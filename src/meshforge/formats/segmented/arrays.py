@@ -19,6 +19,7 @@ Array = npt.NDArray[Any]
 _POINTS = ("points", "vertices", "verts", "xyz", "coords", "coord", "pos", "pts")
 _FACES = ("faces", "triangles", "face", "tris")
 _NAMES = ("names", "classes", "class_names", "label_names", "part_names", "labels_names")
+_MOST = 1 << 29  # bytes of arrays that an archive unpacks to: ten million points with classes and faces
 _REMEDY = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 
 
@@ -34,14 +35,21 @@ def _loaded(path: Path) -> Array | dict[str, Array]:
     try:
         with path.open("rb") as stream:
             found = np.load(stream, allow_pickle=False)
-            return (
-                {key.lower(): found[key] for key in found.files} if isinstance(found, np.lib.npyio.NpzFile) else found
-            )
+            return _unpacked(found, str(path)) if isinstance(found, np.lib.npyio.NpzFile) else found
     except (ValueError, EOFError, KeyError, zipfile.BadZipFile, MemoryError) as error:
         problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
         raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
     except OSError as error:
         raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
+
+
+def _unpacked(archive: np.lib.npyio.NpzFile, where: str) -> dict[str, Array]:
+    """The arrays of an archive. Raises AssetError: they are far larger than any asset's."""
+    size = sum(entry.file_size for entry in archive.zip.infolist())
+    if size > _MOST:
+        problem = f"its arrays would take {size >> 20:,} MiB, more than the {_MOST >> 20} MiB that are read"
+        raise AssetError(problem, where=where, remedy="Thin the points out.")
+    return {key.lower(): archive[key] for key in archive.files}
 
 
 def _of_several(arrays: Mapping[str, Array], where: str) -> Segmented:
