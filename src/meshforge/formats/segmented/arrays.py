@@ -35,7 +35,7 @@ def _loaded(path: Path) -> Array | dict[str, Array]:
     try:
         with path.open("rb") as stream:
             found = np.load(stream, allow_pickle=False)
-            return _unpacked(found, str(path)) if isinstance(found, np.lib.npyio.NpzFile) else found
+            return _unpacked(found, path) if isinstance(found, np.lib.npyio.NpzFile) else found
     except (ValueError, EOFError, KeyError, zipfile.BadZipFile, MemoryError) as error:
         problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
         raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
@@ -43,12 +43,13 @@ def _loaded(path: Path) -> Array | dict[str, Array]:
         raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
 
 
-def _unpacked(archive: np.lib.npyio.NpzFile, where: str) -> dict[str, Array]:
+def _unpacked(archive: np.lib.npyio.NpzFile, path: Path) -> dict[str, Array]:
     """The arrays of an archive. Raises AssetError: they are far larger than any asset's."""
-    size = sum(entry.file_size for entry in archive.zip.infolist())
+    with zipfile.ZipFile(path) as listed:
+        size = sum(entry.file_size for entry in listed.infolist())
     if size > _MOST:
         problem = f"its arrays would take {size >> 20:,} MiB, more than the {_MOST >> 20} MiB that are read"
-        raise AssetError(problem, where=where, remedy="Thin the points out.")
+        raise AssetError(problem, where=str(path), remedy="Thin the points out.")
     return {key.lower(): archive[key] for key in archive.files}
 
 
