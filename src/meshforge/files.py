@@ -1,7 +1,8 @@
-"""Writing files so that a killed process leaves the old state or the new one, never half; and naming them alike."""
+"""Writing files so that a killed process leaves the old state or the new one, never half; naming and finding them."""
 
 from __future__ import annotations
 
+import glob
 import os
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -78,3 +79,44 @@ def _mode(path: Path) -> int:
     mask = os.umask(0)
     os.umask(mask)
     return 0o666 & ~mask
+
+
+def globbed(pattern: str, root: Path | None = None) -> list[str]:
+    """What a glob matches, as names from `root`, sorted; under `**`, links are followed, but never in a circle."""
+    base, stars, rest = _parted(pattern)
+    if not stars:
+        return sorted(glob.glob(pattern, root_dir=root))  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
+    found = set[str]()
+    for start in globbed(base, root) if base else [""]:
+        for folder in _below(start, root or Path()):
+            found.update(_join(folder, name) for name in globbed(rest or "*", (root or Path()) / folder))
+    return sorted(found)
+
+
+def _parted(pattern: str) -> tuple[str, bool, str]:
+    """What stands before the first `**` of a glob, whether there is one, and what stands behind it."""
+    parts = Path(pattern).parts
+    at = parts.index("**") if "**" in parts else len(parts)
+    return _join(*parts[:at]), at < len(parts), _join(*parts[at + 1 :])
+
+
+def _below(start: str, root: Path) -> Iterator[str]:
+    """A folder and all below it that are not hidden."""
+    waiting = [start]
+    while waiting:
+        folder = waiting.pop()
+        if not (root / folder).is_dir() or is_circle(root / folder):
+            continue
+        yield folder
+        with os.scandir(root / folder) as entries:
+            waiting += [_join(folder, entry.name) for entry in entries if not entry.name.startswith(".")]
+
+
+def is_circle(folder: Path) -> bool:
+    """Whether a folder is a link to one that it lies in, so that going into it would never end."""
+    real = folder.resolve() if folder.is_symlink() else None
+    return real is not None and any(above.resolve() == real for above in plain_path(folder.absolute()).parents)
+
+
+def _join(*names: str) -> str:
+    return os.path.join("", *names)  # noqa: PTH118 (a name stays as it was written, and may be none)

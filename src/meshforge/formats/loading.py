@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import glob
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from meshforge.asset import Asset
 from meshforge.errors import AssetError
+from meshforge.files import globbed
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.registry import SUFFIXES, asset_at, format_of, is_asset
 from meshforge.formats.units import refuse_beyond, unit_note
@@ -69,7 +69,7 @@ def labels_beside(path: Path) -> Path:
 def _matches(pattern: str) -> list[Path]:
     if Path(pattern).exists():
         return [Path(pattern)]
-    found = [Path(p) for p in glob.glob(pattern, recursive=True)]  # noqa: PTH207  absolute patterns too
+    found = [Path(name) for name in globbed(pattern)]
     known = [p for p in found if is_asset(p)]
     if not known:
         problem = "no file matches" if not found else "none of the files it matches is an asset"

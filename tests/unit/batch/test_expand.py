@@ -1,11 +1,14 @@
 from __future__ import annotations
 
+from glob import glob
 from pathlib import Path
 
 import pytest
 
 from meshforge.batch import expand, jobs
 from meshforge.errors import UsageError
+from meshforge.files import globbed
+from meshforge.formats import load_many
 from tests.unit.batch.families import obj, write_table, write_tables, write_urdf_table
 
 
@@ -138,3 +141,29 @@ def test_one_labels_file_serves_one_asset_only(tmp_path: Path) -> None:
         jobs(expand(paths), labels)
     with pytest.raises(UsageError, match="no such labels file or folder"):
         jobs(expand(paths[:1]), tmp_path / "absent")
+
+
+def test_links_that_lead_in_circles_are_followed_once(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        one_box(tmp_path / "assets" / name / "cube.obj")
+    circles = {"one/self": "one", "one/up": "", "one/two": "two", "two/one": "one", "two/twin": "two"}
+    for link, target in circles.items():
+        (tmp_path / "assets" / link).symlink_to(tmp_path / "assets" / target)
+    found = ["one/cube.obj", "one/two/cube.obj", "two/cube.obj", "two/one/cube.obj"]
+    assert ids(tmp_path / "assets/**/*.obj") == found
+    assert ids(tmp_path / "assets/**/cube.*") == found
+    assert ids(tmp_path / "assets") == found
+    assert len(list(load_many(tmp_path / "assets/**/*.obj"))) == len(found)
+
+
+@pytest.mark.parametrize(
+    "pattern", ["**/*.obj", "a/**", "**", "*/**/b/*.obj", "**/b/**/*.obj", "a/*.obj", "./a/../**/c.obj"]
+)
+def test_a_glob_matches_what_python_matches(pattern: str, tmp_path: Path) -> None:
+    for name in ("c.obj", "a/c.obj", "a/b/c.obj", "a/b/b/d.obj", "e/b/c.obj", ".hidden/c.obj", "a/.hidden.obj"):
+        one_box(tmp_path / name)
+    (tmp_path / "linked").symlink_to(tmp_path / "a")
+    ours = {Path(name) for name in globbed(pattern, tmp_path)}
+    theirs = {Path(name) for name in glob(pattern, root_dir=tmp_path, recursive=True)}  # noqa: PTH207
+    assert {path for path in ours if (tmp_path / path).is_file()} == {p for p in theirs if (tmp_path / p).is_file()}
+    assert ours <= theirs

@@ -181,6 +181,14 @@ def test_hulls_that_an_stl_cannot_hold_apart_are_refused_not_fused(tmp_path: Pat
     assert not (tmp_path / "b.stl").exists()
 
 
+def test_of_hulls_that_cannot_be_told_apart_the_first_by_name_is_named(tmp_path: Path) -> None:
+    row = [(low[0], low[1][2:]) for low in (box((3 * k, 0, 0)) for k in range(12))]
+    asset = read(put(tmp_path, ".stl", stl_binary(together(*row))))
+    twins = [Geom(f"{geom.name}~1", "body", geom.shape, geom.name) for geom in asset.geoms]
+    with pytest.raises(AssetError, match="the hull geom0#0 cannot be told apart"):
+        save(without(asset, add=twins), tmp_path / "b.stl")
+
+
 @pytest.mark.parametrize(("old", "new"), [("6.0", "6.5"), ("0.25", "0.375")], ids=["stays", "made"])
 def test_corners_that_a_writer_moves_are_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str

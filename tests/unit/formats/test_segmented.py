@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -116,18 +117,34 @@ def test_one_array_has_points_with_their_class_or_classes_alone(tmp_path: Path) 
     assert classes(found) == [3, 4] and found.vertices is None
 
 
+def lying(folder: Path, name: str) -> Path:
+    """Points of which the header counts far more than there are, alone or in an archive."""
+    rows = io.BytesIO()
+    header = {"descr": "<f8", "fortran_order": False, "shape": (2_000_000_000, 4)}
+    np.lib.format.write_array_header_1_0(rows, header)
+    rows.write(bytes(320))
+    path = folder / name
+    if path.suffix == ".npy":
+        path.write_bytes(rows.getvalue())
+    else:
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("points.npy", rows.getvalue())
+    return path
+
+
+def bomb(folder: Path) -> Path:
+    """An archive whose directory says that an array in it takes four gigabytes."""
+    path = arrays(folder, points=POINTS, labels=[0] * 4)
+    data = bytearray(path.read_bytes())
+    size = data.index(b"PK\1\2") + 24
+    data[size : size + 4] = (0xFFFFFFFE).to_bytes(4, "little")
+    path.write_bytes(data)
+    return path
+
+
 Make = Callable[[Path], Path]
 RECIPE = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 UNREADABLE = f"these arrays cannot be read: the file is damaged, of another kind, or holds Python objects\n  {RECIPE}"
-
-
-def swollen(folder: Path) -> Path:
-    """An archive that says that one of its arrays takes 5 GiB."""
-    path = arrays(folder, points=POINTS, labels=[0] * 4)
-    with zipfile.ZipFile(path, "a") as archive:
-        archive.filelist[0].file_size = 5 << 30
-        archive.writestr("more", b"")
-    return path
 
 
 def torn(folder: Path, old: bytes, new: bytes) -> Path:
@@ -139,10 +156,7 @@ def torn(folder: Path, old: bytes, new: bytes) -> Path:
 
 REFUSED: dict[str, tuple[Make, str]] = {
     "a header that does not end": (lambda d: torn(d, b"(2,)", b"(2,("), UNREADABLE),
-    "an archive that swells": (
-        swollen,
-        "its arrays would take 5 GiB, and no more than 4 are read\n  Leave out the arrays that are not of the points.",
-    ),
+    "a length that is no whole number": (lambda d: torn(d, b"(2,)", b"'2'"), UNREADABLE),
     "colours alone": (
         lambda d: put(d, ply(vertex="property uchar red\n", labels=(" 1",) * 4)),
         "no property of this file is a class by its name: it has red\n"
@@ -210,6 +224,12 @@ REFUSED: dict[str, tuple[Make, str]] = {
     "objects": (lambda d: array(d, np.array([{}, {}])), UNREADABLE),
     "no array": (lambda d: put(d, "hello", "a.points.npy"), UNREADABLE),
     "no archive": (lambda d: put(d, "PK\3\4hello", "a.points.npz"), UNREADABLE),
+    "two thousand million points": (lambda d: lying(d, "a.points.npy"), UNREADABLE),
+    "as many in an archive": (lambda d: lying(d, "a.points.npz"), UNREADABLE),
+    "an archive that unpacks to gigabytes": (
+        bomb,
+        "its arrays would take 4,096 MiB, more than the 512 MiB that are read\n  Thin the points out.",
+    ),
     "a picture": (
         lambda d: array(d, np.zeros((4, 5, 3))),
         f"it has 4 x 5 x 3 numbers, where a class each is expected, or x, y, z and a class each\n  {RECIPE}",

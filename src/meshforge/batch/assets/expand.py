@@ -11,7 +11,7 @@ from pathlib import Path
 
 from meshforge.batch.assets.folder import assets_in, is_own
 from meshforge.errors import UsageError
-from meshforge.files import plain_path, relative_name
+from meshforge.files import globbed, plain_path, relative_name
 from meshforge.formats import SUFFIXES, is_asset
 
 
@@ -85,8 +85,7 @@ def _matches(pattern: str, root: Path) -> list[Path]:
 def _globbed(pattern: str, root: Path) -> list[Path]:
     """What a glob matches: files of known formats, and the assets of folders; under `**`, files only."""
     start = _fixed_part(pattern, root)
-    names = glob.glob(pattern, root_dir=root, recursive=True)  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
-    hits = [plain_path(root / name) for name in names]
+    hits = [plain_path(root / name) for name in globbed(pattern, root)]
     hits = [hit for hit in hits if not is_own(hit, start)]
     found = [hit for hit in hits if is_asset(hit)]
     if "**" not in pattern:

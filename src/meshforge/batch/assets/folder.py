@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.errors import MeshForgeError
+from meshforge.files import is_circle
 from meshforge.formats import DESCRIPTION_SUFFIXES, MESH_SUFFIXES, is_asset, read
 
 STATE = ".meshforge"
@@ -47,6 +48,8 @@ def is_own(path: Path, root: Path) -> bool:
 def _files(folder: Path, root: Path) -> Iterator[Path]:
     for entry in folder.iterdir():
         if entry.name.startswith("."):
+            continue
+        if is_circle(entry):
             continue
         if entry.is_dir():
             own = (folder / SETTINGS).is_file() and entry.name in OWN_FOLDERS

@@ -152,7 +152,7 @@ def read_back(
     for name, piece in zip(wanted.owners, document.owners, strict=True):
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
-    for name in hulls:
+    for name in sorted(hulls, key=natural):
         held = back.get(name, set())
         if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
             raise AssetError(

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import tokenize
+import warnings
 import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -21,9 +22,9 @@ Array = npt.NDArray[Any]
 _POINTS = ("points", "vertices", "verts", "xyz", "coords", "coord", "pos", "pts")
 _FACES = ("faces", "triangles", "face", "tris")
 _NAMES = ("names", "classes", "class_names", "label_names", "part_names", "labels_names")
-_MOST = 4 << 30  # bytes
+_MOST = 1 << 29  # bytes of arrays that an archive unpacks to: ten million points with classes and faces
 _DAMAGED = (
-    *(ValueError, EOFError, KeyError, SyntaxError, NotImplementedError, RuntimeError, MemoryError),
+    *(ValueError, EOFError, KeyError, SyntaxError, TypeError, NotImplementedError, RuntimeError, MemoryError),
     *(zipfile.BadZipFile, zlib.error, tokenize.TokenError),
 )
 """What NumPy and the libraries below it raise for damaged files."""
@@ -40,12 +41,9 @@ def read_arrays(path: Path) -> Segmented:
 def _loaded(path: Path) -> Array | dict[str, Array]:
     """What a file holds; pickled objects, which may run anything, are not read."""
     try:
-        with path.open("rb") as stream:
+        with path.open("rb") as stream, warnings.catch_warnings(action="ignore"):  # that a header is of Python 2
             found: Array | np.lib.npyio.NpzFile = np.load(stream, allow_pickle=False)
-            if not isinstance(found, np.lib.npyio.NpzFile):
-                return found
-            _refuse_too_large(stream, path)
-            return {key.lower(): found[key] for key in found.files}
+            return _unpacked(found, path) if isinstance(found, np.lib.npyio.NpzFile) else found
     except _DAMAGED as error:
         problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
         raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
@@ -53,12 +51,14 @@ def _loaded(path: Path) -> Array | dict[str, Array]:
         raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
 
 
-def _refuse_too_large(stream: BinaryIO, path: Path) -> None:
-    """Refuse an archive that little room on disk makes more of than there is memory for."""
-    size = sum(info.file_size for info in zipfile.ZipFile(stream).infolist())
+def _unpacked(archive: np.lib.npyio.NpzFile, path: Path) -> dict[str, Array]:
+    """The arrays of an archive. Raises AssetError: they are far larger than any asset's."""
+    with zipfile.ZipFile(path) as listed:
+        size = sum(entry.file_size for entry in listed.infolist())
     if size > _MOST:
-        problem = f"its arrays would take {size >> 30:,} GiB, and no more than {_MOST >> 30} are read"
-        raise AssetError(problem, where=str(path), remedy="Leave out the arrays that are not of the points.")
+        problem = f"its arrays would take {size >> 20:,} MiB, more than the {_MOST >> 20} MiB that are read"
+        raise AssetError(problem, where=str(path), remedy="Thin the points out.")
+    return {key.lower(): archive[key] for key in archive.files}
 
 
 def _of_several(arrays: Mapping[str, Array], where: str) -> Segmented:
