@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from random import Random
 
@@ -51,7 +52,8 @@ def killed(process: subprocess.Popen[str], after: float, draw: Random) -> bool:
     if draw.random() < 0.5:
         process.kill()
     else:
-        os.killpg(process.pid, signal.SIGKILL)
+        with suppress(ProcessLookupError):  # it has just ended
+            os.killpg(process.pid, signal.SIGKILL)
     process.communicate()
     return was_running
 
