@@ -8,11 +8,13 @@ from typing import Any
 
 import pytest
 
-from meshforge.batch import Failed, apply, expand, jobs, status
+from meshforge.batch import Failed, Spread, Wanted, apply, examine_all, expand, jobs, status
 from meshforge.batch.workers.cluster import on_cluster
 from meshforge.batch.workers.pool import Lost
+from meshforge.checks import Measures
 from meshforge.errors import MeshForgeError, StoppedError
 from meshforge.language import Program
+from meshforge.project import Project
 from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
 from tests.unit.batch.families import PROGRAM, tree, write_tables
 
@@ -68,6 +70,21 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
     assert tree(tmp_path / "there") == tree(tmp_path / "here")
     again = apply(program, work, tmp_path / "there", backend="ray")
     assert {status(o) for o in again} == {"skipped", "failed"}
+
+
+def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> None:
+    write_tables(tmp_path / "assets", 6)
+    (tmp_path / "assets/table3/model.obj").write_text("v 1 2\n")
+    work, wanted = jobs(expand([tmp_path / "assets"])), Wanted(Measures("unreal", fit=True))
+    found, labels = [], []
+    for spread in (Spread(workers=2), Spread(backend="ray")):
+        found.append([examined.to_json() for examined in examine_all(work, wanted, spread) if examined])
+        made = Project.create(tmp_path / spread.backend, [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
+        made.label_from_names(spread=spread)
+        told = made.propagate_labels(spread=spread)
+        labels.append((told, tree(made.folder / "labels")))
+    assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
+    assert labels[0] == labels[1] and len(labels[0][1]) == 5
 
 
 def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
