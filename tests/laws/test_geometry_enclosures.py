@@ -76,9 +76,17 @@ def test_there_is_always_a_box(rng: np.random.Generator) -> None:
     assert found is not None and len(found.hull.vertices) == 8
 
 
-def test_a_budget_below_a_box_is_refused() -> None:
+def test_a_budget_that_no_hull_keeps_to_is_refused() -> None:
     cube = convex_hull(np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float))
-    assert enclosing(cube, Budget(vertices=7)) is None
+    assert enclosing(cube, Budget(vertices=3)) is None and enclosing(cube, Budget(polygons=3)) is None
+
+
+@pytest.mark.parametrize(("count", "share"), [(65, 0.004), (70, 0.008), (90, 0.013), (130, 0.025)])
+def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float) -> None:
+    points = np.random.default_rng(count).normal(size=(count, 3))
+    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
+    found = enclosing(ball, Budget(vertices=64))
+    assert found is not None and found.error < share * ball.aabb.diagonal
 
 
 @pytest.mark.parametrize(("vertices", "share"), [(32, 0.09), (64, 0.05), (255, 0.015)])

@@ -9,6 +9,7 @@ import numpy as np
 
 from meshforge.errors import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.contract import contracted
 from meshforge.geometry.convex import convex_hull, principal_extents
 from meshforge.geometry.heights import planes_of
 from meshforge.geometry.nearest import nearest_on_triangles
@@ -18,6 +19,7 @@ from meshforge.geometry.shapes import Polytope
 _SAME = 1e-9  # corners and planes nearer than this, where the hull is one long, wide and high, are one
 _TRIES = 12  # farthest corners that are tried before no further plane counts as fitting the budget
 _MOST = 2000  # planes, where a budget knows no end
+_ROUNDS = 150  # vertices that contracting takes away, at 10 to 25 ms each; from twice the budget at most
 _GROWTH = (0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # of planes outwards, in turn, against rounding; shares of the size
 
 
@@ -41,7 +43,15 @@ class Enclosure:
 def enclosing(hull: Polytope, budget: Budget) -> Enclosure | None:
     """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
 
-    From a box around the hull, the farthest corner is cut off again and again by the plane that supports the hull
+    Found in two ways, of which the better one counts: planes around the hull, more and more of them; and edges
+    contracted outwards, fewer and fewer of them, of the hull itself or, where that has very many, of planes around it.
+    """
+    found = [made for made in (_within_planes(hull, budget), _of_fewer_edges(hull, budget)) if made]
+    return min(found, key=lambda made: made.error, default=None)
+
+
+def _within_planes(hull: Polytope, budget: Budget) -> Enclosure | None:
+    """From a box around the hull, the farthest corner is cut off again and again by the plane that supports the hull
     below it, as long as the budget holds (a sandwich algorithm, as of Kamenev, 1992): the error falls about as one
     over the number of planes, which no other placement beats by more than a factor.
     """
@@ -53,11 +63,38 @@ def enclosing(hull: Polytope, budget: Budget) -> Enclosure | None:
     search.run()
     while True:
         for growth in _GROWTH:
-            made = _made(search.corners(growth) @ axes + middle)
-            if made and _holds(made, hull.vertices) and _fits(made, budget):
-                return Enclosure(made, float(_gaps(made.vertices, hull.vertices[hull.faces]).max()))
+            if made := _around(hull, search.corners(growth) @ axes + middle, budget):
+                return made
         if not search.undo():
             return None
+
+
+def _of_fewer_edges(hull: Polytope, budget: Budget) -> Enclosure | None:
+    """Edges contracted outwards until there are few enough vertices; in the hull's own size, against rounding."""
+    if len(hull.vertices) <= budget.vertices:
+        return None
+    start: Polytope | None = hull
+    enough = budget.vertices + min(budget.vertices, _ROUNDS)
+    if len(hull.vertices) > enough:
+        nearer = _within_planes(hull, Budget(enough))
+        start = nearer.hull if nearer else None
+    if start is None:
+        return None
+    middle, size = hull.vertices.mean(axis=0), float(np.ptp(hull.vertices, axis=0).max())
+    goal = ((hull.vertices - middle) / size)[hull.faces]
+    corners = contracted((start.vertices - middle) / size, goal, int(budget.vertices))
+    if corners is None:
+        return None
+    tries = (_around(hull, corners * (1 + growth) * size + middle, budget) for growth in _GROWTH)
+    return next((made for made in tries if made), None)
+
+
+def _around(hull: Polytope, corners: Floats, budget: Budget) -> Enclosure | None:
+    """The hull of corners, where it holds another one and keeps to a budget."""
+    made = _made(corners)
+    if made is None or not _holds(made, hull.vertices) or not _fits(made, budget):
+        return None
+    return Enclosure(made, float(_gaps(made.vertices, hull.vertices[hull.faces]).max()))
 
 
 def _made(corners: Floats) -> Polytope | None:
