@@ -16,7 +16,7 @@ from meshforge.errors import MeshForgeError, StoppedError
 from meshforge.language import Program
 from meshforge.project import Project
 from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
-from tests.unit.batch.families import PROGRAM, tree, write_tables
+from tests.unit.batch.families import PROGRAM, label_of, table_boxes, tree, write_tables
 
 ray = pytest.importorskip("ray")
 pytestmark = pytest.mark.filterwarnings("ignore")  # Ray's own
@@ -80,11 +80,11 @@ def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> N
     for spread in (Spread(workers=2), Spread(backend="ray")):
         found.append([examined.to_json() for examined in examine_all(work, wanted, spread) if examined])
         made = Project.create(tmp_path / spread.backend, [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
-        made.label_from_names(spread=spread)
-        told = made.propagate_labels(spread=spread)
-        labels.append((told, tree(made.folder / "labels")))
+        made.set_labels("table0/model.obj", {name: label_of(name) for name in table_boxes()})
+        named, told = made.label_from_names(spread=spread), made.propagate_labels(spread=spread)
+        labels.append((named, told, tree(made.folder / "labels")))
     assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
-    assert labels[0] == labels[1] and len(labels[0][1]) == 5
+    assert labels[0] == labels[1] and len(labels[0][2]) == 5
 
 
 def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
