@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -12,8 +12,8 @@ from meshforge.geometry.nearest import nearest_on_triangles
 _TRIED = 8  # edges of which the contraction is worked out in each round, those that promise to add least
 
 
-def contracted(vertices: Floats, goal: Floats, most: int) -> Floats | None:
-    """At most so many points (m, 3) whose hull holds that of vertices (n, 3); None where that is not found.
+def contracted(vertices: Floats, goal: Floats, are_few: Callable[[Floats], bool]) -> Floats | None:
+    """Few points (m, 3) whose hull holds that of vertices (n, 3); None where they never become few enough.
 
     Again and again one edge becomes one point outside of all faces that meet it, where that adds the least volume
     (progressive hulls, as of Sander et al., 2000); of the edges that which leads away least from the triangles of
@@ -26,7 +26,7 @@ def contracted(vertices: Floats, goal: Floats, most: int) -> Floats | None:
         while True:
             hull = ConvexHull(points)
             kept = np.asarray(hull.vertices)
-            if len(kept) <= most:
+            if are_few(points[kept]):
                 return points[kept]
             places = _places(points, np.asarray(hull.simplices), hull.equations)
             found = [(_distance(place, goal), edge, place) for edge, place in places]

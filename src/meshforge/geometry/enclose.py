@@ -70,19 +70,22 @@ def _within_planes(hull: Polytope, budget: Budget) -> Enclosure | None:
 
 
 def _of_fewer_edges(hull: Polytope, budget: Budget) -> Enclosure | None:
-    """Edges contracted outwards until there are few enough vertices; in the hull's own size, against rounding."""
-    if len(hull.vertices) <= budget.vertices:
-        return None
+    """Edges contracted outwards until the budget is kept to; in the hull's own size, against rounding."""
+    most = min(budget.vertices, budget.polygons)  # more can be, where many edges meet in few vertices
     start: Polytope | None = hull
-    enough = budget.vertices + min(budget.vertices, _ROUNDS)
-    if len(hull.vertices) > enough:
-        nearer = _within_planes(hull, Budget(enough))
+    if len(hull.vertices) > most + min(most, _ROUNDS):
+        nearer = _within_planes(hull, Budget(most + min(most, _ROUNDS)))
         start = nearer.hull if nearer else None
     if start is None:
         return None
     middle, size = hull.vertices.mean(axis=0), float(np.ptp(hull.vertices, axis=0).max())
     goal = ((hull.vertices - middle) / size)[hull.faces]
-    corners = contracted((start.vertices - middle) / size, goal, int(budget.vertices))
+
+    def are_few(points: Floats) -> bool:
+        made = _made(points) if len(points) <= budget.vertices else None
+        return made is not None and _fits(made, budget)
+
+    corners = contracted((start.vertices - middle) / size, goal, are_few)
     if corners is None:
         return None
     tries = (_around(hull, corners * (1 + growth) * size + middle, budget) for growth in _GROWTH)
