@@ -31,6 +31,20 @@ def test_a_monster_has_no_room_and_the_others_have() -> None:
     assert list(isolated(filled, [900], workers=1)) == [900]
 
 
+_left: list[np.ndarray] = []
+
+
+def leaked(mebibytes: int) -> int:
+    """What a library does that keeps memory which it never looks at."""
+    _left.append(np.empty(mebibytes * MIB, np.uint8))
+    return len(_left)
+
+
+@only_linux
+def test_what_earlier_assets_left_behind_takes_no_room_from_the_next() -> None:
+    assert list(isolated(leaked, [300] * 4, workers=1, memory=500 * MIB)) == [1, 2, 3, 4]
+
+
 @only_linux
 def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 2)

@@ -50,8 +50,8 @@ def isolated(
 
     workers: how many; None takes one a processor, never more than items; 0 works in this process, without
     protection against crashes and without bounds. timeout: seconds for one item; memory: bytes that a worker may take
-    beyond what it takes when it starts. done: called whenever an item is finished, in any order, maybe from another
-    thread. stop: asked often whether to end all work in the midst.
+    for one item, beyond what it has when that begins. done: called whenever an item is finished, in any order, maybe
+    from another thread. stop: asked often whether to end all work in the midst.
     Raises MeshForgeError when worker processes cannot be started at all, StoppedError when it was told to stop.
     """
     number = min(processors() if workers is None else workers, len(items))
@@ -105,17 +105,19 @@ def _pooled(
 
 _END: Any = object()
 _function: Callable[[Any], Any]
+_memory: int | None = None
 
 
 def _begin(function: Callable[[Any], Any], memory: int | None) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
-    global _function
-    _function = function
-    if memory:
-        bound(memory)
+    global _function, _memory
+    _function, _memory = function, memory
 
 
 def _worked(item: Any) -> Any:
+    """The bound counts from here, for each item anew: libraries keep some of what earlier ones took."""
+    if _memory:
+        bound(_memory)
     return _function(item)
 
 
