@@ -39,6 +39,8 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
             nodes = document.scene.nodes if document.scene else []
             found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
             geometries = len(document.geometries)
+    except RecursionError as error:
+        raise AssetError("its nodes lie too deep in each other", where=where, remedy="Export it again.") from error
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
         reason = " ".join(str(error).split())
         raise AssetError(
