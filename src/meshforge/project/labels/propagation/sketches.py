@@ -137,7 +137,7 @@ def _on_sides(work: _Work) -> list[Floats] | str:
                 write_arrays(work.place(f"side{side}"), work.key, {"rows": kept[0]})
             found += kept
         return found
-    except Exception as error:
+    except Exception as error:  # as above
         return told(error, str(work.path))
 
 
