@@ -1,4 +1,4 @@
-"""Makes the binary inputs of `tests/corpus`: STL, PLY, GLB, archives. Usage: python -m tests.corpus_binaries"""
+"""Makes the binary inputs of `tests/corpus`: STL, PLY, archives, USD. Usage: python -m tests.corpus_binaries"""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tests import usd_crates as crates
 from tests.corpus_case import ROOT
 from tests.soups import Soup, box
 
@@ -155,9 +156,38 @@ def obj_files() -> Mapping[str, bytes]:
     }
 
 
+def usd_files() -> Mapping[str, bytes]:
+    long = struct.pack("<Q", 1 << 40)
+    return {
+        "made_by_hand.usdc": crates.crate(),
+        "bomb_nested_twenty_thousand.usdc": crates.nested(20_000),
+        "bomb_dictionaries_twenty_thousand.usdc": crates.dictionaries(20_000),
+        "bomb_dictionary_in_itself.usdc": crates.dictionaries(5, closed=True),
+        "bomb_branches_that_meet.usdc": crates.crate([1] * 60 + [-2]),
+        "bomb_array_of_a_million_million.usdc": crates.array(crates.FLOAT, 1 << 40),
+        "bomb_packed_array_of_four_thousand_million.usdc": crates.array(
+            crates.INT, 1 << 32, crates.number(20) + bytes(20), crates.PACKED
+        ),
+        "bomb_packed_zeros.usdc": crates.array(crates.INT, 1 << 27, crates.integers([0] * 500_000), crates.PACKED),
+        "bomb_list_of_a_million_million.usdc": crates.held(crates.PATH_LIST, b"\x02" + long),
+        "bomb_dictionary_of_a_million_million.usdc": crates.held(crates.DICTIONARY, long),
+        "bomb_specs_of_eight_thousand_million.usdc": crates.crate(
+            replaced={"SPECS": struct.pack("<Q", 1 << 33) + crates.integers([0])}
+        ),
+        "target_of_thirty_thousand_steps.usdc": crates.crate(tokens=(*crates.TOKENS, f"[{'/a' * 30_000}]")),
+        "target_of_thirty_thousand_steps.usda": f'#usda 1.0\nover "a" {{ rel b = <{"/a" * 30_000}> }}\n'.encode(),
+        "bomb_expression_of_brackets.usda": (
+            f'#usda 1.0\nover "a" {{ pathExpression b = "{"(" * 100_000}/a{")" * 100_000}" }}\n'.encode()
+        ),
+        "version_of_2016.usdc": crates.crate(version=(0, 3, 0)),
+        "packed_wrongly.usdc": crates.crate(replaced={"PATHS": struct.pack("<4Q", 2, 2, 9, 0) + bytes(99)}),
+    }
+
+
 def main() -> None:
     """Write all of them."""
-    for kind, files in {"stl": stl_files(), "ply": ply_files(), "obj": obj_files()}.items():
+    kinds = {"stl": stl_files(), "ply": ply_files(), "obj": obj_files(), "usd": usd_files()}
+    for kind, files in kinds.items():
         for name, data in files.items():
             (ROOT / kind).mkdir(parents=True, exist_ok=True)
             (ROOT / kind / name).write_bytes(data)

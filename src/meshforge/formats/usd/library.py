@@ -22,11 +22,12 @@ _LONGEST = 300  # characters of a complaint in a message
 
 
 def need_usd(where: str) -> None:
-    """Raise AssetError where the package is not installed."""
+    """Raise AssetError where a package is not installed."""
     try:
-        import pxr.Usd  # noqa: F401 (fails here, with the remedy, rather than later)
+        import lz4.block  # noqa: F401 (these fail here, with the remedy, rather than later)
+        import pxr.Usd  # noqa: F401
     except ImportError as error:
-        problem = "USD files need the package usd-core, which is not installed"
+        problem = f"USD files need the packages usd-core and lz4, and {error.name} is not installed"
         raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
 
 

@@ -1,0 +1,132 @@
+"""Binary layers: their table of contents, the tree of their paths, and what their fields point to.
+
+Source: pxr/usd/sdf/crateFile.cpp and integerCoding.cpp of github.com/PixarAnimationStudios/OpenUSD.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshforge.errors import AssetError
+from meshforge.formats.usd.reading.guard.packed import Allowance, Bytes, ContradictionError, ExcessError
+from meshforge.formats.usd.reading.guard.remedy import DEEPEST, NEEDLESS, REMEDY
+from meshforge.formats.usd.reading.guard.text import depth
+from meshforge.formats.usd.reading.guard.values import refuse_harmful_values
+
+CRATE = b"PXR-USDC"
+_OLDEST = (0, 4, 0)  # that the library still reads
+_CONTENTS, _NAME, _MOST_SECTIONS = 16, 16, 64
+_LEAF, _CHILD, _SIBLING = -2, -1, 0  # what comes after a path: nothing, its child, the next beside it; else both
+
+
+def refuse_harmful_crate(data: bytes, where: str) -> None:
+    """Raise AssetError where a binary layer contradicts itself, is nested too deep, or unpacks to far too much."""
+    allowance = Allowance(len(data))
+    try:
+        version = _version(data, allowance, where)
+        sections = _sections(data, allowance)
+        if b"TOKENS" in sections:
+            _look_at_tokens(sections[b"TOKENS"])
+        if b"PATHS" in sections:
+            _look_at_paths(sections[b"PATHS"])
+        for name in (b"FIELDSETS", b"SPECS"):
+            if name in sections:
+                _look_at_numbers(sections[name], 3 if name == b"SPECS" else 1)
+        if b"STRINGS" in sections:
+            sections[b"STRINGS"].skip(sections[b"STRINGS"].number(), 4)
+        if b"FIELDS" in sections:
+            refuse_harmful_values(Bytes(data, 0, allowance), _fields(sections[b"FIELDS"]), version)
+    except ContradictionError as contradiction:
+        raise AssetError(f"it is damaged or cut off: {contradiction}", where=where, remedy=REMEDY) from contradiction
+    except ExcessError as excess:
+        raise AssetError(str(excess), where=where, remedy=NEEDLESS) from excess
+
+
+def _version(data: bytes, allowance: Allowance, where: str) -> tuple[int, ...]:
+    head = Bytes(data, len(CRATE), allowance)
+    version = head.number(1), head.number(1), head.number(1)
+    if version < _OLDEST:
+        problem = f"it is of version {'.'.join(map(str, version))} of the binary format, which is not read any more"
+        raise AssetError(problem, where=where, remedy="Write it anew with an older release of USD.")
+    return version
+
+
+def _sections(data: bytes, allowance: Allowance) -> dict[bytes, Bytes]:
+    """The first of each name."""
+    contents = Bytes(data, _CONTENTS, allowance)
+    contents.at = contents.number()
+    count = contents.number()
+    if count > _MOST_SECTIONS:
+        raise ContradictionError("its table of contents does not fit it")
+    found: dict[bytes, Bytes] = {}
+    for _ in range(count):
+        name = data[contents.skip(_NAME) : contents.at].split(b"\0", 1)[0]
+        start, size = contents.number(), contents.number()
+        if start + size > len(data):
+            raise ContradictionError("its table of contents does not fit it")
+        found.setdefault(name, Bytes(data, start, allowance, start + size))
+    return found
+
+
+def _look_at_tokens(section: Bytes) -> None:
+    count, size = section.number(), section.number()
+    section.allowance.take(count)
+    text = section.unpacked(section.number(), size)
+    if len(text) < size or text.count(b"\0") < count:
+        raise ContradictionError("its names are fewer than it says")
+    deep = text.count(b"/") > DEEPEST or text.count(b"(") > DEEPEST
+    if deep and any(
+        depth(name) > DEEPEST or (name.startswith(b"[") and name.count(b"/") > DEEPEST) for name in text.split(b"\0")
+    ):
+        raise ExcessError(f"names in it are nested more than {DEEPEST} deep")
+
+
+def _look_at_paths(section: Bytes) -> None:
+    section.allowance.take(section.number())
+    count = section.number()
+    for _ in ("places", "names"):
+        section.skip_integers(count)
+    if _deepest(section.integers(count)) > DEEPEST:
+        raise ExcessError(f"it is nested more than {DEEPEST} deep")
+
+
+def _deepest(jumps: NDArray[np.int32]) -> int:
+    """How deep the tree of the paths goes.
+
+    Raises ContradictionError where it is none: where branches meet, or lead out of it.
+    """
+    count = len(jumps)
+    depths = [-1] * (count + 1)
+    depths[0] = 0
+
+    def place(at: int, deep: int) -> None:
+        if at >= count or depths[at] >= 0:
+            raise ContradictionError("its paths are no tree")
+        depths[at] = deep
+
+    for at, jump in enumerate(jumps.tolist()):
+        deep = depths[at]
+        if deep < 0 or jump < _LEAF:
+            raise ContradictionError("its paths are no tree")
+        if jump != _LEAF:
+            place(at + 1, deep if jump == _SIBLING else deep + 1)
+        if jump > 0:
+            place(at + jump, deep)
+    return max(depths)
+
+
+def _look_at_numbers(section: Bytes, tables: int) -> None:
+    count = section.number()
+    for _ in range(tables):
+        section.skip_integers(count)
+
+
+def _fields(section: Bytes) -> NDArray[np.uint64]:
+    """(count,) what each field says its value is."""
+    count = section.number()
+    section.skip_integers(count)
+    values = section.unpacked(section.number(), 8 * count)
+    if len(values) < 8 * count:
+        raise ContradictionError("its fields are fewer than it says")
+    return np.frombuffer(values, np.uint64)
