@@ -50,7 +50,7 @@ _ENGINES = (
         ),
         _ALL,
         "",
-        "MuJoCo, XML reference, body/geom/type",
+        "mujoco.readthedocs.io, XML reference, body/geom/type; MuJoCo 4.0, tried",
     ),
     Engine(
         "physx-cpu",
@@ -135,8 +135,8 @@ _ENGINES = (
                 255,
                 "error",
                 "Unity makes a partial hull of it",
-                "docs.unity3d.com, manual, Mesh Collider: 255 triangles; Unity's warning counts polygons, as "
-                "PhysX does",
+                "docs.unity3d.com, manual, Mesh Collider: 255 triangles; its warning, as in that issue 8, "
+                "counts polygons",
             ),
         ),
         _PLAIN,
