@@ -56,17 +56,26 @@ class Inertial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mechanism:
-    """The joints of an asset, which make its bodies one or more trees, and the masses that the file tells."""
+    """The joints of an asset, which make its bodies one or more trees, and the masses that the file tells.
+
+    apart: pairs of bodies that the file keeps from colliding; paired: pairs of geoms that it has collide all the same,
+    whatever their bodies and contact attributes.
+    """
 
     joints: tuple[Joint, ...] = ()
     inertials: tuple[Inertial, ...] = field(default=())
+    apart: tuple[tuple[str, str], ...] = ()
+    paired: tuple[tuple[str, str], ...] = ()
 
     def moved(self, pose: Pose) -> Mechanism:
         """The mechanism in another root frame; pose: new_T_old."""
         turn = pose.rotation
-        return Mechanism(
-            tuple(replace(j, anchor=turn @ j.anchor + pose.translation, axis=turn @ j.axis) for j in self.joints),
-            tuple(
+        return replace(
+            self,
+            joints=tuple(
+                replace(j, anchor=turn @ j.anchor + pose.translation, axis=turn @ j.axis) for j in self.joints
+            ),
+            inertials=tuple(
                 Inertial(i.body, i.mass, turn @ i.centre + pose.translation, turn @ i.inertia @ turn.T)
                 for i in self.inertials
             ),

@@ -51,14 +51,15 @@ def test_a_native_primitive_is_within_the_limits_however_it_is_tessellated(engin
 @pytest.mark.parametrize(
     ("engine", "shape", "expected"),
     [
-        ("mujoco", prism(20), []),
-        ("mujoco", prism(21), [("mujoco-face-vertices", "warning")]),
+        ("mujoco", prism(19), []),
+        ("mujoco", prism(20), [("mujoco-face-vertices", "warning")]),
         ("physx-cpu", ball(129), []),
         ("physx-cpu", ball(130), [("physx-cpu-polygons", "error")]),
         ("physx-cpu", prism(127), []),
         ("physx-cpu", prism(128), [("physx-cpu-vertices", "error")]),
         ("physx-gpu", ball(30), []),
-        ("physx-gpu", prism(32), []),
+        ("physx-gpu", prism(31), []),
+        ("physx-gpu", prism(32), [("physx-gpu-face-vertices", "error")]),
         ("physx-gpu", prism(33), [("physx-gpu-vertices", "error"), ("physx-gpu-face-vertices", "error")]),
         ("physx-gpu", ball(40), [("physx-gpu-polygons", "error")]),
         ("unreal", ball(32), []),
@@ -76,14 +77,14 @@ def test_limits_hold_to_the_last_vertex(engine: str, shape: Shape, expected: lis
 
 
 def test_a_needle_is_oblong_for_physx_on_the_gpu() -> None:
-    needle = Box.filling(Aabb([0, 0, 0], [51, 1, 1])).tessellated()
+    needle = Box.filling(Aabb([0, 0, 0], [101, 1, 1])).tessellated()
     assert rules("physx-gpu", needle) == [("physx-gpu-oblong", "warning")]
-    assert rules("physx-gpu", Box.filling(Aabb([0, 0, 0], [49, 1, 1])).tessellated()) == []
+    assert rules("physx-gpu", Box.filling(Aabb([0, 0, 0], [99, 1, 1])).tessellated()) == []
 
 
 def test_the_message_says_how_many_and_how_many_are_allowed() -> None:
     (finding,) = check(mesh(ball(40), ball(8), prism(18)), "unreal")
-    assert finding.message == "h0 (40), h2 (36): more than 32 vertices; more than is practical in Unreal"
+    assert finding.message == "h0 (40), h2 (36): more than 32 vertices; more than Unreal's own tool gives to a hull"
     assert finding.hulls == ("h0", "h2")
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from meshforge.asset import Surface
 from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
 
 MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'
@@ -359,3 +359,19 @@ def test_geoms_tell_how_they_collide_with_defaults_and_classes(tmp_path: Path) -
     assert plain["friction"] == stiff["friction"] == "0.5 0.005 0.0001"
     assert {name for name in plain if plain[name] != stiff[name]} == {"contype", "condim", "solref"}
     assert stiff["solref"] == "0.01 1"
+
+
+def test_excluded_bodies_and_pairs_of_geoms_are_told_by_name_and_bits_to_the_last(tmp_path: Path) -> None:
+    inside = (
+        '<geom name="floor" size="1" contype="1048577"/><body name="a"><freejoint/><geom size="1"/></body>'
+        '<body><freejoint/><geom name="g" size="1" conaffinity="-2"/></body>'
+    )
+    contact = '<contact><exclude body1="a" body2="world"/><pair geom1="g" geom2="floor"/></contact>'
+    found = asset(tmp_path, inside, contact)
+    assert [set(pair) for pair in found.mechanism.apart] == [{"world", "a"}]
+    floor, _, other = (geom.name for geom in found.geoms)
+    assert [set(pair) for pair in found.mechanism.paired] == [{floor, other}]
+    assert dict(found.geoms[0].contact)["contype"] == "1048577"
+    assert dict(found.geoms[2].contact)["conaffinity"] == "-2"
+    moved = found.mechanism.moved(Pose.of_translation([1, 0, 0]))
+    assert (moved.apart, moved.paired) == (found.mechanism.apart, found.mechanism.paired)

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from meshforge.asset import Asset
+from meshforge.checks.physics import physics
 from meshforge.errors import AssetError
 from meshforge.formats import read
 from meshforge.geometry import Box, Capsule, Cylinder, Sphere
+from meshforge.symbolic import SymbolicMesh
 from tests.usd_stages import COLLIDES, CONVEX, CUP, mesh, physics_shapes, stage, table, written
 
 SCALED = "xformOp:scale = ({}, {}, {})\nuniform token[] xformOpOrder = ['xformOp:scale']"
@@ -222,6 +224,18 @@ def test_joints_have_limits_from_where_their_bodies_are(tmp_path: Path) -> None:
     (joint,) = of(tmp_path, bodies + hinge).mechanism.joints
     assert (joint.kind, joint.parent, joint.child) == ("revolute", "frame", "door")
     assert joint.limits is not None and np.allclose(np.degrees(joint.limits), [-30, 60], atol=1e-4)
+
+
+def test_filtered_pairs_of_bodies_are_told_and_excluded_from_the_check(tmp_path: Path) -> None:
+    filtered = """prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsFilteredPairsAPI"]"""
+    pairs = "rel physics:filteredPairs = [</World/two>, </World/two/it>]"
+    bodies = (
+        f'def Xform "one" ( {filtered} )\n{{\n{pairs}\n{primitive("Cube")}}}\n'
+        f'def Xform "two" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] )\n{{\n{primitive("Cube")}}}\n'
+    )
+    asset = of(tmp_path, bodies)
+    assert asset.mechanism.apart == (("one", "two"),)
+    assert [overlap.excluded for overlap in physics(SymbolicMesh.of(asset)).overlaps] == [True]
 
 
 def test_what_the_library_complains_about_is_a_note_and_not_printed(

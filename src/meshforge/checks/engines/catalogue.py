@@ -1,194 +1,194 @@
-"""The engines, row by row; `docs/engines.md` shows this table, and a test holds the two together."""
+"""The engines, row by row; `docs/engines.md` shows this table, and a test holds the two together.
+
+A source that begins with `owner/name` is a repository on GitHub, and a file in it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import MappingProxyType
 
-from meshforge.checks.engines import measures
-from meshforge.checks.engines.limit import Bound, Engine, Limit
-from meshforge.checks.finding import Severity
-from meshforge.geometry import Polytope
+from meshforge.checks.engines.limit import Engine
+from meshforge.checks.engines.rules import limit
 
-_SIMPLER = "Reduce it (check --fix), replace it by a primitive, or split it."
-_THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbour."
-_SHORTER = "Split it along its length."
-_KINDS: dict[str, tuple[Callable[[Polytope], float], str, Bound, str]] = {
-    "vertices": (measures.vertices, "vertices", "most", _SIMPLER),
-    "polygons": (measures.polygons, "flat faces", "most", _SIMPLER),
-    "face-vertices": (measures.largest_polygon, "vertices on one flat face", "most", _SIMPLER),
-    "vertex-faces": (measures.polygons_at_a_vertex, "flat faces at one vertex", "most", _SIMPLER),
-    "oblong": (measures.slenderness, "times as long as the sphere inside has radius", "most", _SHORTER),
-    "thin": (measures.thickness, "m thick", "least", _THICKER),
-    "volume": (measures.volume, "m³", "least", _THICKER),
-}
-
-
-def _limit(rule: str, number: float, severity: Severity, problem: str, source: str) -> Limit:
-    measure, what, bound, remedy = _KINDS[rule]
-    return Limit(rule, measure, number, what, severity, problem, remedy, source, bound)
-
-
+_COARSER = "PhysX makes a coarser hull of it"
 _COOKED = "PhysX leaves part of the hull out"
-_NO_GPU = "contacts with it fall back to the CPU, or it is refused"
-_DESC = "PhysX 5.6, PxConvexMeshDesc: "
-_RESULT = "PhysX 5.6, PxConvexMeshCookingResult: "
-_SHAPES = "PhysX 5.6, PxGeometryType: sphere, capsule, box, convex mesh"
-_PHYSX = frozenset({"box", "sphere", "capsule"})
+_NO_GPU = "PhysX makes a coarser hull of it, refuses it, or computes its contacts on the CPU"
+_ON_CPU = "contacts with it fall back to the CPU"
+_PHYSX = "NVIDIA-Omniverse/PhysX 5.6, physx/"
+_DESC = _PHYSX + "include/cooking/PxConvexMeshDesc.h: "
+_RESULT = _PHYSX + "include/cooking/PxCooking.h: "
+_COOKING = _PHYSX + "source/geomutils/src/cooking/"
+_THICKNESS = (
+    "nvidia-omniverse.github.io/PhysX, PhysxConvexHullCollisionAPI: minThickness, 0.001 in the unit of the stage"
+)
+_PLAIN = frozenset({"box", "sphere", "capsule"})
+_PLAIN_OF_PHYSX = _PHYSX + "include/geometry/PxGeometry.h: PxGeometryType; PxConvexCoreGeometry from 5.5 on"
+_STANDS_FOR_IT = "not a plain shape of PhysX, a convex mesh or, from 5.5 on, a convex core stands for it"
 _ALL = frozenset({"box", "sphere", "capsule", "cylinder", "ellipsoid"})
+_JOLT = "godotengine/godot, thirdparty/jolt_physics/Jolt/Physics/Collision/Shape/ConvexHullShape"
 
 _ENGINES = (
     Engine(
         "mujoco",
         "MuJoCo",
         (
-            _limit(
+            limit(
                 "face-vertices",
-                20,
+                19,
                 "warning",
                 "MJX leaves some of them out",
-                "mujoco/mjx/_src/mesh.py: _MAX_HULL_FACE_VERTICES; MuJoCo itself has no limit",
+                "google-deepmind/mujoco, mjx/mujoco/mjx/_src/mesh.py: _merge_coplanar thins faces of 20 vertices "
+                "and more; MuJoCo itself has no limit",
             ),
-            _limit(
+            limit(
                 "volume",
                 2e-15,
                 "error",
                 "MuJoCo refuses the mesh",
-                "MuJoCo 4.0, `mesh volume is too small` below mjMINVAL, 1e-15; with margin for rounding",
+                "MuJoCo 4.0, tried: up to mjMINVAL, 1e-15, `mesh volume is too small`; with margin for rounding",
             ),
         ),
         _ALL,
         "",
-        "MuJoCo, XML reference, body/geom/type",
+        "mujoco.readthedocs.io, XML reference, body/geom/type; MuJoCo 4.0, tried",
     ),
     Engine(
         "physx-cpu",
         "PhysX on the CPU",
         (
-            _limit("vertices", 255, "error", _COOKED, _DESC + "vertexLimit, hard maximum 255"),
-            _limit("polygons", 255, "error", _COOKED, _RESULT + "ePOLYGONS_LIMIT_REACHED, 255 polygons"),
-            _limit(
-                "thin",
-                0.001,
-                "warning",
-                "Omniverse thickens it",
-                "Omniverse, PhysxConvexHullCollisionAPI: minThickness, default 0.001; PhysX itself has no limit",
-            ),
+            limit("vertices", 255, "error", _COARSER, _DESC + "vertexLimit, at most 255"),
+            limit("polygons", 255, "error", _COOKED, _RESULT + "ePOLYGONS_LIMIT_REACHED, 255 polygons"),
+            limit("thin", 0.001, "warning", "Omniverse thickens it", _THICKNESS + "; PhysX itself has no limit"),
         ),
-        _PHYSX,
-        "PhysX has no such shape, a convex mesh stands for it",
-        _SHAPES,
+        _PLAIN,
+        _STANDS_FOR_IT,
+        _PLAIN_OF_PHYSX,
     ),
     Engine(
         "physx-gpu",
         "PhysX on the GPU (Isaac, SAPIEN)",
         (
-            _limit("vertices", 64, "error", _NO_GPU, _DESC + "64 vertices in a GPU compatible convex mesh"),
-            _limit("polygons", 64, "error", _NO_GPU, _DESC + "64 convex polygons in a GPU compatible convex mesh"),
-            _limit("face-vertices", 32, "error", _NO_GPU, "PhysX 5.6, PxConvexMesh::isGpuCompatible: 32 in a polygon"),
-            _limit("vertex-faces", 32, "error", _NO_GPU, _DESC + "32 faces per vertex"),
-            _limit(
+            limit("vertices", 64, "error", _NO_GPU, _COOKING + "GuCookingConvexMesh.cpp: gpuMaxVertsLimit"),
+            limit("polygons", 64, "error", _NO_GPU, _COOKING + "GuCookingConvexMesh.cpp: gpuMaxFacesLimit"),
+            limit(
+                "face-vertices",
+                31,
+                "error",
+                _NO_GPU,
+                _COOKING + "GuCookingConvexHullLib.h: gpuMaxVertsPerFace; PxConvexMesh::isGpuCompatible tells 32",
+            ),
+            limit(
+                "vertex-faces",
+                32,
+                "error",
+                "more than PhysX has on the GPU; what becomes of it is not documented",
+                _DESC + "32 faces per vertex in a GPU compatible mesh",
+            ),
+            limit(
                 "oblong",
                 100,
                 "warning",
-                _NO_GPU,
-                _RESULT + "eNON_GPU_COMPATIBLE, in-sphere radius 100 times below the largest extent",
+                _ON_CPU,
+                _RESULT + "eNON_GPU_COMPATIBLE; measured as in physx/source/geomutils/src/convex/GuConvexMeshData.h: "
+                "checkExtentRadiusRatio, by half the length",
             ),
-            _limit(
-                "thin",
-                0.001,
-                "warning",
-                "Isaac thickens it",
-                "Omniverse, PhysxConvexHullCollisionAPI: minThickness, default 0.001",
-            ),
+            limit("thin", 0.001, "warning", "Isaac thickens it", _THICKNESS),
         ),
-        _PHYSX,
-        "PhysX has no such shape, a convex mesh stands for it",
-        _SHAPES,
+        _PLAIN,
+        _STANDS_FOR_IT,
+        _PLAIN_OF_PHYSX,
         64,
-        "contacts of so many hulls overflow the buffers that simulators reserve",
-        "no hard limit; practice in Isaac and SAPIEN",
+        "contacts of so many hulls can overflow the buffers that simulators reserve",
+        "not documented; by experience, as of others with Isaac Sim (SarahWeiii/CoACD, issue 10)",
     ),
     Engine(
         "unreal",
         "Unreal",
         (
-            _limit(
+            limit(
                 "vertices",
                 32,
                 "warning",
-                "more than is practical in Unreal",
-                "no hard limit; Max Hull Verts of the static mesh editor goes from 6 to 32",
+                "more than Unreal's own tool gives to a hull",
+                "no hard limit; Unreal 5.8, Engine/Source/Editor/StaticMeshEditor/Private/StaticMeshEditorTools.cpp: "
+                "Max Hull Verts goes from 6 to 32",
             ),
         ),
-        _PHYSX,
+        _PLAIN,
         "Unreal has no such shape, a convex hull stands for it",
-        "Unreal, FBX static mesh pipeline: UBX, USP, UCP, UCX",
+        "dev.epicgames.com, UInterchangeGenericMeshPipeline, bImportCollisionAccordingToMeshName: UBX, USP, UCP, UCX",
     ),
     Engine(
         "unity",
         "Unity",
         (
-            _limit(
-                "vertices", 255, "error", "Unity makes a partial hull of it", _DESC + "vertexLimit, hard maximum 255"
+            limit(
+                "vertices",
+                255,
+                "error",
+                "Unity makes a coarser hull of it",
+                "that of PhysX, which Unity is built on; Unity-Technologies/com.unity.cv.synthetichumans, issue 8, "
+                "tells 256",
             ),
-            _limit(
+            limit(
                 "polygons",
                 255,
                 "error",
                 "Unity makes a partial hull of it",
-                "Unity, manual, Mesh Collider: convex ones are limited to 255",
+                "docs.unity3d.com, manual, Mesh Collider: 255 triangles; its warning, as in that issue 8, "
+                "counts polygons",
             ),
         ),
-        _PHYSX,
+        _PLAIN,
         "Unity has no such collider, a convex Mesh Collider stands for it",
-        "Unity, manual: Box, Sphere, Capsule and Mesh Collider",
+        "docs.unity3d.com, manual: Box, Sphere, Capsule and Mesh Collider",
     ),
     Engine(
         "bullet",
         "Bullet",
         (
-            _limit(
+            limit(
                 "vertices",
                 100,
                 "warning",
                 "more than is practical in Bullet",
-                "no hard limit; Bullet user manual, advice",
+                "no hard limit; advice of Bullet's manual, as jMonkeyEngine/jmonkeyengine, issue 1037, tells it",
             ),
-            _limit(
+            limit(
                 "thin",
                 0.002,
                 "warning",
                 "its margin makes it twice as thick",
-                "bullet3, URDF importer: gUrdfDefaultCollisionMargin, 0.001 on each side",
+                "bulletphysics/bullet3, examples/Importers/ImportURDFDemo/BulletUrdfImporter.cpp: "
+                "gUrdfDefaultCollisionMargin, 0.001 on each side; PyBullet 3.2, tried",
             ),
         ),
         _ALL - {"ellipsoid"},
         "Bullet's importers have no such shape, a convex hull stands for it",
-        "bullet3, UrdfGeometry: sphere, box, cylinder, capsule, mesh",
+        "bulletphysics/bullet3, examples/Importers/ImportURDFDemo/UrdfParser.h: UrdfGeomTypes",
     ),
     Engine(
         "godot",
         "Godot with Jolt",
         (
-            _limit(
+            limit(
                 "vertices",
                 256,
                 "error",
                 "Jolt leaves part of the hull out",
-                "Jolt, ConvexHullShape: cMaxPointsInHull, and ConvexHullBuilder: EResult::MaxVerticesReached",
+                _JOLT + ".cpp: cMaxPointsInHull, of which the hull is made where MaxVerticesReached",
             ),
-            _limit(
+            limit(
                 "thin",
                 0.002,
                 "warning",
                 "Jolt leaves out what rises less than 1 mm above the rest",
-                "Jolt, ConvexHullShapeSettings: mHullTolerance, 0.001 on each side",
+                _JOLT + ".h: mHullTolerance, 0.001 on each side",
             ),
         ),
         _ALL - {"ellipsoid"},
         "Godot has no such shape, a ConvexPolygonShape3D stands for it",
-        "Godot 4, Shape3D: Box-, Sphere-, Capsule-, Cylinder- and ConvexPolygonShape3D",
+        "godotengine/godot, modules/jolt_physics/shapes: box, sphere, capsule, cylinder, convex polygon",
     ),
 )
 ENGINES = MappingProxyType({engine.name: engine for engine in _ENGINES})

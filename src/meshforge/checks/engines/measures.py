@@ -43,8 +43,8 @@ def volume(hull: Polytope) -> float:
 
 
 def slenderness(hull: Polytope) -> float:
-    """The largest extent, as a multiple of the radius of the sphere about the centre of mass that fits into it."""
+    """The largest extent, as a multiple of the diameter of the sphere about the centre of mass that fits into it."""
     normals = normals_of(hull)
     heights = np.einsum("ij,ij->i", hull.vertices[hull.faces[:, 0]] - hull.centroid, normals)
     inner = float(heights[np.linalg.norm(normals, axis=1) > 0.5].min())
-    return float(extents(hull.vertices)[0]) / max(inner, np.finfo(float).tiny)
+    return float(extents(hull.vertices)[0]) / max(2 * inner, np.finfo(float).tiny)

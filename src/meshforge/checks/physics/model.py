@@ -8,6 +8,7 @@ import numpy as np
 
 from meshforge.asset import Inertial, Joint
 from meshforge.checks.physics.masses import broken
+from meshforge.checks.physics.touching import Contact, Touching
 from meshforge.checks.physics.tree import WELDED, Tree
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
 from meshforge.symbolic import Hull, SymbolicMesh
@@ -18,22 +19,24 @@ STEP = 0.002
 """Seconds of a step."""
 FLOOR = "the plane"
 _DAMPING = 5.0  # of joints, [1/s] times mass or inertia: what swings comes to rest within a second
+_FLOOR_BIT = 1 << 30  # of contact: every hull meets the plane by it, and no other hull
 _LEAST = 1e-3  # [kg], of a moving body that has neither hulls nor mass
 _UPRIGHT = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])  # z-up_T_y-up
 
 
-def compiled(mesh: SymbolicMesh, tree: Tree, *, neighbours: bool = False) -> Any:
+def compiled(mesh: SymbolicMesh, tree: Tree, *, everything: bool = False) -> Any:
     """MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
 
-    neighbours: whether bodies that a joint holds together touch, which they do not else. Joints are damped, so that
-    what swings comes to rest. Raises ValueError where MuJoCo refuses the model.
+    everything: whether all touches, which else bodies do not that a joint holds together, and what the file keeps
+    apart. On the plane, a hull rubs as the file has it. Joints are damped, so that what swings comes to rest. Raises
+    ValueError where MuJoCo refuses the model.
     """
     import mujoco
 
     spec = mujoco.MjSpec()
     spec.option.timestep = STEP
     spec.compiler.balanceinertia = False
-    if neighbours:
+    if everything:
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
     shown = _standing(mesh)
@@ -41,7 +44,29 @@ def compiled(mesh: SymbolicMesh, tree: Tree, *, neighbours: bool = False) -> Any
     for root in tree.bodies:
         if root in tops:
             _add(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
+    if not everything:
+        _filter(spec, Touching(mesh))
     return spec.compile()
+
+
+def _filter(spec: Any, touching: Touching) -> None:
+    """Let touch what the file lets touch, as it rubs there; the plane meets all, and is of no weight in how."""
+    plane = spec.geom(FLOOR)
+    plane.contype, plane.conaffinity = 0, _FLOOR_BIT
+    plane.priority = min(contact.priority for contact in touching.contacts) - 1
+    for k, contact in enumerate(touching.contacts):
+        _contact(spec.geom(f"hull {k}"), contact)
+    known = {body.name for body in spec.bodies}
+    for pair in sorted(sorted(f"body {name}" for name in pair) for pair in touching.apart if len(pair) == 2):
+        if known.issuperset(pair):
+            spec.add_exclude(bodyname1=pair[0], bodyname2=pair[1])
+    for first, second in sorted(sorted(pair) for pair in touching.paired):
+        spec.add_pair(geomname1=f"hull {first}", geomname2=f"hull {second}")
+
+
+def _contact(geom: Any, contact: Contact) -> None:
+    geom.contype, geom.conaffinity = contact.contype | _FLOOR_BIT, contact.conaffinity & ~_FLOOR_BIT
+    geom.condim, geom.priority, geom.friction = contact.condim, contact.priority, contact.friction
 
 
 def _standing(mesh: SymbolicMesh) -> Pose:

@@ -11,7 +11,8 @@ import numpy as np
 from meshforge.checks.finding import Finding
 from meshforge.checks.legality import legality
 from meshforge.checks.physics.masses import masses
-from meshforge.checks.physics.model import FLOOR, STEP, compiled
+from meshforge.checks.physics.model import STEP, compiled
+from meshforge.checks.physics.overlaps import Overlap, overlapping
 from meshforge.checks.physics.tree import Tree
 from meshforge.geometry import Floats
 from meshforge.symbolic import SymbolicMesh
@@ -31,16 +32,6 @@ BODIES = 500
 """Bodies of an asset at most, for the same reason."""
 _GRAVITY = 9.81
 _STEPS, _START = round(WATCHED / STEP), round(0.2 / STEP)
-
-
-@dataclass(frozen=True, slots=True)
-class Overlap:
-    """Two bodies that reach into each other at rest pose; depth: at most [m]; joined: whether a joint holds them."""
-
-    bodies: tuple[str, str]
-    hulls: tuple[str, str]
-    depth: float
-    joined: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +69,10 @@ class Physics:
             return f"not simulated: {self.refused}"
         rest = self.rest
         tilted = f"turned by {rest.tilt:.3g}°, moved by {rest.moved:.3g} m"
-        return (
-            f"at rest it shakes by {rest.jitter:.2g} m/s; {tilted}; {counted(len(self.overlaps), 'overlap')} of bodies"
-        )
+        excluded = sum(overlap.excluded for overlap in self.overlaps)
+        allowed = f", {excluded} excluded by the file" if excluded else ""
+        overlaps = f"{counted(len(self.overlaps), 'overlap')} of bodies{allowed}"
+        return f"at rest it shakes by {rest.jitter:.2g} m/s; {tilted}; {overlaps}"
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -99,9 +91,9 @@ class Physics:
 def physics(mesh: SymbolicMesh) -> Physics:
     """How a mesh behaves on a plane, with the masses of its file, or the density of water where there are none.
 
-    The lowest point is put on the plane; roots may fall, joints move within their limits, damped. What a file says of
-    friction, and of pairs that shall not touch, is left out. Deterministic: six seconds of simulation
-    at most, and no clock.
+    The lowest point is put on the plane; roots may fall, joints move within their limits, damped. What an MJCF says of
+    friction and contact bits is kept, and the pairs of bodies that an MJCF or a USD keeps apart. Deterministic: six
+    seconds of simulation at most, and no clock.
     """
     faulty, _ = legality(mesh)
     doubts = tuple(masses(mesh))
@@ -114,33 +106,11 @@ def physics(mesh: SymbolicMesh) -> Physics:
     if len(tree.bodies) > BODIES:
         return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", doubts)
     try:
-        overlaps = _overlaps(sound, tree)
+        overlaps = overlapping(sound, tree)
         rest = _rested(sound, tree)
     except ValueError as error:  # MuJoCo's compiler
         return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {_first_line(error)}", doubts)
     return Physics(sound.diagonal, rest, overlaps, None if rest else "the simulation blew up", doubts)
-
-
-def _overlaps(mesh: SymbolicMesh, tree: Tree) -> tuple[Overlap, ...]:
-    """The deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first."""
-    import mujoco
-
-    model = compiled(mesh, tree, neighbours=True)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    rigid, numbers = tree.rigid(), _numbers(model)
-    found: dict[tuple[str, str], Overlap] = {}
-    for contact in data.contact[: data.ncon]:
-        first, second = sorted(numbers[int(g)] for g in contact.geom)
-        if first < 0 or contact.dist >= 0:
-            continue
-        a, b = mesh.hulls[first], mesh.hulls[second]
-        key = a.body, b.body
-        if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
-            continue
-        joined = tree.above.get(a.body) == b.body or tree.above.get(b.body) == a.body
-        found[key] = Overlap(key, (a.name, b.name), -float(contact.dist), joined)
-    return tuple(sorted(found.values(), key=lambda overlap: (-overlap.depth, overlap.bodies)))
 
 
 def _rested(mesh: SymbolicMesh, tree: Tree) -> Rest | None:
@@ -193,12 +163,6 @@ def _sunk(data: Any) -> float:
     return max((-float(c.dist) for c in data.contact[: data.ncon] if 0 in c.geom), default=0.0)
 
 
-def _numbers(model: Any) -> list[int]:
-    """The number of the hull of each geom, -1 for the plane."""
-    names = [model.geom(g).name for g in range(model.ngeom)]
-    return [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
-
-
 def _first_line(error: Exception) -> str:
     return str(error).splitlines()[0].removeprefix("Error: ")
 
@@ -212,7 +176,7 @@ def _refused(refused: str | None) -> Iterator[Finding]:
 
 
 def _overlapping(found: Physics) -> Iterator[Finding]:
-    deep = [overlap for overlap in found.overlaps if overlap.depth > DEEP * found.scale]
+    deep = [overlap for overlap in found.overlaps if overlap.depth > DEEP * found.scale and not overlap.excluded]
     if not deep:
         return
     told = [f"{o.hulls[0]} and {o.hulls[1]} ({o.depth:.3g} m{', joined' if o.joined else ''})" for o in deep]

@@ -21,4 +21,5 @@ def contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str
 
 
 def _text(value: object) -> str:
-    return " ".join(f"{float(number):g}" for number in np.atleast_1d(np.asarray(value)))
+    numbers = np.atleast_1d(np.asarray(value)).tolist()
+    return " ".join(str(number) if isinstance(number, int) else f"{number:g}" for number in numbers)

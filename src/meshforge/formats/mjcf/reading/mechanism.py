@@ -11,10 +11,22 @@ _KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  #
 
 
 def read_mechanism(reading: Reading) -> Mechanism:
-    """The mechanism of a model; a body without a joint is fixed to its parent."""
+    """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
     joints = [joint for k in range(1, reading.model.nbody) for joint in _joints(reading, k)]
     inertials = [i for k in range(1, reading.model.nbody) if (i := _inertial(reading, k)) is not None]
-    return Mechanism(tuple(joints), tuple(inertials))
+    return Mechanism(tuple(joints), tuple(inertials), _apart(reading), _paired(reading))
+
+
+def _apart(reading: Reading) -> tuple[tuple[str, str], ...]:
+    signatures = [int(signature) for signature in reading.model.exclude_signature]
+    return tuple(
+        (reading.body_names[s >> 16], reading.body_names[s & 0xFFFF]) for s in signatures
+    )  # as MuJoCo packs it
+
+
+def _paired(reading: Reading) -> tuple[tuple[str, str], ...]:
+    geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
+    return tuple((reading.names[int(first)], reading.names[int(second)]) for first, second in geoms)
 
 
 def _joints(reading: Reading, body: int) -> list[Joint]:

@@ -27,7 +27,7 @@ _SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
 
 
 def read_mechanism(scene: Scene, bodies: Bodies, geoms: Sequence[Geom]) -> Mechanism:
-    """Joints and masses; a joint that would close a loop, or is of a kind that no tree has, is left out."""
+    """Joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left out."""
     if not bodies.prims:
         return Mechanism()
     hulls: dict[str, list[Any]] = {}
@@ -39,7 +39,17 @@ def read_mechanism(scene: Scene, bodies: Bodies, geoms: Sequence[Geom]) -> Mecha
     inertials = tuple(inertial for inertial in found if inertial is not None)
     joints = _trees(joint for prim in joint_prims(scene) if (joint := _joint(scene, prim, bodies)))
     bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
-    return Mechanism(tuple(joints), inertials)
+    return Mechanism(tuple(joints), inertials, _apart(bodies))
+
+
+def _apart(bodies: Bodies) -> tuple[tuple[str, str], ...]:
+    """The pairs of bodies that are filtered; pairs of colliders, or with articulations, are not told."""
+    found = []
+    for path, prim in bodies.prims.items():
+        relationship = prim.GetRelationship("physics:filteredPairs")
+        targets = relationship.GetForwardedTargets() if relationship else []
+        found += [(bodies.names[path], bodies.names[str(t)]) for t in targets if str(t) in bodies.names]
+    return tuple(found)
 
 
 def joint_prims(scene: Scene) -> list[Any]:
