@@ -14,7 +14,17 @@ import httpx
 from meshforge.project import Project
 from meshforge.symbolic import read_labels
 from tests.e2e.studio import opened
-from tests.faults.runs import begun, ended, is_part_of, killed, outputs, stool_family, table_family, wait_for
+from tests.faults.runs import (
+    begun,
+    ended,
+    is_part_of,
+    killed,
+    outputs,
+    stool_family,
+    table_family,
+    wait_for,
+    wait_until,
+)
 
 _STOOLS, _TABLES = 60, 5
 _WORDS = ("panel", "leg", "handle", "drawer", "misc")
@@ -53,7 +63,10 @@ class Applying:
 
 
 class _Labelling:
-    """`label` killed: what a person said stays byte for byte, files are whole, and another run completes it."""
+    """`label` killed: what a person said stays byte for byte, files are whole, and another run completes it.
+
+    The moment is one at random, or a little after so many assets have their labels.
+    """
 
     way: tuple[str, ...]
 
@@ -70,13 +83,16 @@ class _Labelling:
         assert ended(begun(["label", "p", "--with", *self.way], folder))[0] == 0
         self._longest = time.monotonic() - began
         self._before, self._whole = outputs(folder / "begun/labels"), outputs(folder / "p/labels")
+        self._new = _written(folder / "p/labels", self._before)
 
     def trial(self, draw: Random) -> str:
         project = self._folder / "p"
         shutil.rmtree(project)
         shutil.copytree(self._folder / "begun", project)
-        words = ["label", "p", "--with", *self.way]
-        was_running = killed(begun(words, self._folder), draw.uniform(0.2, self._longest), draw)
+        process = begun(words := ["label", "p", "--with", *self.way], self._folder)
+        if count := draw.randrange(self._new):
+            wait_until(process, lambda: _written(project / "labels", self._before) >= count)
+        was_running = killed(process, draw.uniform(0.0, 0.05 if count else self._longest), draw)
         left = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
         assert is_part_of(left, self._whole), "a labels file is neither as before nor as it should be"
         assert self._before.items() <= left.items(), "what a person said is gone"
@@ -84,6 +100,11 @@ class _Labelling:
         now = {name: data for name, data in outputs(project / "labels").items() if not name.endswith(".tmp")}
         assert now == self._whole, "the second run leaves other labels"
         return "after it was done" if not was_running else "in the midst" if left != self._before else "before a label"
+
+
+def _written(labels: Path, before: dict[str, bytes]) -> int:
+    """How many assets have labels that they had not."""
+    return sum(before.get(path.name) != path.read_bytes() for path in labels.glob("*.json"))
 
 
 class Propagating(_Labelling):

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from random import Random
@@ -33,14 +33,19 @@ def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
     return process.returncode, out + err
 
 
-def wait_for(process: subprocess.Popen[str], out: Path, count: int) -> None:
-    """Return when so many assets in an output folder are new, or the command has ended."""
-    since = time.time()
-    while process.poll() is None and _written(out, since) < count:
+def wait_until(process: subprocess.Popen[str], holds: Callable[[], bool]) -> None:
+    """Return when something holds, or the command has ended."""
+    while process.poll() is None and not holds():
         time.sleep(0.002)
 
 
-def _written(out: Path, since: float) -> int:
+def wait_for(process: subprocess.Popen[str], out: Path, count: int) -> None:
+    """Return when so many assets in an output folder are new, or the command has ended."""
+    since = time.time()
+    wait_until(process, lambda: _made(out, since) >= count)
+
+
+def _made(out: Path, since: float) -> int:
     folders = (Path(at) for at, _, _ in os.walk(out) if STATE not in Path(at).parts)
     return sum(path.stat().st_mtime >= since for folder in folders for path in folder.glob("*.obj"))
 
