@@ -98,15 +98,12 @@ def label(
     if source != "vlm" and options.given:
         raise UsageError(f"{options.given} is for --with vlm", remedy="Leave it out.")
     spread = spread_of(workers, timeout, memory, backend)
-    if source == "vlm" and spread != spread_of():
-        remedy = "Leave it out; how many questions are asked at a time is `concurrency` in [vlm]."
-        raise UsageError("--workers, --backend, --timeout and --memory are not for --with vlm", remedy=remedy)
     given = label_proposals.GivenOptions(pattern or (), classes, align, points_up)
     given.refuse_for(source)
     opened = Project.open(project)
     words = [word.strip() for word in vocabulary.split(",") if word.strip()] if vocabulary else None
     if dry_run and source == "vlm":
-        label_vlm.foretell(opened, options, words, json=json)
+        label_vlm.foretell(opened, options, words, spread, json=json)
         return
     if dry_run:
         label_proposals.propose(opened, source, labels, words, given, spread, json=json)
@@ -114,7 +111,7 @@ def label(
     if words is not None:
         opened.set_vocabulary(words)
     if source == "vlm":
-        failed = label_vlm.label(opened, options, sheets, json=json)
+        failed = label_vlm.label(opened, options, spread, sheets, json=json)
     else:
         failed = label_given.label(opened, source, labels, given, spread, sheets, json=json)
     raise typer.Exit(int(failed))

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from meshforge.batch import Spread
     from meshforge.perception.vlm import Bill
     from meshforge.project import Project, VlmForecast, VlmLabelled, VlmSettings
 
@@ -48,14 +49,16 @@ class VlmOptions:
         return next((f"--{name.replace('_', '-')}" for name in names), None)
 
 
-def foretell(project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, *, json: bool) -> None:
+def foretell(
+    project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, spread: Spread, *, json: bool
+) -> None:
     """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
     from meshforge.cli.interruption import interruptible
     from meshforge.cli.output import print_json, progress
 
     settings = options.settings(project)
     with progress(len(project.assets()), "drawing") as advance, interruptible() as stop:
-        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary)
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, spread=spread)
         if stop():
             raise KeyboardInterrupt
     if json:
@@ -64,12 +67,12 @@ def foretell(project: Project, options: VlmOptions, vocabulary: Sequence[str] | 
         _say_forecast(found)
 
 
-def label(project: Project, options: VlmOptions, sheets: Path | None, *, json: bool) -> bool:
+def label(project: Project, options: VlmOptions, spread: Spread, sheets: Path | None, *, json: bool) -> bool:
     """Label a project, and say what came of it; whether some labels could not be taken, or it ended early."""
     from meshforge.cli.label_given import Telling
     from meshforge.cli.label_summary import summarise
 
-    found, telling = _asked(project, options), Telling(json=json)
+    found, telling = _asked(project, options, spread), Telling(json=json)
     for report in found.reports:
         telling(report, {"open": found.open.get(report.asset, {})})
         if not json:
@@ -79,7 +82,7 @@ def label(project: Project, options: VlmOptions, sheets: Path | None, *, json: b
     return telling.failed or bool(found.ended)
 
 
-def _asked(project: Project, options: VlmOptions) -> VlmLabelled:
+def _asked(project: Project, options: VlmOptions, spread: Spread) -> VlmLabelled:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     from meshforge.cli.interruption import interruptible
     from meshforge.cli.output import progress
@@ -87,7 +90,7 @@ def _asked(project: Project, options: VlmOptions) -> VlmLabelled:
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
     bar = progress(len(project.assets()), f"asking {settings.model}")
     with bar as advance, interruptible() as stop, _said_at(stop, waiting):
-        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop)
+        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop, spread=spread)
 
 
 @contextmanager

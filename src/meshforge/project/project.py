@@ -354,15 +354,16 @@ class Project:
         progress: Callable[[Bill], None] | None = None,
         stop: Callable[[], bool] | None = None,
         keeping: Callable[[], AbstractContextManager[object]] | None = None,
+        spread: Spread = HERE,
     ) -> VlmLabelled:
         """Ask a vision-language model for labels; what a person or a file says stays.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
         says when to ask no more; keeping: the block in which all labels are written, in the end; None writes those of
-        an asset as soon as all is said of it. Answers are kept, so that none is paid for twice. Raises MeshForgeError
-        where nothing could be asked at all.
+        an asset as soon as all is said of it; spread: how pictures are drawn. Answers are kept, so that none is paid
+        for twice. Raises MeshForgeError where nothing could be asked at all.
         """
-        return vlm_labelling.label_with_vlm(self, settings or self.settings.vlm, progress, stop, keeping)
+        return vlm_labelling.label_with_vlm(self, settings or self.settings.vlm, progress, stop, keeping, spread)
 
     def forecast_vlm(
         self,
@@ -371,9 +372,10 @@ class Project:
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
         vocabulary: Sequence[str] | None = None,
+        spread: Spread = HERE,
     ) -> VlmForecast:
-        """What `label_with_vlm` would send and cost, with nothing sent; vocabulary: another one than the project's."""
-        return vlm_forecast.forecast(self, settings or self.settings.vlm, progress, stop, vocabulary)
+        """What `label_with_vlm` would send and cost, with nothing sent; the same options; vocabulary: another one."""
+        return vlm_forecast.forecast(self, settings or self.settings.vlm, progress, stop, vocabulary, spread)
 
     # Demonstrations
 

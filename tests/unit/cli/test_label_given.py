@@ -131,7 +131,6 @@ def test_segmented_points_are_read_with_the_names_that_are_given(run: Run, tmp_p
         (("--with", "propagate", "--align", "box"), "--align is for --with file"),
         (("--with", "names", "--points-up", "y"), "--points-up is for --with file"),
         (("--with", "propagate", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
-        (("--with", "vlm", "--workers", "2"), "--workers, --backend, --timeout and --memory are not for --with vlm"),
         (("--with", "names", "--pattern", "knob"), "--pattern knob: it needs a pattern and a label"),
         (("--with", "names", "--pattern", "=knob"), "--pattern =knob: it needs a pattern and a label"),
         (("--with", "names", "--pattern", "*=knob"), "the pattern * means 'knob', which is not in the vocabulary"),

@@ -5,6 +5,7 @@ from meshforge.perception.vlm.endpoint import OPENAI, Endpoint
 from meshforge.perception.vlm.faults import AskingError, EndError, RefusedError
 from meshforge.perception.vlm.features import Features
 from meshforge.perception.vlm.labeller import Labeller, Pending, Said
+from meshforge.perception.vlm.looks import Look, looks
 from meshforge.perception.vlm.manner import Manner
 from meshforge.perception.vlm.modes import MODES, Mode, ModeName
 from meshforge.perception.vlm.page import write_page
@@ -22,6 +23,7 @@ __all__ = [
     "Endpoint",
     "Features",
     "Labeller",
+    "Look",
     "Manner",
     "Message",
     "Mode",
@@ -33,5 +35,6 @@ __all__ = [
     "Said",
     "Usage",
     "estimate",
+    "looks",
     "write_page",
 ]

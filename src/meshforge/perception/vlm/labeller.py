@@ -89,21 +89,28 @@ class Labeller:
 
     def looks(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Iterator[Look]:
         """The questions that `begin` asks at first; nothing is sent."""
-        names = mesh.index.keys() if wanted is None else wanted
-        return looks(mesh, names, self._manner, self._examples, name if self._manner.names else "")
+        return looks(mesh, mesh.index.keys() if wanted is None else wanted, self._manner, name)
 
     def begin(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Pending:
         """Draw a mesh and ask about some hulls, by default all. Questions that get no answer leave their hulls open.
 
-        name: that of the asset, told where the manner says so. Waits where many questions are under way already.
+        name: that of the asset, told where the manner says so. All else as of `ask`.
         """
         names = [hull for hull in mesh.index if wanted is None or hull in wanted]
+        return self.ask(names, self.looks(mesh, names, name))
+
+    def ask(self, names: Sequence[str], asked: Iterable[Look]) -> Pending:
+        """Ask about some hulls of a mesh, as its looks come. Waits where many questions are under way already."""
         answers = []
-        for look in self.looks(mesh, names, name):
-            answers.append(self._workers.submit(partial(self._heard, look)))
+        for look in asked:
+            answers.append(self._workers.submit(partial(self._heard, self.shown(look))))
             if self._client.end:  # what is drawn from here on would not be asked
                 break
         return Pending(names, self._manner.vocabulary, answers)
+
+    def shown(self, look: Look) -> Look:
+        """A look as it is asked, behind the examples."""
+        return look.after(self._examples) if self._examples else look
 
     def label(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Said:
         """What the model says of a mesh; all as of `begin`."""

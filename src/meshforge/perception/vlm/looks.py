@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from meshforge.perception.vlm.evidence import clearness
@@ -33,18 +33,22 @@ class Look:
         """About how many tokens the answer has."""
         return _SAID * (len(self.hulls) + 1)
 
+    def after(self, examples: tuple[Message, ...]) -> Look:
+        """The same question with messages that show labelled assets before its own pictures."""
+        instructions, *pictures = self.question.messages
+        return replace(self, question=replace(self.question, messages=(instructions, *examples, *pictures)))
+
 
 def looks(
     mesh: SymbolicMesh,
     wanted: Collection[str],
     manner: Manner,
-    examples: tuple[Message, ...] = (),
     name: str = "",
 ) -> Iterator[Look]:
     """The questions about a mesh. Groups in which no hull is wanted are passed over.
 
     The groups do not depend on what is wanted, so that answers can be found again when some hulls have a label by then.
-    examples: messages that show labelled assets; name: that of the asset, where it is to be told.
+    name: that of the asset, told where the manner says so.
     """
     from meshforge.views import shots
 
@@ -56,7 +60,7 @@ def looks(
         taken = shots(mesh, hulls=group, most=how.pictures, size=how.size)
         parts = min(how.questions, len(taken))
         for part in range(parts):
-            yield from _asked(mesh, taken[part::parts], group, manner, examples, name)
+            yield from _asked(mesh, taken[part::parts], group, manner, name if manner.names else "")
 
 
 def _asked(
@@ -64,7 +68,6 @@ def _asked(
     shots: tuple[Shot, ...],
     group: Collection[str],
     manner: Manner,
-    examples: tuple[Message, ...],
     name: str,
 ) -> Iterator[Look]:
     """One question about what some pictures show, in all its repeats."""
@@ -77,7 +80,7 @@ def _asked(
     weights = {hull: clearness(count, manner.how.size) for hull, count in pixels.items()}
     limit = manner.room + _ENTRY * len(numbers)
     for repeat in range(manner.repeats):
-        messages = (instructions(manner, up_of(mesh), repeat), *examples, pictures)
+        messages = instructions(manner, up_of(mesh), repeat), pictures
         question = Question(messages, form(manner, repeat), limit, repeat=repeat)
         yield Look(question, {number: hull for hull, number in numbers.items()}, weights, repeat)
 

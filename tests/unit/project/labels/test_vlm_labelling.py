@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,9 @@ from hypothesis import HealthCheck, given
 from hypothesis import settings as trying
 from hypothesis import strategies as st
 
+from meshforge.batch import HERE, Spread
 from meshforge.errors import MeshForgeError, ProjectError, UsageError
-from meshforge.perception.vlm import Labeller
+from meshforge.perception import vlm
 from meshforge.project import Project, VlmLabelled
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
@@ -56,6 +57,30 @@ def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -
         assert [report.same for report in again.reports] == [6] * 4
         assert (again.bill.answered, again.bill.cost, len(server.asked)) == (0, 0.0, asked)
         assert project.labels("t001.obj").labels == before
+
+
+def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path: Path) -> None:
+    asked = []
+    for name, spread in (("here", HERE), ("workers", Spread(workers=2))):
+        project = family(tmp_path / name, 5)
+        (project.path("t003.obj")).write_text("f 1 2 3\n")
+        with serving(right) as server:
+            seen = project.forecast_vlm(settings(server), spread=spread)
+            assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
+            found = project.label_with_vlm(settings(server), spread=spread)
+            asked.append(sorted(one.raw for one, _, _ in server.asked))
+        assert [report.taken for report in found.reports] == [6, 6, 6, 0, 6]
+        assert "t003.obj" in found.reports[3].problems[0]
+        assert all(labels(project, asset) == truth(asset) for asset in project.assets() if asset != "t003.obj")
+    assert asked[0] == asked[1]
+
+
+def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
+    project = family(tmp_path, 3)
+    with serving(right) as server:
+        found = project.label_with_vlm(settings(server), spread=Spread(workers=1, timeout=0.001))
+    assert not server.asked
+    assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
 
 
 def lying(asked: Asked) -> str:
@@ -398,14 +423,14 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = family(tmp_path, 3)
-    real = Labeller.looks
+    real = vlm.looks
 
-    def looks(self: Labeller, mesh: SymbolicMesh, wanted: Any = None, name: str = "") -> Iterator[Any]:
+    def looks(mesh: SymbolicMesh, wanted: Sequence[str], manner: vlm.Manner, name: str) -> Iterator[vlm.Look]:
         if name == "t001.obj":
             raise ZeroDivisionError("no room for the picture")
-        return real(self, mesh, wanted, name)
+        return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(Labeller, "looks", looks)
+    monkeypatch.setattr(vlm, "looks", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))

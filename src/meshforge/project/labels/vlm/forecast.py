@@ -7,7 +7,9 @@ from contextlib import closing
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from meshforge.project.labels.vlm.labelling import examples_of, wanted_of
+from meshforge.batch import HERE, Spread
+from meshforge.project.labels.vlm.drawing import drawn
+from meshforge.project.labels.vlm.labelling import examples_of
 from meshforge.project.labels.vlm.settings import VlmSettings
 
 if TYPE_CHECKING:
@@ -45,10 +47,12 @@ def forecast(
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
     vocabulary: Sequence[str] | None = None,
+    spread: Spread = HERE,
 ) -> VlmForecast:
     """What `label_with_vlm` would send; questions that have to be asked again come on top of it.
 
-    progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's.
+    progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's;
+    spread: how the pictures are drawn.
     """
     from meshforge.perception.vlm import Client, Labeller, Usage, estimate
 
@@ -56,19 +60,18 @@ def forecast(
     client = Client(endpoint, project.layout.vlm, max_cost=settings.max_cost)
     assets = hulls = questions = known = pictures = 0
     usage, unreadable = Usage(), list[str]()
-    with closing(client), closing(Labeller(client, manner, examples_of(project, settings))) as labeller:
-        for asset in project.assets():
-            if stop and stop():
-                break
-            try:
-                mesh = project.mesh(asset)
-                wanted = wanted_of(mesh)
-                found = list(labeller.looks(mesh, wanted, asset))
-            except Exception:  # as of `label_with_vlm`, which says then what is wrong
+    with (
+        closing(client),
+        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
+        closing(drawn(project, manner, spread)) as drawings,
+    ):
+        while not (stop and stop()) and (next_one := next(drawings, None)):
+            asset, found = next_one
+            if found.error:  # `label_with_vlm` says then what is wrong
                 unreadable.append(asset)
                 continue
-            assets, hulls = assets + bool(wanted), hulls + len(wanted)
-            for look in found:
+            assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)
+            for look in map(labeller.shown, found.looks):
                 questions += 1
                 if client.known(look.question):
                     known += 1

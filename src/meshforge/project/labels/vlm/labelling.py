@@ -8,9 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.errors import UsageError, told
-from meshforge.project.labels.labelling import Labelled, digests
+from meshforge.batch import HERE, Spread
+from meshforge.errors import UsageError
+from meshforge.project.labels.labelling import Labelled
 from meshforge.project.labels.taking import Taker, gives_way
+from meshforge.project.labels.vlm.drawing import Drawn, drawn
 from meshforge.project.labels.vlm.settings import VlmSettings
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
@@ -44,29 +46,33 @@ def label_with_vlm(
     progress: Progress | None = None,
     stop: Callable[[], bool] | None = None,
     keeping: Keeping | None = None,
+    spread: Spread = HERE,
 ) -> VlmLabelled:
     """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
 
     progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: the block in
-    which all labels are written, in the end; None writes those of an asset as soon as all is said of it.
+    which all labels are written, in the end; None writes those of an asset as soon as all is said of it; spread: how
+    the pictures are drawn, while questions are asked from this process.
     Raises MeshForgeError where nothing could be asked at all.
     """
     from meshforge.perception.vlm import Client, Labeller
 
     manner = settings.manner(project.vocabulary)
     client = Client(settings.endpoint(), project.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
-    with closing(client), closing(Labeller(client, manner, examples_of(project, settings))) as labeller:
+    with (
+        closing(client),
+        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
+        closing(drawn(project, manner, spread)) as pictures,
+    ):
         run = _Run(project, client, labeller, keeping, progress)
-        for asset in project.assets():
-            if client.end or (stop and stop()):
-                break
-            run.begin(asset)
+        while not (client.end or (stop and stop())) and (found := next(pictures, None)):
+            run.begin(*found)
         run.finish()
     return run.told()
 
 
 class _Run:
-    """Assets on their way: drawn one after the other, asked about at one time, written as they are done."""
+    """Assets on their way: asked about at one time, written as they are done."""
 
     def __init__(
         self, project: Project, client: Client, labeller: Labeller, keeping: Keeping | None, progress: Progress | None
@@ -74,20 +80,18 @@ class _Run:
         self._project, self._client, self._labeller = project, client, labeller
         self._keeping, self._progress = keeping, progress
         self._taker = Taker(project)
-        self._pending: dict[str, tuple[SymbolicMesh, Pending]] = {}
+        self._pending: dict[str, tuple[Mapping[str, str], Pending]] = {}
         self._reports: dict[str, Labelled] = {}
         self._open: dict[str, Mapping[str, str]] = {}
         self._unwritten: list[Callable[[], None]] = []
 
-    def begin(self, asset: str) -> None:
-        """Draw an asset and ask about it; write those of which all is said by then."""
-        try:
-            mesh = self._project.mesh(asset)
-            self._pending[asset] = mesh, self._labeller.begin(mesh, wanted_of(mesh), asset)
-        except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-            self._reports[asset] = Labelled(asset, problems=(told(error, asset),))
+    def begin(self, asset: str, found: Drawn) -> None:
+        """Ask about an asset; write those of which all is said by then."""
+        if found.error:
+            self._reports[asset] = Labelled(asset, problems=(found.error,))
             self._advance()
             return
+        self._pending[asset] = found.hulls, self._labeller.ask(found.wanted, found.looks)
         for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
             self._write(done)
 
@@ -111,7 +115,7 @@ class _Run:
         return VlmLabelled(reports, bill, self._open, unasked, ended, self._client.is_blind)
 
     def _write(self, asset: str) -> None:
-        mesh, pending = self._pending.pop(asset)
+        hulls, pending = self._pending.pop(asset)
         said = pending.said()
         end = self._client.end
         failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
@@ -123,7 +127,7 @@ class _Run:
             _write_page(self._project.layout.vlm, asset, said)
 
         def write() -> None:
-            report = self._taker.take(asset, digests(mesh), said.labels, gives_way)
+            report = self._taker.take(asset, hulls, said.labels, gives_way)
             self._reports[asset] = replace(report, problems=(*report.problems, *failed))
 
         if self._keeping:
@@ -141,11 +145,6 @@ def _write_page(folder: Path, asset: str, said: Said) -> None:
     from meshforge.perception.vlm import write_page
 
     write_page(folder, asset, said)
-
-
-def wanted_of(mesh: SymbolicMesh) -> list[str]:
-    """The hulls whose labels may change."""
-    return [hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES]
 
 
 def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
