@@ -13,9 +13,10 @@ import lxml.html
 import pytest
 from PIL import Image
 
-from meshforge.batch import Failed, ReportAsset, Summary, Unchanged, write_report
+from meshforge.batch import Failed, Figures, ReportAsset, Summary, Unchanged, write_report
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
+from tests.unit.batch.pages import texts
 from tests.unit.views.scenes import box, hull, table
 
 PROGRAM = Program.parse(
@@ -60,10 +61,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.fixture(scope="module")
 def tree(page: str) -> Any:
     return lxml.html.document_fromstring(page, parser=lxml.html.HTMLParser(recover=False))
-
-
-def texts(tree: Any, path: str) -> list[str]:
-    return [" ".join(e.text_content().split()) for e in tree.xpath(path)]
 
 
 def cells(tree: Any, path: str) -> list[list[str]]:
@@ -121,7 +118,7 @@ def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: 
     summary = Summary()
     for k in range(5000):
         summary.add(Failed(f"bad{k}", "no", 0.0) if k < 2 else Unchanged(f"a{k}", "o", (), 3, 2, 0.0))
-    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), summary=summary))
+    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), figures=Figures.of_run(summary)))
     figures = dict(zip(texts(page, "//dl//dt"), texts(page, "//dl//dd"), strict=True))
     assert figures == {"assets": "5,000", "unchanged": "4,998", "failed": "2", "hulls": "14,994 → 9,996 −33 %"}
     assert "4 of 5,000 assets are shown, those that failed first." in texts(page, "//p")
