@@ -54,12 +54,14 @@ def _some(shown: int, figures: Figures) -> str:
 
 
 def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str, *, blamed: bool = False) -> Node:
-    """Each label with its colour, and its hulls before and after; blamed: whether hulls stand out for findings."""
+    """Each label with its colour, and its hulls before and after.
+
+    colors: empty where each hull has its own; blamed: whether hulls stand out for findings.
+    """
     known = [(a.before, a.after) for a in assets if a.before and a.after]
     before, after = (Counter(h.label for pair in known for h in pair[k].hulls) for k in (0, 1))
-    labels = (before.keys() | after.keys()) - {None}
-    entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items() if labels]
-    if not labels:
+    entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items()]
+    if not colors:
         entries.append(tag("li", tag("span", "nothing is labelled: each hull has its own colour")))
     elif before[None] or after[None]:
         entries.append(_entry("no label", unlabelled, before[None], after[None]))

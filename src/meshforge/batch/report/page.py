@@ -16,6 +16,7 @@ from meshforge.batch.report.program_panel import program_panel
 from meshforge.batch.report.tools import tools
 from meshforge.files import write_atomically
 from meshforge.language import Program
+from meshforge.symbolic import SymbolicMesh
 from meshforge.views import UNLABELLED, label_colors
 
 PICTURED = 120
@@ -48,9 +49,11 @@ def write_report(
     """
     if any(asset.checked for asset in assets):
         assets = sorted(assets, key=lambda asset: (not asset.broken, not asset.doubtful))
-    words = _words(vocabulary or (program.labels if program else ()), assets)
+    meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
+    labelled = bool(vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
+    words = _words(vocabulary or (program.labels if program else ()), meshes)
     colors = label_colors(words)
-    manner = Manner(tuple(words), by_label=bool(vocabulary), changes=changes)
+    manner = Manner(tuple(words), by_label=labelled, changes=changes)
     chosen, cards, drawn = _pictured(assets, pictured), list[Node](), list[Pictures]()
     for k, asset in enumerate(assets):
         shown = pictures(asset, manner) if k in chosen else None
@@ -65,8 +68,8 @@ def write_report(
         tag(
             "section",
             tag("h2", "Assets"),
-            legend(assets, colors, UNLABELLED, blamed=any(shown.blamed for shown in drawn))
-            if any(asset.before for asset in assets)
+            legend(assets, colors if labelled else {}, UNLABELLED, blamed=any(shown.blamed for shown in drawn))
+            if meshes
             else None,
             legend_of_changes(assets) if any(shown.changes for shown in drawn) else None,
             tools(assets, pairs=any(shown.after for shown in drawn), changes=any(shown.changes for shown in drawn)),
@@ -91,9 +94,8 @@ def _page(title: str, main: Node) -> Node:
     return tag("html", head, tag("body", main, tag("script", (own / "page.js").read_text("utf-8"))), lang="en")
 
 
-def _words(known: Sequence[str], assets: Sequence[ReportAsset]) -> list[str]:
+def _words(known: Sequence[str], meshes: Sequence[SymbolicMesh]) -> list[str]:
     """The known labels, then others of the meshes in order of the alphabet."""
-    meshes = [m for a in assets for m in (a.before, a.after) if m]
     others = {h.label for m in meshes for h in m.hulls if h.label} - set(known)
     return [*known, *sorted(others)]
 

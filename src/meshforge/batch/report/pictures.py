@@ -18,12 +18,15 @@ SIZE = (600, 450)
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How pictures are drawn. vocabulary: the order in which labels take their colours; by_label: in those also where
-    no hull has one; changes: whether with pictures of what became of each hull."""
+    """How pictures are drawn.
+
+    vocabulary: the order in which labels take their colours; by_label: whether hulls have those, else each its own;
+    changes: whether with pictures of what became of each hull.
+    """
 
     vocabulary: tuple[str, ...]
-    by_label: bool = False
-    changes: bool = True
+    by_label: bool
+    changes: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +47,7 @@ def pictures(asset: ReportAsset, manner: Manner) -> Pictures | None:
     before, after = asset.before, asset.after
     if before is None:
         return None
-    labelled = any(h.label for mesh in (before, after) if mesh for h in mesh.hulls)
-    color_by: ColorBy = "label" if labelled or manner.by_label else "hull"
+    color_by: ColorBy = "label" if manner.by_label else "hull"
     if after is None or after is before or asset.status == "unchanged" or not (before.hulls or after.hulls):
         blamed = _blamed(asset, before) if after is before else None
         image = render(
