@@ -21,7 +21,19 @@ from meshforge.batch.edit import inputs_of
 from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
 from meshforge.batch.outputs.lock import locked
 from meshforge.batch.outputs.stamp import Inputs, Stamp, read_stamp
-from meshforge.batch.report import ReportAsset, write_report
+from meshforge.batch.report import (
+    PATIENCE,
+    Chosen,
+    Figures,
+    Kept,
+    Labelling,
+    Reader,
+    ReportAsset,
+    Status,
+    read_again,
+    read_job,
+    write_report,
+)
 from meshforge.batch.summary import Summary
 from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
 from meshforge.batch.workers.pool import Lost, isolated
@@ -30,26 +42,33 @@ from meshforge.batch.workers.spread import HERE, TIMEOUT, Backend, Spread
 __all__ = [
     "HERE",
     "OWN_FOLDERS",
+    "PATIENCE",
     "SETTINGS",
     "STATE",
     "TIMEOUT",
     "AssetJob",
     "Backend",
+    "Chosen",
     "Correction",
     "Edited",
     "Examined",
     "Failed",
+    "Figures",
     "Found",
     "Inputs",
     "Journal",
+    "Kept",
+    "Labelling",
     "Lost",
     "Outcome",
     "Plan",
+    "Reader",
     "ReportAsset",
     "RuleLine",
     "Skipped",
     "Spread",
     "Stamp",
+    "Status",
     "Summary",
     "Task",
     "Unchanged",
@@ -73,6 +92,8 @@ __all__ = [
     "named_templates",
     "plan",
     "program_digest",
+    "read_again",
+    "read_job",
     "read_stamp",
     "read_template",
     "replay",

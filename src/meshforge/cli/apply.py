@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Failed, Outcome, Summary
+    from meshforge.batch import AssetJob, Failed, Outcome, Reader, Summary
     from meshforge.checks import Measures
     from meshforge.language import Program
-    from meshforge.symbolic import SymbolicMesh
 
 NOTHING = " (nothing was written)"
+NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
 
 
 def apply(
@@ -38,9 +38,7 @@ def apply(
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     dry_run: DryRun = False,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
-    report: Annotated[
-        Path | None, typer.Option("--report", help="An HTML page with pictures before and after, failures first.")
-    ] = None,
+    report: Report = None,
     check: Annotated[
         list[str] | None,
         typer.Option(
@@ -65,7 +63,7 @@ def apply(
     if measures and not report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if report and dry_run:
-        raise UsageError("with --dry-run there is nothing to show", remedy="Leave out --report.")
+        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
     if len(work.jobs) > 1:
         remark(str(plan(work.jobs, work.out)))
@@ -101,13 +99,13 @@ def _measures(names: Sequence[str]) -> Measures:
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """What is to be run on what. mesh: an asset by its id, before the run; demonstrated: those that somebody edited."""
+    """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited."""
 
     program: Program
     jobs: Sequence[AssetJob]
     out: Path
     run: Callable[..., Iterator[Outcome]]
-    mesh: Callable[[str], SymbolicMesh]
+    readers: Callable[[Iterable[str]], Sequence[Reader]]
     demonstrated: Collection[str] = ()
 
 
@@ -128,16 +126,15 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out
         jobs,
         out or project.layout.edited,
         partial(run, program, jobs, templates=templates),
-        project.mesh,
+        project.readers,
         frozenset(project.layout.kept_for("demonstrations")),
     )
 
 
 def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:
     from meshforge.batch import apply as run
-    from meshforge.batch import expand, jobs, load_templates, template_folders
+    from meshforge.batch import expand, jobs, load_templates, read_job, template_folders
     from meshforge.errors import UsageError
-    from meshforge.formats import load
     from meshforge.language import Program
 
     if not assets or out is None:
@@ -152,7 +149,7 @@ def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: 
         work,
         out,
         partial(run, program, work, templates=templates),
-        lambda asset: load(known[asset].path, labels=known[asset].labels),
+        lambda assets: [partial(read_job, known[asset]) for asset in assets],
     )
 
 
@@ -174,19 +171,16 @@ def told_failed(outcome: Failed) -> str:
 
 
 def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, measures: Measures | None) -> None:
-    from meshforge.batch import write_report
+    from meshforge.batch import Figures
     from meshforge.cli.compared import compared
-    from meshforge.cli.output import progress, remark
+    from meshforge.cli.report import report
 
-    with progress(len(summary.shown), "drawing") as advance:
-        assets = list(compared(summary.shown, work.program, work.mesh, work.demonstrated, measures))
-        write_report(
-            path,
-            title=work.out.resolve().name,
-            program=work.program,
-            assets=assets,
-            seconds=seconds,
-            summary=summary,
-            progress=advance,
-        )
-    remark(f"report: {path}")
+    readers = work.readers(outcome.asset for outcome in summary.shown)
+    report(
+        path,
+        list(compared(summary.shown, work.program, readers, work.demonstrated, measures)),
+        title=work.out.resolve().name,
+        program=work.program,
+        figures=Figures.of_run(summary),
+        seconds=seconds,
+    )

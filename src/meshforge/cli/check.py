@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Timeout, Workers, spread_of
+from meshforge.cli.check_report import CheckReport, told_changes
+from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Report, Timeout, Workers, spread_of
 
 if TYPE_CHECKING:
     from meshforge.batch import Examined, Journal
@@ -60,6 +61,7 @@ def check(
             "has changed.",
         ),
     ] = None,
+    report: Report = None,
     labels: Labels = None,
     workers: Workers = None,
     backend: Backend = "local",
@@ -72,6 +74,8 @@ def check(
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
+    from time import perf_counter
+
     from meshforge.batch import Wanted, examine_all, expand, jobs, journal, plan
     from meshforge.checks import Measures
     from meshforge.cli.output import print_json, progress, remark
@@ -90,7 +94,7 @@ def check(
         remark(str(plan(work, out)))
     if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
-    failed = 0
+    failed, page, started = 0, CheckReport() if report else None, perf_counter()
     spread = spread_of(workers, timeout, memory, backend)
     with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
         known = book.seen if book else {}
@@ -98,12 +102,17 @@ def check(
         for job, examined in zip(work, results, strict=True):
             row = _row(book, job.id, examined)
             failed += row["failed"]
+            if page:
+                page.add(job, examined, row)
             if json:
                 print_json(row["found"], compact=True)
             else:
                 typer.echo(row["said"])
     if not json and len(work) > _FEW:
         typer.echo(f"{counted(len(work), 'asset')}, {failed:,} with errors")
+    if report and page:
+        name = work[0].id if len(work) == 1 else work[0].base.name
+        page.write(report, f"Checks of {name}", wanted.measures, perf_counter() - started)
     raise typer.Exit(int(failed > 0))
 
 
@@ -121,21 +130,29 @@ def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[st
     if examined is None:
         assert book is not None
         return book.row(asset)
-    row = {"failed": examined.failed, "found": examined.to_json(), "said": _said(examined)}
+    row = {
+        "failed": examined.failed,
+        "found": examined.to_json(),
+        "said": _said(examined),
+        "told": list(_told(examined)),
+    }
     if book and examined.seen:
         book.add(asset, examined.seen, row)
     return row
 
 
 def _said(examined: Examined) -> str:
-    path, found, fixed = examined.path, examined.found, examined.fixed
+    path, found = examined.path, examined.found
     if found is None:
         return f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  ")
-    lines = []
-    if fixed:
-        lines += [*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}"]
-    lines += [*found.told, *(f"wrote {picture}" for picture in examined.pictures)]
+    lines = [*_told(examined)]
     for finding in found.findings:
         lines.append(f"{finding.severity}: {finding.message}")
         lines += [f"  {finding.remedy}"] if finding.remedy else []
     return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
+
+
+def _told(examined: Examined) -> tuple[str, ...]:
+    """What was mended, measured and written, a sentence each."""
+    measured = examined.found.told if examined.found else ()
+    return (*told_changes(examined), *measured, *(f"wrote {picture}" for picture in examined.pictures))

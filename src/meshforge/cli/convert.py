@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.apply import NOTHING, told_failed
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Timeout, Workers
+from meshforge.cli.apply import NOTHING, NOTHING_TO_SHOW, told_failed
+from meshforge.cli.convert_report import write_convert_report
+from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
 
 if TYPE_CHECKING:
     from meshforge.asset import Feature
@@ -37,6 +38,7 @@ def convert(
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False,
     dry_run: DryRun = False,
+    report: Report = None,
     workers: Workers = None,
     backend: Backend = "local",
     timeout: Timeout = None,
@@ -58,14 +60,18 @@ def convert(
     if to is None:
         if dry_run:
             raise UsageError("--dry-run is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --dry-run")
+        if report:
+            raise UsageError("--report is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --report FILE")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
         return _one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
+    if report and dry_run:
+        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     if overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     options = {"names": names, "link": link, "dry_run": dry_run, "workers": workers, "backend": backend}
     bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    _many(sources, Path(out), _suffix(to), labels, {**options, **bounds}, json=json)
+    _many(sources, Path(out), _suffix(to), labels, {**options, **bounds}, report, json=json)
     return None
 
 
@@ -87,15 +93,18 @@ def _many(
     suffix: str,
     labels: Path | None,
     options: Mapping[str, Any],
+    report: Path | None,
     *,
     json: bool,
 ) -> None:
+    from time import perf_counter
+
     from meshforge.batch import Summary, apply, expand, json_line, plan
     from meshforge.batch import jobs as jobs_of
     from meshforge.cli.output import print_json, progress, remark
     from meshforge.language import Program
 
-    jobs, summary = jobs_of(expand(sources), labels), Summary()
+    jobs, summary, started = jobs_of(expand(sources), labels), Summary(), perf_counter()
     if len(jobs) > 1:
         remark(str(plan(jobs, out)))
     with progress(len(jobs), "converting") as advance:
@@ -107,6 +116,8 @@ def _many(
                 typer.echo(_told(outcome))
     if not json:
         typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING * options["dry_run"])
+    if report:
+        write_convert_report(report, out, suffix, jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 

@@ -65,7 +65,7 @@ def _run_through(out: Path, workers: int | None) -> None:
     with progress(len(project.assets()), "editing") as advance:
         outcomes = list(project.apply(workers=workers, progress=advance))
     seconds = perf_counter() - started
-    assets = list(compared(outcomes, program, project.mesh, shown))
+    assets = list(compared(outcomes, program, project.readers(o.asset for o in outcomes), shown))
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."

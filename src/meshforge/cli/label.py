@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Backend, Json, Memory, Timeout, Workers, spread_of
+from meshforge.cli.options import Backend, Json, Memory, Report, Timeout, Workers, spread_of
 
 
 def label(
@@ -77,6 +77,7 @@ def label(
         bool,
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
     ] = False,
+    report: Report = None,
     workers: Workers = None,
     backend: Backend = "local",
     timeout: Timeout = None,
@@ -89,6 +90,8 @@ def label(
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
     from meshforge.cli import label_given, label_proposals, label_vlm
+    from meshforge.cli.apply import NOTHING_TO_SHOW
+    from meshforge.cli.label_report import LabelReport
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
@@ -100,6 +103,8 @@ def label(
     spread = spread_of(workers, timeout, memory, backend)
     given = label_proposals.GivenOptions(pattern or (), classes, align, points_up)
     given.refuse_for(source)
+    if report and dry_run:
+        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     opened = Project.open(project)
     words = [word.strip() for word in vocabulary.split(",") if word.strip()] if vocabulary else None
     if dry_run and source == "vlm":
@@ -110,8 +115,9 @@ def label(
         return
     if words is not None:
         opened.set_vocabulary(words)
+    page = LabelReport(report, source) if report else None
     if source == "vlm":
-        failed = label_vlm.label(opened, options, spread, sheets, json=json)
+        failed = label_vlm.label(opened, options, spread, sheets, page, json=json)
     else:
-        failed = label_given.label(opened, source, labels, given, spread, sheets, json=json)
+        failed = label_given.label(opened, source, labels, given, spread, sheets, page, json=json)
     raise typer.Exit(int(failed))

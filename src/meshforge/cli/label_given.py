@@ -11,24 +11,29 @@ import typer
 if TYPE_CHECKING:
     from meshforge.batch import Spread
     from meshforge.cli.label_proposals import GivenOptions
+    from meshforge.cli.label_report import LabelReport
     from meshforge.project import Labelled, Project
 
 
 class Telling:
-    """Prints what became of each asset; failed: whether any labels could not be taken."""
+    """Prints what became of each asset; page: the report that takes it, too; failed: whether any labels could not be
+    taken."""
 
-    def __init__(self, *, json: bool) -> None:
+    def __init__(self, page: LabelReport | None = None, *, json: bool) -> None:
         self._json = json
+        self._page = page
         self.failed = False
 
     def __call__(self, report: Labelled, more: dict[str, Any] | None = None) -> None:
         from meshforge.cli.output import print_json
 
         self.failed |= bool(report.problems)
+        if self._page:
+            self._page.add(report)
         if self._json:
             print_json(asdict(report) | (more or {}), compact=True)
             return
-        typer.echo(f"{report.asset}: {_told(report)}")
+        typer.echo(f"{report.asset}: {told(report)}")
         for problem in report.problems:
             typer.echo("    left out: " + problem.replace("\n", "\n    "))
 
@@ -40,6 +45,7 @@ def label(
     given: GivenOptions,
     spread: Spread,
     sheets: Path | None,
+    page: LabelReport | None,
     *,
     json: bool,
 ) -> bool:
@@ -49,9 +55,9 @@ def label(
 
     if len(project.assets()) > 1:
         remark(project.plan_labels())
-    telling = Telling(json=json)
+    telling = Telling(page, json=json)
     closing = _labelled(project, source, labels, given, spread, telling)
-    summarise(project, sheets, json=json)
+    summarise(project, sheets, page, json=json)
     if closing and not json:
         typer.echo(closing)
     return telling.failed
@@ -81,7 +87,8 @@ def _labelled(
     return f"{counted(bare, 'asset')} without a labels file" if bare else ""
 
 
-def _told(report: Labelled) -> str:
+def told(report: Labelled) -> str:
+    """What became of the labels of an asset."""
     from meshforge.words import counted
 
     parts = [f"{counted(report.taken, 'label')} taken"]

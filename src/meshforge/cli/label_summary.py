@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from meshforge.cli.label_report import LabelReport
     from meshforge.project import Project, Tally
 
 _SHOWN = 24
@@ -24,22 +26,30 @@ _SAID = {
 }
 
 
-def summarise(project: Project, sheets: Path | None, *, json: bool) -> None:
-    """Print how many labels there are, and write contact sheets; sheets: a folder for those of all assets."""
+def summarise(project: Project, sheets: Path | None, page: LabelReport | None, *, json: bool) -> None:
+    """Print how many labels there are, and write contact sheets; sheets: a folder for those of all assets.
+
+    page: a report that is to be written, too.
+    """
     from meshforge.cli.output import print_json, progress
 
     found = project.tally_labels()
     folder = sheets or project.folder / "pictures"
-    first = [asset for asset, _ in found.doubtful]
-    order = [*first, *(asset for asset in project.assets() if asset not in set(first))]
+    order = list(dict.fromkeys([*(asset for asset, _ in found.doubtful), *project.assets()]))
     shown = project.assets() if sheets else order[:_SHOWN]
     with progress(len(shown), "drawing") as advance:
         written = project.draw_labels(folder, shown, advance)
+    some = "" if len(shown) == len(project.assets()) else f", the {len(shown)} assets with most that is in doubt"
     if json:
         print_json({"labels": asdict(found), "sheets": [str(path) for path in written]}, compact=True)
-        return
+    else:
+        _say(found, written, some)
+    if page:
+        page.write(project, found)
+
+
+def _say(found: Tally, written: Sequence[Path], some: str) -> None:
     _print(found)
-    some = "" if len(shown) == len(project.assets()) else f", the {len(shown)} assets with most that is in doubt"
     for path in written[:1]:
         more = f" and {len(written) - 1} more" if len(written) > 1 else ""
         typer.echo(f"pictures: {path}{more}{some}")

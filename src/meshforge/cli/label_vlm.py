@@ -14,6 +14,7 @@ import typer
 
 if TYPE_CHECKING:
     from meshforge.batch import Spread
+    from meshforge.cli.label_report import LabelReport
     from meshforge.perception.vlm import Bill
     from meshforge.project import Project, VlmForecast, VlmLabelled, VlmSettings
 
@@ -67,17 +68,25 @@ def foretell(
         _say_forecast(found)
 
 
-def label(project: Project, options: VlmOptions, spread: Spread, sheets: Path | None, *, json: bool) -> bool:
+def label(
+    project: Project, options: VlmOptions, spread: Spread, sheets: Path | None, page: LabelReport | None, *, json: bool
+) -> bool:
     """Label a project, and say what came of it; whether some labels could not be taken, or it ended early."""
     from meshforge.cli.label_given import Telling
     from meshforge.cli.label_summary import summarise
 
-    found, telling = _asked(project, options, spread), Telling(json=json)
+    found, telling = _asked(project, options, spread), Telling(page, json=json)
     for report in found.reports:
         telling(report, {"open": found.open.get(report.asset, {})})
+        lines = _open(found, report.asset)
         if not json:
-            _say_open(found, report.asset)
-    summarise(project, sheets, json=json)
+            typer.echo("".join(f"    {line}\n" for line in lines), nl=False)
+        if page:
+            page.note(report.asset, lines)
+    if page and found.ended:
+        why = ". ".join(line.strip(" .") for line in found.ended.splitlines())
+        page.remark(f"The asking ended early: {why}.")
+    summarise(project, sheets, page, json=json)
     _close(project, found, json=json)
     return telling.failed or bool(found.ended)
 
@@ -113,15 +122,14 @@ def _said_at(stop: Callable[[], bool], text: str) -> Iterator[None]:
         over.set()
 
 
-def _say_open(found: VlmLabelled, asset: str) -> None:
-    """Name the hulls of an asset that got no label, by why."""
+def _open(found: VlmLabelled, asset: str) -> list[str]:
+    """The hulls of an asset that got no label, by why."""
     from meshforge.words import listed
 
     by_reason: dict[str, list[str]] = defaultdict(list)
     for hull, why in found.open.get(asset, {}).items():
         by_reason[why].append(hull)
-    for why, hulls in by_reason.items():
-        typer.echo(f"    no label: {listed(hulls, _SHOWN)} ({why})")
+    return [f"no label: {listed(hulls, _SHOWN)} ({why})" for why, hulls in by_reason.items()]
 
 
 def _close(project: Project, found: VlmLabelled, *, json: bool) -> None:

@@ -29,6 +29,9 @@ Labels = Annotated[
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
+Report = Annotated[
+    Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")
+]
 Backend = Annotated[
     Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
 ]

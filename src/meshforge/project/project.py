@@ -179,6 +179,10 @@ class Project:
         """The same with their ids, of some assets only."""
         return reading.named_meshes(self, self.assets() if assets is None else tuple(assets))
 
+    def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
+        """What reads each of some assets as `mesh` does, in this process or another."""
+        return tuple(place.mesh for place in reading.places(self, assets))
+
     # Preparation
 
     def preparation(self, asset: str) -> Preparation:

@@ -6,7 +6,7 @@ from meshforge.views.compare import before_after, compare, difference, joint_bou
 from meshforge.views.encode import png, webp, write_png
 from meshforge.views.heat import heat
 from meshforge.views.labelling import Shot, numbers, shots
-from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, UNLABELLED, label_color
+from meshforge.views.palette import DIFFERENCE_COLORS, LABEL_COLORS, SELECTED, UNLABELLED, label_color
 from meshforge.views.picture import render
 from meshforge.views.roundness import Skin, skin
 from meshforge.views.sheet import sheet
@@ -18,6 +18,7 @@ __all__ = [
     "COLOR_BY",
     "DIFFERENCE_COLORS",
     "LABEL_COLORS",
+    "SELECTED",
     "UNLABELLED",
     "UNSURE",
     "VIEWS",

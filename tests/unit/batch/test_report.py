@@ -13,9 +13,11 @@ import lxml.html
 import pytest
 from PIL import Image
 
-from meshforge.batch import Failed, ReportAsset, Summary, Unchanged, write_report
+from meshforge.batch import Failed, Figures, Kept, ReportAsset, Summary, Unchanged, write_report
+from meshforge.checks import Finding
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
+from tests.unit.batch.pages import opened, texts
 from tests.unit.views.scenes import box, hull, table
 
 PROGRAM = Program.parse(
@@ -60,10 +62,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.fixture(scope="module")
 def tree(page: str) -> Any:
     return lxml.html.document_fromstring(page, parser=lxml.html.HTMLParser(recover=False))
-
-
-def texts(tree: Any, path: str) -> list[str]:
-    return [" ".join(e.text_content().split()) for e in tree.xpath(path)]
 
 
 def cells(tree: Any, path: str) -> list[list[str]]:
@@ -121,7 +119,7 @@ def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: 
     summary = Summary()
     for k in range(5000):
         summary.add(Failed(f"bad{k}", "no", 0.0) if k < 2 else Unchanged(f"a{k}", "o", (), 3, 2, 0.0))
-    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), summary=summary))
+    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), figures=Figures.of_run(summary)))
     figures = dict(zip(texts(page, "//dl//dt"), texts(page, "//dl//dd"), strict=True))
     assert figures == {"assets": "5,000", "unchanged": "4,998", "failed": "2", "hulls": "14,994 → 9,996 −33 %"}
     assert "4 of 5,000 assets are shown, those that failed first." in texts(page, "//p")
@@ -137,6 +135,45 @@ def test_without_labels_the_legend_says_so(tmp_path: Path) -> None:
     mesh = SymbolicMesh(table().hulls[4:])
     tree: Any = lxml.html.document_fromstring(written(tmp_path, [ReportAsset("a", mesh, mesh)], pictured=0))
     assert texts(tree, "//ul[@class='legend']/li") == ["nothing is labelled: each hull has its own colour"]
+
+
+def test_of_a_page_about_labels_the_legend_has_them_though_no_hull_does(tmp_path: Path) -> None:
+    mesh = SymbolicMesh((hull("a", box((0, 0, 0), (1, 1, 1))),))
+    written(tmp_path, [ReportAsset("a", mesh, mesh, (), "doubtful")], vocabulary=("leg",), pictured=0)
+    assert texts(opened(tmp_path / "report.html"), "//ul[@class='legend']/li") == ["leg 0", "no label 1"]
+
+
+def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: Path) -> None:
+    mesh = table()
+    write_report(tmp_path / "r.html", title="Checks", assets=[ReportAsset("a", mesh, mesh, (), "clean")])
+    page = opened(tmp_path / "r.html")
+    assert page.xpath("//*[@id='program' or @id='every' or @id='modes']") == []
+    assert texts(page, "//h2") == ["Assets"] and page.xpath("//article//img/@class") == ["only"]
+    assert texts(page, "//span[@id='kinds']/button") == ["all", "clean"]
+
+
+def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
+    mesh, shown = table(), []
+    for hulls in ((), (mesh.hulls[0].name,), tuple(mesh.index)):
+        found = Kept((Finding("odd", "warning", hulls, "odd", "Mend it."),), ())
+        asset = ReportAsset("a", mesh, mesh, (), "warnings", checked=found)
+        write_report(tmp_path / "r.html", title="Checks", assets=[asset])
+        page = opened(tmp_path / "r.html")
+        told = "named by a finding, the rest pale" in texts(page, "//ul[@class='legend']/li")
+        shown.append((page.xpath("//img/@src")[0], told))
+    assert [told for _, told in shown] == [False, True, False]  # where all are named, none would stand out
+    assert shown[0][0] == shown[2][0] != shown[1][0]
+
+
+def test_long_lists_of_notes_and_findings_are_cut_and_counted(tmp_path: Path) -> None:
+    mesh = SymbolicMesh(table().hulls[:1])
+    found = Kept(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)), ())
+    notes = tuple(f"note {k}" for k in range(9))
+    asset = ReportAsset("a", mesh, mesh, (), "warnings", notes=notes, checked=found)
+    write_report(tmp_path / "r.html", title="Checks", assets=[asset], pictured=0)
+    page = opened(tmp_path / "r.html")
+    assert texts(page, "//article/p") == list(notes[:6]) and texts(page, "//summary")[0] == "and 3 more"
+    assert texts(page, "//ul[@class='findings']/li")[39:] == ["warning odd 39 Mend it.", "and 10 more"]
 
 
 def test_what_each_rule_did_to_an_asset_is_listed(tree: Any) -> None:

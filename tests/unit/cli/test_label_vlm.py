@@ -16,6 +16,7 @@ import pytest
 
 from meshforge.project import Project
 from tests.loopback import KEY, Asked, Server, labels_as_json, serving
+from tests.unit.batch.pages import kinds, names, opened, texts
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.labels.vlm_family import VARIABLE, family, right, truth
 
@@ -80,6 +81,18 @@ def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server)
     }
     assert lines[-1]["bill"]["answered"] == 5
     assert (lines[-1]["ended"], lines[-1]["unasked"], lines[-1]["blind"]) == (None, [], False)
+
+
+def test_the_report_tells_why_hulls_got_no_label(run: Run, server: Server) -> None:
+    run("label", "p", "--with", "vlm", "--report", "r.html")
+    page = opened("r.html")
+    assert names(page) == ["t002.obj", "t000.obj", "t001.obj"] and kinds(page)[0] == "doubtful"
+    assert texts(page, "//article[1]/p") == [
+        "4 labels taken, 2 hulls without a label",
+        "no label: top (the model does not know)",
+        "no label: left_low (the model said wheel, which is no label)",
+    ]
+    assert texts(page, "//header/p")[0].startswith("Labels by a vision-language model.")
 
 
 def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: Server, tmp_path: Path) -> None:
@@ -158,7 +171,8 @@ def test_ctrl_c_waits_for_what_is_under_way_and_the_next_run_goes_on(server: Ser
     settings = tmp_path / "p/meshforge.toml"
     settings.write_text(settings.read_text() + "concurrency = 1\n")
     words = [sys.executable, "-c", _RUN, "label", "p", "--with", "vlm"]
-    first = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    shown = [*words, "--report", "r.html"]
+    first = subprocess.Popen(shown, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     while not server.answered and first.poll() is None:
         time.sleep(0.01)
     time.sleep(0.1)  # the second question is under way
@@ -169,6 +183,7 @@ def test_ctrl_c_waits_for_what_is_under_way_and_the_next_run_goes_on(server: Ser
     assert "stopping: waiting for the answers that are under way" in err
     assert "The asking ended early: stopped" in err
     assert "t000.obj: 6 labels taken" in out
+    assert "The asking ended early: stopped." in texts(opened(tmp_path / "r.html"), "//header/p")[0]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, env=os.environ, check=True)
     assert "Traceback" not in done.stderr
     assert max(Counter(asked.raw for asked in server.answered).values()) == 1

@@ -45,11 +45,12 @@ class Plan:
         return f"{counted(self.count, 'asset')} ({kinds}; {size_text(self.size)}), {self.labelled:,} with labels"
 
     def __str__(self) -> str:
-        told = [self.assets]
+        if self.out is None:
+            return self.assets
         known = (
             f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
         )
-        told.append(f"into {self.out}{known}; {size_text(self.free)} free")
+        told = [self.assets, f"into {self.out}{known}; {size_text(self.free)} free"]
         if self.is_tight:
             told.append("the disk may be too small for all of it; a run that this stops goes on when there is room")
         return "\n".join(told)

@@ -5,21 +5,40 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from meshforge.checks import Examination
+from meshforge.checks import Examination, Finding
 from meshforge.language import RuleTrace
 from meshforge.symbolic import SymbolicMesh
 
-Status = Literal["edited", "unchanged", "failed", "skipped"]
+Edit = Literal["edited", "unchanged", "written", "skipped", "failed"]
+"""What a program or a conversion made of an asset."""
+Check = Literal["clean", "warnings", "errors", "failed"]
+"""What checks found of one; failed: it could not be checked, or not be written."""
+Labelling = Literal["labelled", "doubtful", "problems"]
+"""How the labels of one are: of all hulls, lacking or unsure for some, or not all to be taken."""
+Status = Edit | Check | Labelling
+ORDINARY: frozenset[Status] = frozenset({"edited", "written", "clean", "labelled"})
+"""What is expected of an asset, so that its card does not say it."""
+BROKEN: frozenset[Status] = frozenset({"failed", "errors", "problems"})
+REMARKABLE = BROKEN | {"warnings", "doubtful"}
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """What is kept of an earlier examination: findings, and sentences about what was measured."""
+
+    findings: tuple[Finding, ...]
+    told: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReportAsset:
     """One asset of a batch.
 
-    before: None where the file could not be read; after: None where the program could not run on it.
+    before: None where the file could not be read; after: None where the program could not run on it, `before` itself
+    where nothing was to be changed.
     trace: of every rule; error: the whole message of a failed asset; demonstrated: whether a person edited it.
-    notes: what the format had to write in another form; checked: what was measured of it after, where that was asked
-    for.
+    notes: what else there is to say, as what the format had to write in another form; checked: what was measured of it
+    after, where that was asked for.
     """
 
     name: str
@@ -30,7 +49,7 @@ class ReportAsset:
     error: str | None = None
     demonstrated: bool = False
     notes: tuple[str, ...] = ()
-    checked: Examination | None = None
+    checked: Examination | Kept | None = None
 
     @property
     def counts(self) -> tuple[int, int] | None:
@@ -46,4 +65,11 @@ class ReportAsset:
     def broken(self) -> bool:
         """Whether it failed, or an error was found when it was checked."""
         errors = self.checked and any(finding.severity == "error" for finding in self.checked.findings)
-        return self.status == "failed" or bool(errors)
+        return self.status in BROKEN or bool(errors)
+
+    @property
+    def blamed(self) -> frozenset[str]:
+        """The hulls that findings name: those of errors, where there are any."""
+        found = self.checked.findings if self.checked else ()
+        errors = [finding for finding in found if finding.severity == "error"]
+        return frozenset(hull for finding in errors or found for hull in finding.hulls)

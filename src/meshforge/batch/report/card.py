@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from meshforge.batch.report.asset import ReportAsset
+from meshforge.batch.report.asset import ORDINARY, ReportAsset
 from meshforge.batch.report.checked import checked
 from meshforge.batch.report.code import colored
 from meshforge.batch.report.html import Child, Node, tag
@@ -14,9 +14,10 @@ from meshforge.language import Program, RuleTrace, show
 from meshforge.words import counted, listed
 
 _NAMES = 60  # of hulls in one cell of the table; the rest is counted
+_SAID = 6  # notes that are shown at once
 
 
-def card(asset: ReportAsset, program: Program, pictures: Pictures | None, colors: Mapping[str, str]) -> Node:
+def card(asset: ReportAsset, program: Program | None, pictures: Pictures | None, colors: Mapping[str, str]) -> Node:
     """The article about one asset; colors: of the labels."""
     marks = [word for word, holds in (("demonstrated", asset.demonstrated), ("doubtful", asset.doubtful)) if holds]
     return tag(
@@ -24,7 +25,7 @@ def card(asset: ReportAsset, program: Program, pictures: Pictures | None, colors
         tag("h3", tag("span", tag("bdi", asset.name), title=asset.name), *_badges(asset)),
         _stage(asset, pictures) if pictures else None,
         tag("p", asset.error, class_="error") if asset.error else None,
-        *(tag("p", note, class_="note") for note in asset.notes),
+        *_notes(asset.notes),
         checked(asset, pictures is not None),
         _details(asset, program, colors),
         class_="asset",
@@ -37,7 +38,7 @@ def _badges(asset: ReportAsset) -> list[Child]:
     badges: list[Child] = [_count(asset)]
     if asset.demonstrated:
         badges.append(tag("b", "demonstrated", class_="demonstrated", title="A person showed the edit on this asset"))
-    if asset.status != "edited":
+    if asset.status not in ORDINARY:
         badges.append(tag("b", asset.status, class_=asset.status))
     return badges
 
@@ -49,6 +50,14 @@ def _count(asset: ReportAsset) -> Child:
     if before == after:
         return tag("em", counted(before, "hull"))
     return tag("em", f"{before} → {counted(after, 'hull')} ", tag("small", change(before, after)))
+
+
+def _notes(notes: Sequence[str]) -> list[Node]:
+    """What there is to say; of very much the first, and the rest where one opens it."""
+    rows = [tag("p", note, class_="note") for note in notes]
+    if len(rows) <= _SAID:
+        return rows
+    return [*rows[:_SAID], tag("details", tag("summary", f"and {len(rows) - _SAID:,} more"), *rows[_SAID:])]
 
 
 def _stage(asset: ReportAsset, pictures: Pictures) -> Node:
@@ -78,7 +87,7 @@ def _image(source: str, text: str, kind: str) -> Node:
     return tag("img", src=source, alt=text, width=width, height=height, class_=kind, loading="lazy")
 
 
-def _details(asset: ReportAsset, program: Program, colors: Mapping[str, str]) -> Child:
+def _details(asset: ReportAsset, program: Program | None, colors: Mapping[str, str]) -> Child:
     if not asset.trace:
         return None
     head = tag("tr", *(tag("th", name, scope="col") for name in ("", "rule", "selected", "made")))
@@ -88,8 +97,8 @@ def _details(asset: ReportAsset, program: Program, colors: Mapping[str, str]) ->
     return tag("details", summary, tag("table", tag("thead", head), tag("tbody", *rows)))
 
 
-def _row(trace: RuleTrace, program: Program, colors: Mapping[str, str]) -> Node:
-    rule = program.rules[trace.rule - 1] if trace.rule <= len(program.rules) else None
+def _row(trace: RuleTrace, program: Program | None, colors: Mapping[str, str]) -> Node:
+    rule = program.rules[trace.rule - 1] if program and trace.rule <= len(program.rules) else None
     code = tag("code", *colored(show(rule), colors)) if rule else None
     text = tag("td", code, tag("p", trace.note) if trace.note and trace.selected else None)
     return tag(

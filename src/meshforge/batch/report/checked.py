@@ -5,10 +5,11 @@ from __future__ import annotations
 from meshforge.batch.report.asset import ReportAsset
 from meshforge.batch.report.html import Child, Node, tag
 from meshforge.batch.report.pictures import address
-from meshforge.checks import Finding, pictures
+from meshforge.checks import Examination, Finding, pictures
 from meshforge.words import counted
 
 SIZE = (420, 315)
+_FINDINGS = 40  # of one asset that are listed, errors first
 
 
 def checked(asset: ReportAsset, pictured: bool) -> Child:
@@ -19,7 +20,9 @@ def checked(asset: ReportAsset, pictured: bool) -> Child:
     errors = [f for f in found.findings if f.severity == "error"]
     warnings = [f for f in found.findings if f.severity != "error"]
     counts = f"{counted(len(errors), 'error')}, {counted(len(warnings), 'warning')}"
-    rows = [_row(finding) for finding in (*errors, *warnings)]
+    rows = [_row(finding) for finding in (*errors, *warnings)[:_FINDINGS]]
+    if len(found.findings) > _FINDINGS:
+        rows.append(tag("li", f"and {len(found.findings) - _FINDINGS:,} more"))
     return tag(
         "details",
         tag("summary", f"checks: {counts}" if found.findings else "checks: all is well"),
@@ -27,7 +30,7 @@ def checked(asset: ReportAsset, pictured: bool) -> Child:
         tag("ul", *rows, class_="findings") if rows else None,
         *(_pictures(asset) if pictured else ()),
         class_="checks",
-        open=bool(errors),
+        open=bool(errors) or asset.status == "warnings",
     )
 
 
@@ -38,7 +41,7 @@ def _row(finding: Finding) -> Node:
 
 def _pictures(asset: ReportAsset) -> list[Node]:
     mesh = asset.after or asset.before
-    if mesh is None or asset.checked is None:
+    if mesh is None or not isinstance(asset.checked, Examination):
         return []
     return [_figure(asset.name, words, address(image)) for _, words, image in pictures(mesh, asset.checked, SIZE)]
 

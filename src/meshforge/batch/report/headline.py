@@ -5,57 +5,73 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from meshforge.batch.report.asset import ReportAsset, Status
+from meshforge.batch.report.asset import REMARKABLE, ReportAsset, Status
+from meshforge.batch.report.figures import Figures
 from meshforge.batch.report.html import Node, tag
-from meshforge.batch.report.words import change, duration
-from meshforge.batch.summary import Summary
-from meshforge.views import DIFFERENCE_COLORS, UNSURE
+from meshforge.batch.report.words import duration
+from meshforge.views import DIFFERENCE_COLORS, SELECTED, UNSURE
 
-STATUSES: tuple[Status, ...] = ("edited", "unchanged", "skipped", "failed")
+STATUSES: tuple[Status, ...] = (
+    "edited",
+    "unchanged",
+    "written",
+    "skipped",
+    "labelled",
+    "clean",
+    "doubtful",
+    "warnings",
+    "problems",
+    "errors",
+    "failed",
+)
+"""In the order of the page."""
 
 
-def headline(
-    title: str, assets: Sequence[ReportAsset], seconds: float | None, about: str | None, summary: Summary | None = None
-) -> Node:
-    """Title and figures; summary: of the whole run, where only some of its assets are on the page."""
-    found: Counter[Status] = summary.counts if summary else Counter(a.status for a in assets)
-    figures = [_figure("assets", f"{found.total():,}")]
-    figures += [_figure(s, f"{found[s]:,}", s) for s in STATUSES if found[s]]
-    known = [a.counts for a in assets if a.counts]
-    before, after = (summary.before, summary.after) if summary else (sum(c[k] for c in known) for k in (0, 1))
-    if before or after:
-        figures.append(_figure("hulls", f"{before:,} → {after:,}", extra=change(before, after)))
+def headline(title: str, figures: Figures, shown: int, seconds: float | None, about: str | None) -> Node:
+    """Title and figures of a run; shown: how many of its assets are on the page; seconds: that it took."""
+    counts = figures.counts
+    rows = [_figure("assets", f"{figures.total:,}")]
+    rows += [_figure(s, f"{counts[s]:,}", s) for s in STATUSES if counts.get(s)]
+    rows += [_figure(name, value, extra=extra) for name, (value, extra) in figures.more.items()]
     if seconds is not None:
-        figures.append(_figure("run time", duration(seconds)))
-    parts = [tag("i", class_=s, style=f"flex:{found[s]}") for s in STATUSES if found[s]]
+        rows.append(_figure("run time", duration(seconds)))
+    parts = [tag("i", class_=s, style=f"flex:{counts[s]}") for s in STATUSES if counts.get(s)]
     return tag(
         "header",
         tag("h1", title),
         tag("p", about, class_="about") if about else None,
-        tag("p", _some(len(assets), found), class_="about") if len(assets) < found.total() else None,
-        tag("dl", *figures, class_="figures"),
+        tag("p", _some(shown, figures), class_="about") if shown < figures.total else None,
+        tag("dl", *rows, class_="figures"),
         tag("div", *parts, class_="bar", aria_hidden="true"),
     )
 
 
-def _some(shown: int, found: Mapping[Status, int]) -> str:
+def _some(shown: int, figures: Figures) -> str:
     """How many of very many assets are on the page."""
-    some = f"{shown:,} of {sum(found.values()):,} assets are shown"
-    return f"{some}, those that failed first." if found["failed"] else f"{some}."
+    some = f"{shown:,} of {figures.total:,} assets are shown"
+    odd = any(n and word in REMARKABLE for word, n in figures.counts.items())
+    return f"{some}, {figures.first} first." if odd else f"{some}."
 
 
-def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str) -> Node:
-    """Each label with its colour, and its hulls before and after."""
+def legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], unlabelled: str, *, blamed: bool = False) -> Node:
+    """Each label with its colour, and its hulls before and after.
+
+    colors: empty where each hull has its own; blamed: whether hulls stand out for findings.
+    """
     known = [(a.before, a.after) for a in assets if a.before and a.after]
     before, after = (Counter(h.label for pair in known for h in pair[k].hulls) for k in (0, 1))
-    if not (before.keys() | after.keys()) - {None}:
-        return tag("ul", tag("li", tag("span", "nothing is labelled: each hull has its own colour")), class_="legend")
     entries = [_entry(label, color, before[label], after[label]) for label, color in colors.items()]
-    if before[None] or after[None]:
+    if not colors:
+        entries.append(tag("li", tag("span", "nothing is labelled: each hull has its own colour")))
+    elif before[None] or after[None]:
         entries.append(_entry("no label", unlabelled, before[None], after[None]))
     meshes = [m for a in assets for m in (a.before, a.after) if m]
     if any(h.confidence is not None and h.confidence < UNSURE for m in meshes for h in m.hulls):
         entries.append(tag("li", tag("span", "hatched: an unsure label")))
+    if blamed:
+        entries.append(
+            tag("li", tag("i", style=f"background:{SELECTED}"), tag("span", "named by a finding, the rest pale"))
+        )
     return tag("ul", *entries, class_="legend")
 
 

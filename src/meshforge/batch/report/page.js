@@ -11,7 +11,7 @@
   }
 
   const every = document.getElementById("every");
-  every.addEventListener("input", () => {
+  every?.addEventListener("input", () => {
     for (const stage of stages) {
       stage.querySelector("input").value = every.value;
       cut(stage, every.value);
@@ -41,7 +41,7 @@
     pressed(button.parentElement, button);
     filter();
   });
-  document.getElementById("modes").addEventListener("click", (event) => {
+  document.getElementById("modes")?.addEventListener("click", (event) => {
     const button = event.target.closest("button");
     if (!button) return;
     document.body.classList.toggle("changes", button.dataset.mode === "changes");

@@ -8,14 +8,15 @@ from pathlib import Path
 
 from meshforge.batch.report.asset import ReportAsset
 from meshforge.batch.report.card import card
+from meshforge.batch.report.figures import Figures
 from meshforge.batch.report.headline import headline, legend, legend_of_changes
 from meshforge.batch.report.html import Node, document, tag
-from meshforge.batch.report.pictures import pictures
+from meshforge.batch.report.pictures import Manner, Pictures, pictures
 from meshforge.batch.report.program_panel import program_panel
 from meshforge.batch.report.tools import tools
-from meshforge.batch.summary import Summary
 from meshforge.files import write_atomically
 from meshforge.language import Program
+from meshforge.symbolic import SymbolicMesh
 from meshforge.views import UNLABELLED, label_colors
 
 PICTURED = 120
@@ -27,41 +28,51 @@ def write_report(
     path: Path,
     *,
     title: str,
-    program: Program,
     assets: Sequence[ReportAsset],
+    program: Program | None = None,
+    vocabulary: Sequence[str] = (),
+    figures: Figures | None = None,
     seconds: float | None = None,
     about: str | None = None,
-    summary: Summary | None = None,
+    changes: bool = True,
     pictured: int = PICTURED,
     progress: Callable[[], None] | None = None,
 ) -> None:
-    """Write the report of a batch: figures, the program, and every asset before and after, with what each rule did.
+    """Write the report of a batch: figures, the program if one ran, and every asset, with what each rule did.
 
     Where assets were checked, those that failed come first, then those with findings.
 
-    about: a line below the title; summary: of the whole run, of which `assets` are then some; pictured: how many get
-    pictures, demonstrated and failed ones first; progress: called for each asset. The page refers to no other file.
+    vocabulary: where it is about labels, those that hulls can have; figures: of the whole run, of which `assets` may be
+    some; seconds: that it took; about: a line below the title; changes: whether with pictures of what became of each
+    hull, by its name; pictured: how many get pictures, demonstrated and failed ones first; progress: called for each
+    asset. The page refers to no other file.
     """
     if any(asset.checked for asset in assets):
         assets = sorted(assets, key=lambda asset: (not asset.broken, not asset.doubtful))
-    vocabulary = _vocabulary(program, assets)
-    colors = label_colors(vocabulary)
-    chosen = _pictured(assets, pictured)
-    cards = []
+    meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
+    labelled = bool(vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
+    words = _words(vocabulary or (program.labels if program else ()), meshes)
+    colors = label_colors(words)
+    manner = Manner(tuple(words), by_label=labelled, changes=changes)
+    chosen, cards, drawn = _pictured(assets, pictured), list[Node](), list[Pictures]()
     for k, asset in enumerate(assets):
-        cards.append(card(asset, program, pictures(asset, vocabulary) if k in chosen else None, colors))
+        shown = pictures(asset, manner) if k in chosen else None
+        cards.append(card(asset, program, shown, colors))
+        drawn += [shown] if shown else []
         if progress:
             progress()
     main = tag(
         "main",
-        headline(title, assets, seconds, about, summary),
-        program_panel(program, assets, colors),
+        headline(title, figures or Figures.of_assets(assets), len(assets), seconds, about),
+        program_panel(program, assets, colors) if program else None,
         tag(
             "section",
             tag("h2", "Assets"),
-            legend(assets, colors, UNLABELLED),
-            legend_of_changes(assets),
-            tools(assets),
+            legend(assets, colors if labelled else {}, UNLABELLED, blamed=any(shown.blamed for shown in drawn))
+            if meshes
+            else None,
+            legend_of_changes(assets) if any(shown.changes for shown in drawn) else None,
+            tools(assets, pairs=any(shown.after for shown in drawn), changes=any(shown.changes for shown in drawn)),
             tag("div", *cards, class_="grid"),
         ),
     )
@@ -83,11 +94,10 @@ def _page(title: str, main: Node) -> Node:
     return tag("html", head, tag("body", main, tag("script", (own / "page.js").read_text("utf-8"))), lang="en")
 
 
-def _vocabulary(program: Program, assets: Sequence[ReportAsset]) -> list[str]:
-    """The program's labels, then others of the meshes in order of the alphabet."""
-    meshes = [m for a in assets for m in (a.before, a.after) if m]
-    others = {h.label for m in meshes for h in m.hulls if h.label} - set(program.labels)
-    return [*program.labels, *sorted(others)]
+def _words(known: Sequence[str], meshes: Sequence[SymbolicMesh]) -> list[str]:
+    """The known labels, then others of the meshes in order of the alphabet."""
+    others = {h.label for m in meshes for h in m.hulls if h.label} - set(known)
+    return [*known, *sorted(others)]
 
 
 def _pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:

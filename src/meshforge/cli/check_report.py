@@ -1,0 +1,120 @@
+"""What checks found of assets, as their report shows it; a hundred thousand assets need not be kept for that."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from meshforge.batch import AssetJob, Examined, Kept, Reader, ReportAsset, Status
+    from meshforge.checks import Examination, Measures, Severity
+
+_KEPT = "kept in the journal from an earlier run"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Line:
+    """What there is to show of one asset; mended: its file where anything was mended."""
+
+    job: AssetJob
+    status: Status
+    error: str | None
+    notes: tuple[str, ...]
+    checked: Examination | Kept | None
+    mended: Path | None
+
+
+class CheckReport:
+    """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
+
+    def __init__(self) -> None:
+        from meshforge.batch import Chosen
+
+        self._counts: Counter[Status] = Counter()
+        self._lines: Chosen[_Line] = Chosen()
+
+    def add(self, job: AssetJob, examined: Examined | None, row: Mapping[str, Any]) -> None:
+        """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
+        line = _new(job, examined) if examined else _kept(job, row)
+        self._counts[line.status] += 1
+        self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
+
+    def write(self, path: Path, title: str, measures: Measures, seconds: float) -> None:
+        """Write the page; of very many assets it shows some, those with errors first."""
+        from meshforge.batch import Figures
+        from meshforge.cli.report import report
+
+        figures = Figures(self._counts, {}, "those that failed or have errors")
+        report(path, _shown(list(self._lines)), title=title, about=_about(measures), figures=figures, seconds=seconds)
+
+
+def _new(job: AssetJob, examined: Examined) -> _Line:
+    notes = (*told_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
+    if examined.found is None:
+        return _Line(job, "failed", examined.error, notes, None, None)
+    status = _status(finding.severity for finding in examined.found.findings)
+    mended = examined.written if examined.fixed and examined.fixed.changes else None
+    return _Line(job, status, None, notes, examined.found, mended)
+
+
+def _kept(job: AssetJob, row: Mapping[str, Any]) -> _Line:
+    """What the journal has of an asset; its heat maps are not measured anew."""
+    from meshforge.batch import Kept
+    from meshforge.checks import Finding
+
+    found = row["found"]
+    findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
+    fixed = found.get("fixed")
+    kept = Kept(findings, tuple(row.get("told", ())))
+    mended = Path(fixed["out"]) if fixed and fixed["changes"] else None
+    return _Line(job, _status(finding.severity for finding in findings), None, (_KEPT,), kept, mended)
+
+
+def _status(severities: Iterable[Severity]) -> Status:
+    found = set(severities)
+    return "errors" if "error" in found else "warnings" if found else "clean"
+
+
+def told_changes(examined: Examined) -> tuple[str, ...]:
+    """What was mended, what was left, and where it was written, a sentence each."""
+    fixed = examined.fixed
+    if fixed is None:
+        return ()
+    return (*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}")
+
+
+def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:
+    """The assets with their meshes, mended ones before and after."""
+    from meshforge.batch import ReportAsset, read_again, read_job
+    from meshforge.formats import load
+
+    before: list[Reader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
+    after: list[Reader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
+    meshes = read_again([*before, *after])
+    shown = []
+    for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):
+        gone = () if was or line.error else ("it cannot be read any more, so there is no picture",)
+        shown.append(
+            ReportAsset(
+                line.job.id,
+                was,
+                now or was,
+                status=line.status,
+                error=line.error,
+                notes=(*line.notes, *gone),
+                checked=line.checked,
+            )
+        )
+    return shown
+
+
+def _about(measures: Measures) -> str:
+    """What was looked at."""
+    parts = ["legality"]
+    parts += [f"limits of {measures.engine}"] if measures.engine else []
+    parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]
+    return f"Checked: {', '.join(parts)}."

@@ -1,0 +1,95 @@
+"""`meshforge check --report`: every asset on the page, those that are wrong first, from the journal too."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.unit.batch.families import write_tables
+from tests.unit.batch.pages import figures, kinds, names, opened, texts
+from tests.unit.checks.test_examination import urdf
+from tests.unit.cli.in_process import Run, runner
+
+ODD = "<i>&.obj"
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line beside a folder of a filled cup, a table and a damaged file."""
+    monkeypatch.chdir(tmp_path)
+    Path("mixed").mkdir()
+    write_tables(Path("tables"), 1)
+    Path("mixed/good.obj").write_text(Path("tables/table0/model.obj").read_text())
+    Path("mixed/cup.urdf").write_text(urdf(filled=True))
+    Path("mixed", ODD).write_text("v 1 2\n")
+    return runner(monkeypatch, capsys)
+
+
+def test_what_failed_comes_first_then_what_has_findings(run: Run) -> None:
+    told = run("check", "mixed/*", "--fit", "--clearance", "--physics", "--report", "r.html", "--json")
+    assert told.code == 1 and "report: r.html" in told.err
+    assert len(told.out.splitlines()) == 3 and all(map(json.loads, told.out.splitlines()))
+    page = opened("r.html")
+    assert names(page) == [ODD, "cup.urdf", "good.obj"]
+    assert kinds(page) == ["failed", "warnings", "clean"]
+    assert figures(page) == {"assets": "3", "clean": "1", "warnings": "1", "failed": "1"}
+    assert texts(page, "//h1") == ["Checks of mixed"]
+    assert "Checked: legality, fit, clearance, physics." in texts(page, "//p")
+    assert "a vertex needs three numbers" in texts(page, "//p[@class='error']")[0]
+    assert "<i>" not in Path("r.html").read_text("utf-8")
+    assert [len(card.xpath("./div//img")) for card in page.xpath("//article")] == [0, 1, 1]
+    assert len(page.xpath("//figure")) == 3  # two heat maps and what is closed; an OBJ shows nothing
+    assert any(line.startswith("fit: hulls stick out by") for line in texts(page, "//p[@class='note']"))
+
+
+def test_what_the_journal_kept_is_on_the_page_too(run: Run) -> None:
+    words = ("check", "mixed/*", "--engine", "unity", "--fit", "--physics", "--journal", "j")
+    assert run(*words, "--report", "one.html").code == 1
+    assert run(*words, "--report", "two.html").code == 1
+    one, two = opened("one.html"), opened("two.html")
+    assert names(one) == names(two) and kinds(one) == kinds(two) and figures(one) == figures(two)
+    assert texts(one, "//ul[@class='findings']") == texts(two, "//ul[@class='findings']") != []
+    assert one.xpath("//article/div//img/@src") == two.xpath("//article/div//img/@src")
+    told = [[line for line in texts(page, "//details//p") if "measured" not in line] for page in (one, two)]
+    assert told[0] == told[1] != []
+    kept = "kept in the journal from an earlier run"
+    assert [texts(page, "//article/p[@class='note']") for page in (one, two)] == [[], [kept, kept]]
+    assert len(two.xpath("//figure")) == 0 < len(one.xpath("//figure"))  # they are not measured anew
+
+
+def test_an_asset_that_is_gone_by_then_is_told_without_a_picture(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("meshforge.batch.read_again", lambda readers: [None for _ in readers])
+    assert run("check", "mixed/good.obj", "--report", "r.html").code == 0
+    page = opened("r.html")
+    assert kinds(page) == ["clean"] and page.xpath("//img") == []
+    assert texts(page, "//article/p") == ["it cannot be read any more, so there is no picture"]
+
+
+def test_mended_assets_are_shown_before_and_after(run: Run) -> None:
+    lathe = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for x, y in ((k, k * k) for k in range(40)))
+    Path("curved.obj").write_text(f"o curved\n{lathe}" + faces(40))
+    words = ("check", "curved.obj", "--engine", "physx-gpu", "--fix", "--out", "out", "--report", "r.html")
+    assert run(*words).code == 0
+    page = opened("r.html")
+    assert page.xpath("//article//img/@class") == ["before", "after", "changes"]
+    assert any(note.startswith("fixed: ") for note in texts(page, "//article/p"))
+    assert figures(page)["assets"] == "1" and texts(page, "//h1") == ["Checks of curved.obj"]
+
+
+def faces(sides: int) -> str:
+    """The faces of a prism over a convex polygon whose corners come first below, then above; counted from 1."""
+    below = range(1, sides + 1)
+    ring = [(a, b, b + sides, a + sides) for a, b in zip(below, [*below[1:], below[0]], strict=True)]
+    ends = [tuple(reversed(below)), tuple(k + sides for k in below)]
+    return "".join(f"f {' '.join(map(str, face))}\n" for face in (*ends, *ring))
+
+
+def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("meshforge.batch.report.chosen.Chosen.__init__.__defaults__", (2,))
+    run("check", "mixed/*", "--report", "r.html", "--fit")
+    page = opened("r.html")
+    assert names(page) == [ODD, "cup.urdf"]
+    assert figures(page)["assets"] == "3"
+    assert "2 of 3 assets are shown, those that failed or have errors first." in texts(page, "//p")
