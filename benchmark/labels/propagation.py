@@ -15,7 +15,6 @@ from benchmark.labels.fitting import PURE, fitted, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
 from meshforge.perception import Propagated, Relatives
-from meshforge.perception.propagation.advice import chosen
 from meshforge.perception.propagation.agreement import agreeing
 from meshforge.perception.propagation.family import Family, Scale
 from meshforge.perception.propagation.likeness import by_likeness
@@ -62,7 +61,7 @@ class Known:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += chosen(self.family.taught(self.told(meshes)), 1)
+            meshes += self.relatives.propagated(self.told(meshes)).next_to_label()
         return tuple(meshes)
 
     def drawn(self, count: int, seed: int) -> list[int]:

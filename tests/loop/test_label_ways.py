@@ -101,10 +101,7 @@ def test_names_are_read(folder: Path) -> None:
 
 
 def test_two_tables_by_hand_label_the_rest(folder: Path) -> None:
-    """Those that are advised, one after the other.
-
-    Which one comes second hangs by a hair: with one kernel of the linear algebra 97% are right then, with another 91%.
-    """
+    """Those that are advised, one after the other."""
     project, shares = begin(folder), []
     told = meshforge("label", KEPT, "--with", "propagate", cwd=folder, code=2).err
     for _ in range(2):
@@ -112,8 +109,8 @@ def test_two_tables_by_hand_label_the_rest(folder: Path) -> None:
         project.set_labels(advised, TRUTH[advised])
         told = meshforge("label", KEPT, "--with", "propagate", cwd=folder).out
         shares.append(right(project))
-    assert 0.85 <= shares[0] < shares[1]
-    assert shares[1] >= 0.9
+    assert shares[0] >= 0.85
+    assert shares[1] >= 0.93
 
 
 def test_a_model_that_often_fails_labels_all(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -82,14 +82,29 @@ def _verified(points: Floats, name: str) -> Polytope:
 
     Hulls are affinely invariant; in the image a thin plate or a needle is as well conditioned as a cube.
     """
-    center, axes, extents = principal_extents(points)
-    unit = (points - center) @ (axes.T / extents)
+    unit = _evened(points)
     for attempt in (by_manifold, by_qhull):
         for altitude in _SLIVERS:
             made = pruned(unit, attempt, altitude)
             if made is not None and _holds(unit, *made, max(10 * altitude, 1e-6)):
                 return Polytope(points[made[0]], made[1])
     raise GeometryError("no convex hull of its points could be made", where=name)
+
+
+def _evened(points: Floats) -> Floats:
+    """Points (n, 3) that span a volume, in an affine image in which none of their directions is much shorter.
+
+    By Gram-Schmidt, twice, without linear algebra: that rounds otherwise on another processor, and which way a level
+    face is cut into triangles, and in which order vertices come, hangs by the last digit here.
+    """
+    columns = list[Floats]()
+    for column in np.ascontiguousarray((points - points.mean(axis=0)).T):
+        for other in (*columns, *columns):
+            column = column - other * (column * other).sum()
+        columns.append(column / np.sqrt((column * column).sum()))
+    unit = np.stack(columns, axis=1)
+    evened: Floats = unit / np.ptp(unit, axis=0)
+    return evened
 
 
 def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:

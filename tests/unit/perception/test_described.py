@@ -76,7 +76,7 @@ def test_points_are_where_they_should_be() -> None:
     first, second, third = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(second - first, third - first)
     reach = (normals * first).sum(axis=1)
-    within = inside(hull.vertices, 8)
+    within = inside(hull.vertices, np.zeros(2), 8)
     assert (within @ normals.T <= reach + 1e-12).all()
     on = on_surface(hull.vertices[hull.faces], 500)
     assert (on @ normals.T <= reach + 1e-9).all()

@@ -9,6 +9,7 @@ from meshforge.geometry import Floats
 from meshforge.perception.propagation import shape, surroundings
 from meshforge.perception.propagation.shape import shapes
 from meshforge.perception.propagation.surroundings import whole_of
+from meshforge.perception.propagation.ties import EQUAL, shared_ranks
 from meshforge.perception.propagation.upright import standing
 from meshforge.symbolic import SymbolicMesh
 
@@ -46,7 +47,8 @@ class Describer:
         around = touching * np.sqrt(np.maximum(self._volumes, 0.0))
         total = around.sum(axis=1, keepdims=True)
         mean = np.divide(around @ own, total, out=own.copy(), where=total > 0)
-        largest = own[np.where(total[:, 0] > 0, around.argmax(axis=1), np.arange(len(own)))]
+        most = around >= around.max(axis=1, keepdims=True) * (1 - EQUAL)
+        largest = np.where(total > 0, most / most.sum(axis=1, keepdims=True) @ own, own)
         counts = _counts(own, touching, self._volumes)
         return np.concatenate([surroundings.surroundings(whole), own, mean - own, largest - own, counts], axis=1)
 
@@ -65,7 +67,7 @@ def _counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     look = own[:, _LOOK]
     alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
-    rank = np.argsort(np.argsort(-volumes, kind="stable"), kind="stable") / max(1, count - 1)
+    rank = shared_ranks(volumes) / max(1, count - 1)
     columns = [
         np.log1p(alike),
         np.log1p(touching.sum(axis=1)),

@@ -7,6 +7,7 @@ from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats, Ints
 from meshforge.perception.propagation.family import UNTOLD, Family, evenly
+from meshforge.perception.propagation.ties import EQUAL
 
 _ROUNDS = 2  # times that hulls which are nearly certain help with the others
 _CERTAIN = 0.8  # from which chance on they do
@@ -48,7 +49,7 @@ def _told(family: Family) -> tuple[Ints, Floats]:
 
 def _helpers(family: Family, chances: Floats) -> Ints:
     """Hulls that nobody told and that are nearly certain, of very many some, evenly."""
-    sure = (family.codes == UNTOLD) & (chances.max(axis=1, initial=0.0) > _CERTAIN)
+    sure = (family.codes == UNTOLD) & (chances.max(axis=1, initial=0.0) > _CERTAIN + EQUAL)
     return evenly(np.flatnonzero(sure), _HELPERS)
 
 

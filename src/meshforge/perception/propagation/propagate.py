@@ -16,6 +16,7 @@ from meshforge.perception.propagation.likeness import by_likeness
 from meshforge.perception.propagation.metric import weights
 from meshforge.perception.propagation.righting import doubtful_sides, righted
 from meshforge.perception.propagation.sketch import Sketcher
+from meshforge.perception.propagation.ties import first_greatest
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label, SymbolicMesh
 from meshforge.views.coloring import UNSURE
 
@@ -35,14 +36,14 @@ class Propagated:
         rows = self.chances[slice(*np.searchsorted(self.family.owner, (mesh, mesh + 1)))]
         if not self.family.labels:
             return [None] * len(rows)
-        found = zip(rows.argmax(axis=1).tolist(), rows, strict=True)
+        found = zip(first_greatest(rows).tolist(), rows, strict=True)
         return [
             Label(self.family.labels[place], round(float(row[place]), _DIGITS), "propagated") for place, row in found
         ]
 
     def next_to_label(self, count: int = 1) -> list[int]:
         """The meshes to label next, the most helpful first; none on which every hull is told already."""
-        return chosen(self.family, count)
+        return chosen(self.family, self.chances, count)
 
 
 class Relatives:
@@ -77,8 +78,8 @@ def compared_hulls(family: Family, metric: Floats | None = None) -> Propagated:
 def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
     """What the labels that people gave, or that came in files, say about all hulls of a family, these included.
 
-    The same family in the same order gives the same, bit for bit. Meshes may lie anyhow about the upright axis of
-    their files, at any size and place, tilted by up to some 40 degrees, or on their side.
+    The same family in the same order gives the same, bit for bit, on any processor. Meshes may lie anyhow about the
+    upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side.
     """
     return Relatives(meshes).propagated([given_label(hull.annotation) for mesh in meshes for hull in mesh.hulls])
 

@@ -11,6 +11,7 @@ from scipy.spatial.distance import cdist
 from meshforge.geometry import Floats
 from meshforge.perception.propagation.describe import SHAPES
 from meshforge.perception.propagation.family import UNTOLD, Family, evenly
+from meshforge.perception.propagation.ties import EQUAL, greatest_first
 
 _CLOSE = 2  # of the sides of a mesh that are looked at closely, those under which the hulls themselves are most like
 _BETTER = 0.9  # of the distance as it seems to lie, under which another side must be
@@ -36,8 +37,8 @@ def doubtful_sides(
             continue
         likeness = [apart(scale(found)) for found in sides(mesh)]
         seems = apart(family.rows[span, SHAPES])
-        order = sorted((side for side, far in enumerate(likeness) if far < seems), key=lambda side: likeness[side])
-        yield mesh, tuple(order[:_CLOSE])
+        order = greatest_first(-np.array(likeness))
+        yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
 
 
 def righted(family: Family, looked: Iterable[tuple[int, Sequence[Floats]]], metric: Floats) -> Family:
@@ -54,9 +55,10 @@ def righted(family: Family, looked: Iterable[tuple[int, Sequence[Floats]]], metr
 
     for mesh, sides in looked:
         span = spans[mesh]
-        best = min(map(family.scale, sides), key=apart, default=rows[span])
-        if apart(best) < _BETTER * apart(rows[span]):
-            turned[span] = best
+        found = [family.scale(side) for side in sides]
+        order = greatest_first(np.array([-apart(side) for side in found]))
+        if order and apart(found[order[0]]) < _BETTER * apart(rows[span]):
+            turned[span] = found[order[0]]
     return replace(family, rows=turned)
 
 
@@ -74,4 +76,4 @@ def _spans(family: Family) -> Iterator[tuple[int, slice]]:
 
 
 def _apart(rows: Floats, taught: Floats) -> float:
-    return round(float(cdist(rows, taught, "cityblock").min(axis=1).mean()), 9)
+    return float(cdist(rows, taught, "cityblock").min(axis=1).mean())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshforge.geometry import Floats
+from meshforge.perception.propagation.axes import along
 from meshforge.perception.propagation.surroundings import Whole
 
 _LEAST = 1e-6  # of the whole's size; what is thinner counts as so thick
@@ -31,7 +32,8 @@ def shapes(whole: Whole, volumes: Floats) -> Floats:
     aside = middle[:, :2] - whole.axis
     away = np.linalg.norm(aside, axis=1)
     outward = aside / np.maximum(away, _LEAST * size)[:, None]
-    along = np.abs(np.einsum("ka,kab->kb", outward, axes[:, :2]))
+    outward = along(np.pad(outward, ((0, 0), (0, 1))), spread, axes)
+    upward = along(np.broadcast_to([0.0, 0.0, 1.0], outward.shape), spread, axes)
     return np.column_stack(
         [
             np.log(volumes / size**3) / 3,
@@ -40,7 +42,7 @@ def shapes(whole: Whole, volumes: Floats) -> Floats:
             np.log(np.maximum(high - low, _LEAST * size) / size),
             ((low + high) / 2 - whole.foot) / whole.tall,
             away / size,
-            np.abs(axes[:, 2]),
+            upward,
             (spread[:, 0] - spread[:, 1]) / spread[:, 0],
             (spread[:, 1] - spread[:, 2]) / spread[:, 0],
             spread[:, 2] / spread[:, 0],
@@ -48,7 +50,7 @@ def shapes(whole: Whole, volumes: Floats) -> Floats:
             (high - whole.foot) / whole.tall,
             np.minimum.reduceat(out, starts) / whole.wide,
             np.maximum.reduceat(out, starts) / whole.wide,
-            along[:, 0],
-            along[:, 2],
+            outward[:, 0],
+            outward[:, 2],
         ]
     )

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.geometry import Floats
+from meshforge.perception.propagation.axes import along
 from meshforge.perception.propagation.points import inside, on_surface
+from meshforge.perception.propagation.ties import EQUAL
 
 SEEN_FROM = 8
 """Points of a hull from which its surroundings are looked at."""
@@ -64,7 +66,7 @@ def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole
     areas = np.maximum(areas, 1e-9 * areas.max())
     shares = np.sqrt(areas) / np.sqrt(areas).sum()
     least = min(_LEAST, max(1, _MANY // len(pieces)))
-    counts = np.maximum(least, np.round(shares * _SEEN).astype(int))
+    counts = np.maximum(least, np.floor(shares * _SEEN + 0.5 + EQUAL).astype(int))
     seen = np.concatenate([on_surface(t, int(n)) for t, n in zip(triangles, counts, strict=True)])
     weights = np.repeat(areas / counts, counts) / areas.sum()
     return Whole.of(pieces, seen, weights)
@@ -82,7 +84,7 @@ def surroundings(whole: Whole) -> Floats:
 
 def _rows(whole: Whole, pieces: Sequence[Floats]) -> Floats:
     """The rows of some of the hulls."""
-    points = np.concatenate([inside(piece, SEEN_FROM) for piece in pieces])
+    points = np.concatenate([inside(piece, whole.axis, SEEN_FROM) for piece in pieces])
     offsets = (whole.seen[None] - points[:, None]) / whole.size
     squares = (offsets**2).sum(axis=2)
     near = [_spread(np.exp(-squares / (2 * radius**2)) * whole.weights, offsets) for radius in _RADII]
@@ -112,14 +114,16 @@ def _spread(weights: Floats, offsets: Floats) -> Floats:
     middle = np.einsum("pq,pqk->pk", weights, offsets) / mass[:, None]
     scatter = np.einsum("pq,pqk,pql->pkl", weights, offsets, offsets, optimize=True) / mass[:, None, None]
     values, axes = np.linalg.eigh(scatter - middle[:, :, None] * middle[:, None, :])
-    thin, wide, long = np.sqrt(np.maximum(values, 1e-12)).T
+    lengths = np.sqrt(np.maximum(values, 1e-12))
+    thin, wide, long = lengths.T
+    upward = along(np.broadcast_to([0.0, 0.0, 1.0], lengths.shape), lengths, axes)
     return np.stack(
         [
             (long - wide) / long,
             (wide - thin) / long,
             thin / long,
-            np.abs(axes[:, 2, 2]),
-            np.abs(axes[:, 2, 0]),
+            upward[:, 2],
+            upward[:, 0],
             mass,
             middle[:, 2] / long,
             np.linalg.norm(middle[:, :2], axis=1) / long,

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from meshforge.geometry import Floats
+from meshforge.perception.propagation.ties import EQUAL, first_greatest, greatest_first
 from meshforge.symbolic import SymbolicMesh
 
 _ALIKE = np.cos(np.radians(4.0))  # faces of the whole that turn by less are one side of it
@@ -27,7 +28,7 @@ def upright(mesh: SymbolicMesh) -> Floats:
     found = np.concatenate([axis[None], _sides(mesh)])
     worth = _worth(mesh, found) * np.exp(-((_degrees(found @ axis) / _FAR) ** 2))
     worth[0] += _STAYS
-    best: Floats = found[int(np.argmax(np.round(worth, 9)))]
+    best: Floats = found[first_greatest(worth)]
     return best
 
 
@@ -38,8 +39,8 @@ def other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
     """
     sides = _sides(mesh)
     found = [up]
-    for place in np.argsort(-np.round(_worth(mesh, sides), 9), kind="stable"):
-        if len(found) <= most and all(sides[place] @ other < _OTHER for other in found):
+    for place in greatest_first(_worth(mesh, sides)):
+        if len(found) <= most and all(sides[place] @ other < _OTHER - EQUAL for other in found):
             found.append(sides[place])
     return found[1:]
 
@@ -81,14 +82,13 @@ def _sides(mesh: SymbolicMesh) -> Floats:
         return np.zeros((0, 3))
     a, b, c = (whole.points[whole.simplices[:, k]] for k in range(3))
     areas, normals = np.linalg.norm(np.cross(b - a, c - a), axis=1), whole.equations[:, :3]
-    order = np.argsort(-areas, kind="stable")
     free, found = np.ones(len(areas), dtype=bool), list[Floats]()
-    for face in order.tolist():
-        if free[face] and len(found) < _SIDES:
-            group = free & (normals @ normals[face] > _ALIKE)
-            free &= ~group
-            middle = areas[group] @ normals[group]
-            found.append(middle / np.linalg.norm(middle))
+    while free.any() and len(found) < _SIDES:
+        face = first_greatest(np.where(free, areas, -np.inf), EQUAL * areas.max())
+        group = free & (normals @ normals[face] > _ALIKE)
+        free &= ~group
+        middle = areas[group] @ normals[group]
+        found.append(middle / np.linalg.norm(middle))
     return np.array([*found, *(-side for side in found)]).reshape(-1, 3)
 
 
