@@ -104,7 +104,7 @@ class _Labelling:
 
 def _written(labels: Path, before: dict[str, bytes]) -> int:
     """How many assets have labels that they had not."""
-    return sum(before.get(path.name) != path.read_bytes() for path in labels.glob("*.json"))
+    return sum(before.get(name) != data for name, data in outputs(labels).items() if name.endswith(".json"))
 
 
 class Propagating(_Labelling):
