@@ -89,35 +89,38 @@ def label(
     Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
-    from meshforge.cli import label_given, label_proposals, label_vlm
     from meshforge.cli.apply import NOTHING_TO_SHOW
-    from meshforge.cli.label_report import LabelReport
+    from meshforge.cli.label.given import label as label_given
+    from meshforge.cli.label.proposals import GivenOptions, propose
+    from meshforge.cli.label.report import LabelReport
+    from meshforge.cli.label.vlm import VlmOptions, foretell
+    from meshforge.cli.label.vlm import label as label_vlm
     from meshforge.errors import UsageError
     from meshforge.project import Project
 
     if labels and source != "file":
         raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
-    options = label_vlm.VlmOptions(model, base_url, mode, max_cost)
+    options = VlmOptions(model, base_url, mode, max_cost)
     if source != "vlm" and options.given:
         raise UsageError(f"{options.given} is for --with vlm", remedy="Leave it out.")
     spread = spread_of(workers, timeout, memory, backend)
-    given = label_proposals.GivenOptions(pattern or (), classes, align, points_up)
+    given = GivenOptions(pattern or (), classes, align, points_up)
     given.refuse_for(source)
     if report and dry_run:
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     opened = Project.open(project)
     words = [word.strip() for word in vocabulary.split(",") if word.strip()] if vocabulary else None
     if dry_run and source == "vlm":
-        label_vlm.foretell(opened, options, words, spread, json=json)
+        foretell(opened, options, words, spread, json=json)
         return
     if dry_run:
-        label_proposals.propose(opened, source, labels, words, given, spread, json=json)
+        propose(opened, source, labels, words, given, spread, json=json)
         return
     if words is not None:
         opened.set_vocabulary(words)
     page = LabelReport(report, source) if report else None
     if source == "vlm":
-        failed = label_vlm.label(opened, options, spread, sheets, page, json=json)
+        failed = label_vlm(opened, options, spread, sheets, page, json=json)
     else:
-        failed = label_given.label(opened, source, labels, given, spread, sheets, page, json=json)
+        failed = label_given(opened, source, labels, given, spread, sheets, page, json=json)
     raise typer.Exit(int(failed))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
-    from meshforge.cli.label_report import LabelReport
+    from meshforge.cli.label.report import LabelReport
     from meshforge.project import Project, Tally
 
 _SHOWN = 24

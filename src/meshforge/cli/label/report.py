@@ -106,7 +106,7 @@ class LabelReport:
         return "\n".join(lines) or None
 
     def _said(self, asset: str, doubtful: Mapping[str, int]) -> tuple[str, ...]:
-        from meshforge.cli.label_given import told
+        from meshforge.cli.label.given import told
         from meshforge.words import counted
 
         report, lacking = self._reports.get(asset), doubtful.get(asset)

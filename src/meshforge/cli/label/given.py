@@ -10,8 +10,8 @@ import typer
 
 if TYPE_CHECKING:
     from meshforge.batch import Spread
-    from meshforge.cli.label_proposals import GivenOptions
-    from meshforge.cli.label_report import LabelReport
+    from meshforge.cli.label.proposals import GivenOptions
+    from meshforge.cli.label.report import LabelReport
     from meshforge.project import Labelled, Project
 
 
@@ -50,7 +50,7 @@ def label(
     json: bool,
 ) -> bool:
     """Label a project, and say what came of it; whether some labels could not be taken."""
-    from meshforge.cli.label_summary import summarise
+    from meshforge.cli.label.summary import summarise
     from meshforge.cli.output import remark
 
     if len(project.assets()) > 1:

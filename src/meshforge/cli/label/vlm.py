@@ -14,7 +14,7 @@ import typer
 
 if TYPE_CHECKING:
     from meshforge.batch import Spread
-    from meshforge.cli.label_report import LabelReport
+    from meshforge.cli.label.report import LabelReport
     from meshforge.perception.vlm import Bill
     from meshforge.project import Project, VlmForecast, VlmLabelled, VlmSettings
 
@@ -72,8 +72,8 @@ def label(
     project: Project, options: VlmOptions, spread: Spread, sheets: Path | None, page: LabelReport | None, *, json: bool
 ) -> bool:
     """Label a project, and say what came of it; whether some labels could not be taken, or it ended early."""
-    from meshforge.cli.label_given import Telling
-    from meshforge.cli.label_summary import summarise
+    from meshforge.cli.label.given import Telling
+    from meshforge.cli.label.summary import summarise
 
     found, telling = _asked(project, options, spread), Telling(page, json=json)
     for report in found.reports:
