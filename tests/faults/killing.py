@@ -104,7 +104,8 @@ class _Labelling:
 
 def _written(labels: Path, before: dict[str, bytes]) -> int:
     """How many assets have labels that they had not."""
-    return sum(before.get(name) != data for name, data in outputs(labels).items() if name.endswith(".json"))
+    files = labels.rglob("*.json")
+    return sum(before.get(file.relative_to(labels).as_posix()) != file.read_bytes() for file in files)
 
 
 class Propagating(_Labelling):
