@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
+from random import Random
 
 import lz4.block
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 BODY = 88
 """Where the values begin: behind the head of the file."""
 TOKENS = ("", "a", "specifier", "primChildren", "customData")
-ARRAY, INLINED, PACKED = 1 << 63, 1 << 62, 1 << 61
+ARRAY, INLINED, PACKED, EDIT = 1 << 63, 1 << 62, 1 << 61, 1 << 60
 INT, FLOAT, DICTIONARY, PATH_LIST, TOKEN_VECTOR, TIME_SAMPLES, VALUE = 3, 8, 31, 34, 41, 46, 52
 _DEF = INLINED | 42 << 48
 _NAMED, _DATA = 3, 4  # tokens of fields
@@ -111,3 +112,39 @@ def dictionaries(depth: int, *, closed: bool = False) -> bytes:
 
 def _entry(held: int) -> bytes:
     return number(1) + struct.pack("<I", 0) + number(8, held)
+
+
+_FLAGS = (0, 0, ARRAY, INLINED, ARRAY | INLINED, PACKED | ARRAY, EDIT)
+_HOLDING = (31, 32, 35, 40, 46, 52, 53, 54, 55, 59)  # kinds of values that hold others, or many
+_TREES = ((-1, -2), (-1, -1, -2), (-1, 2, -2, -2), (-1, 3, -1, -2, -2))
+_COUNTS = (*range(9), 16, 20, 28, 1 << 20, 1 << 31, 1 << 40, (1 << 64) - 8)
+_FIELDS = (
+    *("active", "apiSchemas", "customLayerData", "default", "inheritPaths", "kind", "payload", "references"),
+    *("relocates", "specializes", "timeSamples", "typeName", "variantSelection", "variantSetNames"),
+)
+
+
+def anyhow(draw: Random) -> bytes:
+    """A layer whose tree, values and tables say what they like."""
+    size = draw.choice((8, 40, 120))
+    body = bytearray(draw.choice((bytes(size), draw.randbytes(size))))
+
+    def some_value() -> int:
+        place = draw.choice((0, BODY, BODY + 8 * draw.randrange(size // 8 + 1), draw.randrange(600)))
+        return value(draw.randrange(64), place, draw.choice(_FLAGS))
+
+    for at in range(0, size - 7, 4):
+        if draw.random() < 0.5:
+            body[at : at + 8] = number(draw.choice((*_COUNTS, some_value())))
+    some_jumps = -1, *(draw.randrange(-3, 9) for _ in range(draw.randrange(8))), -2
+    tokens = [*TOKENS[:_DATA], draw.choice((*_FIELDS, *[TOKENS[_DATA]] * 20))]
+    table = draw.choice(("TOKENS", "STRINGS", "FIELDS", "FIELDSETS", "PATHS", "SPECS"))
+    wrong = number(*draw.choices(_COUNTS, k=3)) + integers([draw.randrange(-5, 9) for _ in range(draw.randrange(6))])
+    return crate(
+        draw.choice((*_TREES, some_jumps)),
+        body=bytes(body),
+        values={_DATA: draw.choice((some_value(), value(draw.choice(_HOLDING), BODY)))},
+        tokens=tokens,
+        version=(0, draw.choice((7, 8, 9, 11, 12, 14, 16)), 0),
+        replaced={table: wrong} if draw.random() < 0.1 else None,
+    )

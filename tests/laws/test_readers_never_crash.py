@@ -17,6 +17,7 @@ from meshforge.formats import read
 from meshforge.symbolic import SymbolicMesh, read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged
+from tests.usd_crates import anyhow
 
 WHOLE = {
     "obj": ("obj/cube.obj", "obj/groups_of_one_name.obj", "obj/corner_with_slashes.obj", "obj/index_negative.obj"),
@@ -44,6 +45,13 @@ def test_a_damaged_asset_is_read_or_refused(kind: str, seed: int) -> None:
         if (whole.parent / "parts").is_dir():
             Path(folder, "parts").symlink_to(whole.parent / "parts")
         told_or_read(written(Path(folder, whole.name), damaged(whole.read_bytes(), rng)))
+
+
+@settings(max_examples=200)
+@given(seed=st.integers(0, 2**32))
+def test_a_binary_layer_that_says_what_it_likes_is_read_or_refused(seed: int) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        told_or_read(written(Path(folder, "a.usdc"), anyhow(random.Random(seed))))
 
 
 @settings(max_examples=60)

@@ -24,6 +24,7 @@ _VECTORS = {40: 4, 41: 4, 45: 8, 48: 8, 49: 16, 50: 4, 58: 8}
 _LISTS = {32: 4, 33: 4, 34: 4, 36: 4, 37: 8, 38: 4, 39: 8}
 _DICTIONARY, _REFERENCES, _SAMPLES, _PAYLOADS, _SPLINE = 31, 35, 46, 55, 59
 _VALUES, _UNKNOWN_LIST = (52, 53), 54
+_LONG, _DOUBLES, _LAST = 5, 48, 60
 _LISTED = 0b1111110  # the bits of a list's head that say which lists follow
 
 
@@ -33,7 +34,7 @@ def refuse_harmful_values(data: Bytes, values: NDArray[np.uint64], version: tupl
     Raises ContradictionError where they lie about their length or in each other, ExcessError where they are too deep.
     """
     inside: dict[int, list[int]] = {}
-    waiting = [int(value) for value in np.unique(values[(values & np.uint64(_INLINED)) == 0])]
+    waiting = np.unique(values[(values & np.uint64(_INLINED | _ARRAY | _EDIT)) != _INLINED]).tolist()
     roots = list(waiting)
     while waiting:
         value = waiting.pop()
@@ -65,6 +66,11 @@ def _refuse_deep(inside: dict[int, list[int]], roots: Iterable[int]) -> None:
         raise ExcessError(f"values in it are nested more than {DEEPEST} deep")
 
 
+def _as(value: int, kind: int, flags: int = 0) -> int:
+    """A value that is read as one of a kind, whatever it says to be."""
+    return value & (_PACKED | _INLINED | _PLACE) | kind << 48 | flags
+
+
 class _Value:
     """What one value says about itself: its kind, and the place where it lies."""
 
@@ -74,13 +80,16 @@ class _Value:
 
     def inner(self) -> Iterator[int]:
         """The values within it. Raises ContradictionError where there are fewer things than it says."""
-        file, kind = self.file, self.kind
-        if self.bits & _INLINED or not self.bits & _PLACE:
+        file, kind, bits = self.file, self.kind, self.bits
+        many = kind in _SIZES or kind > _LAST  # other kinds have no arrays, whatever their bits say
+        if many and bits & (_ARRAY | _EDIT) and not bits & _PLACE:
             return
-        if self.bits & _ARRAY:
+        if many and bits & _ARRAY:
             self._array()
-        elif self.bits & _EDIT:
-            yield from (file.number(), file.number())
+        elif many and bits & _EDIT:
+            yield from (_as(file.number(), kind, _ARRAY), _as(file.number(), _LONG, _ARRAY))
+        elif bits & _INLINED:
+            return
         elif kind in _VECTORS:
             file.skip(file.number(), _VECTORS[kind])
         elif kind in _LISTS:
@@ -116,7 +125,7 @@ class _Value:
         elif kind == _UNKNOWN_LIST:
             self._each_list(lambda: many(lambda: found.append(self._held())))
         elif kind == _SAMPLES:
-            found.append(self._held())
+            found.append(_as(self._held(), _DOUBLES))
             self._jump()
             count = file.number()
             start = file.skip(count, 8)
