@@ -179,6 +179,9 @@ def usd_files() -> Mapping[str, bytes]:
         "bomb_expression_of_brackets.usda": (
             f'#usda 1.0\nover "a" {{ pathExpression b = "{"(" * 100_000}/a{")" * 100_000}" }}\n'.encode()
         ),
+        "kind_is_a_path_expression.usdc": crates.crate(
+            tokens=(*crates.TOKENS[:4], "kind"), values={4: crates.value(57, 1, crates.INLINED)}
+        ),
         "version_of_2016.usdc": crates.crate(version=(0, 3, 0)),
         "packed_wrongly.usdc": crates.crate(replaced={"PATHS": struct.pack("<4Q", 2, 2, 9, 0) + bytes(99)}),
     }

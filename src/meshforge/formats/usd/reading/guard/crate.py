@@ -12,7 +12,7 @@ from meshforge.errors import AssetError
 from meshforge.formats.usd.reading.guard.packed import Allowance, Bytes, ContradictionError, ExcessError
 from meshforge.formats.usd.reading.guard.remedy import DEEPEST, NEEDLESS, REMEDY
 from meshforge.formats.usd.reading.guard.text import depth
-from meshforge.formats.usd.reading.guard.values import refuse_harmful_values
+from meshforge.formats.usd.reading.guard.values import PATH_EXPRESSION, refuse_harmful_values
 
 CRATE = b"PXR-USDC"
 _OLDEST = (0, 4, 0)  # that the library still reads
@@ -26,8 +26,7 @@ def refuse_harmful_crate(data: bytes, where: str) -> None:
     try:
         version = _version(data, allowance, where)
         sections = _sections(data, allowance)
-        if b"TOKENS" in sections:
-            _look_at_tokens(sections[b"TOKENS"])
+        names = _tokens(sections[b"TOKENS"]) if b"TOKENS" in sections else b""
         if b"PATHS" in sections:
             _look_at_paths(sections[b"PATHS"])
         for name in (b"FIELDSETS", b"SPECS"):
@@ -36,7 +35,7 @@ def refuse_harmful_crate(data: bytes, where: str) -> None:
         if b"STRINGS" in sections:
             sections[b"STRINGS"].skip(sections[b"STRINGS"].number(), 4)
         if b"FIELDS" in sections:
-            refuse_harmful_values(Bytes(data, 0, allowance), _fields(sections[b"FIELDS"]), version)
+            refuse_harmful_values(Bytes(data, 0, allowance), _fields(sections[b"FIELDS"], names), version)
     except ContradictionError as contradiction:
         raise AssetError(f"it is damaged or cut off: {contradiction}", where=where, remedy=REMEDY) from contradiction
     except ExcessError as excess:
@@ -69,7 +68,8 @@ def _sections(data: bytes, allowance: Allowance) -> dict[bytes, Bytes]:
     return found
 
 
-def _look_at_tokens(section: Bytes) -> None:
+def _tokens(section: Bytes) -> bytes:
+    """The names of everything, each with a zero byte behind it."""
     count, size = section.number(), section.number()
     section.allowance.take(count)
     text = section.unpacked(section.number(), size)
@@ -80,6 +80,7 @@ def _look_at_tokens(section: Bytes) -> None:
         depth(name) > DEEPEST or (name.startswith(b"[") and name.count(b"/") > DEEPEST) for name in text.split(b"\0")
     ):
         raise ExcessError(f"names in it are nested more than {DEEPEST} deep")
+    return text
 
 
 def _look_at_paths(section: Bytes) -> None:
@@ -122,11 +123,19 @@ def _look_at_numbers(section: Bytes, tables: int) -> None:
         section.skip_integers(count)
 
 
-def _fields(section: Bytes) -> NDArray[np.uint64]:
-    """(count,) what each field says its value is."""
+def _fields(section: Bytes, names: bytes) -> NDArray[np.uint64]:
+    """(count,) what each field says its value is; names: of tokens, each with a zero byte behind it.
+
+    A path expression as metadata of a prim, such as `kind`, ends the library's process when it makes a stage.
+    """
     count = section.number()
-    section.skip_integers(count)
+    named = section.integers(count)
     values = section.unpacked(section.number(), 8 * count)
     if len(values) < 8 * count:
         raise ContradictionError("its fields are fewer than it says")
-    return np.frombuffer(values, np.uint64)
+    found = np.frombuffer(values, np.uint64)
+    expressions = np.unique(named[(found >> np.uint64(48)) & np.uint64(0xFF) == PATH_EXPRESSION]).tolist()
+    known = names.split(b"\0") if expressions else []
+    if any(not 0 <= k < len(known) or known[k] != b"default" for k in expressions):
+        raise ContradictionError("a path expression stands where none can be")
+    return found

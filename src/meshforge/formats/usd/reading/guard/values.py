@@ -19,7 +19,8 @@ _INTEGERS, _REALS = range(3, 7), range(7, 10)
 # bytes of an element of an array, by the number of its type
 _SIZES = dict(enumerate((1, 1, 4, 4, 8, 8, 2, 4, 8, 4, 4, 4, 32, 72, 128, 32, 16, 8), 1))
 _SIZES |= {19 + 4 * (n - 2) + k: n * size for n in (2, 3, 4) for k, size in enumerate((8, 4, 2, 4))}
-_SIZES |= {56: 8, 57: 4}
+PATH_EXPRESSION = 57
+_SIZES |= {56: 8, PATH_EXPRESSION: 4}
 _VECTORS = {40: 4, 41: 4, 45: 8, 48: 8, 49: 16, 50: 4, 58: 8}
 _LISTS = {32: 4, 33: 4, 34: 4, 36: 4, 37: 8, 38: 4, 39: 8}
 _DICTIONARY, _REFERENCES, _SAMPLES, _PAYLOADS, _SPLINE = 31, 35, 46, 55, 59
