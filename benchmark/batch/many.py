@@ -20,7 +20,7 @@ from meshforge.symbolic import read_labels
 _WORKERS = 2
 _STOOLS = (1_000, 10_000, 100_000)
 _TABLES = (1_400, 7_000)
-_LABELLED = (("names", 10_000), ("propagate", 1_000), ("propagate", 10_000))
+_LABELLED = (("names", 10_000), ("propagate", 1_000))
 _QUICK = (20,), (14,)
 _MIB, _GIB = 1 << 20, 1 << 30
 _OVERHEAD, _FLAT = 0.05, 0.9
