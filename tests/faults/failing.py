@@ -94,8 +94,11 @@ def _within(folder: Path, options: dict[str, str]) -> str:
     process = begun(words, folder)
     if "outputs" in options:
         wait_for(process, out, int(options["outputs"]))
-        for how in ("bind", "remount,bind,ro"):  # a second view of the disk: files that are open do not mind
-            subprocess.run(["mount", "-o", how, str(out), str(out)], check=True)
+        # a second view of the disk: files that are open do not mind, but for those that were opened in it meanwhile
+        subprocess.run(["mount", "-o", "bind", str(out), str(out)], check=True)
+        turned = ["mount", "-o", "remount,bind,ro", str(out), str(out)]
+        while subprocess.run(turned, capture_output=True, check=False).returncode:
+            assert process.poll() is None, "it cannot be turned read-only"
     code, said = ended(process)
     left = outputs(out)
     assert is_part_of(left, whole), "a file is neither whole nor missing"
