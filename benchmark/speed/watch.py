@@ -31,8 +31,7 @@ def watched(arguments: list[str]) -> Watched:
         began = time.perf_counter()
         process = subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL)
         while process.poll() is None:
-            for pid in [process.pid, *_below(process.pid)]:
-                largest[pid] = max(largest.get(pid, 0), _peak(pid))
+            look(process.pid, largest)
             with suppress(subprocess.TimeoutExpired):
                 process.wait(_PAUSE)
         seconds = time.perf_counter() - began
@@ -40,6 +39,15 @@ def watched(arguments: list[str]) -> Watched:
         text = output.read().decode("utf-8")
     main = largest.pop(process.pid, 0)
     return Watched(seconds, text, main, max(largest.values(), default=0))
+
+
+def look(pid: int, largest: dict[int, int]) -> None:
+    """Note the peak [bytes] of a process and of all below it; where one has become another program, of that one.
+
+    A process that has just been started still has the memory of the one that started it.
+    """
+    for each in [pid, *_below(pid)]:
+        largest[each] = _peak(each) or largest.get(each, 0)
 
 
 def _below(pid: int) -> list[int]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -17,6 +19,7 @@ from benchmark.report import Goal, Result, Table, as_text
 from benchmark.speed import apply, contact, geometry, load, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import near_pairs, one_mesh
+from benchmark.speed.watch import look
 from meshforge.geometry import Box, Pose
 from meshforge.samples import TABLES
 
@@ -77,6 +80,27 @@ def test_apply_is_run_and_watched(tmp_path: Path) -> None:
     assert "A quick run" in page
     assert "OBJ, bundled tables" in page
     assert str(tmp_path.anchor + "tmp") not in page
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the memory of other processes")
+def test_a_process_that_becomes_another_program_has_the_memory_of_that_one() -> None:
+    code = "import os; big = bytes(range(256)) * (1 << 20); print(flush=True); os.read(0, 1); os.execvp('cat', ['cat'])"
+    largest: dict[int, int] = {}
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdin is not None and process.stdout is not None
+        process.stdout.readline()
+        look(process.pid, largest)
+        assert largest[process.pid] > 256 * 2**20
+        process.stdin.write(b"\nhere\n")
+        process.stdin.flush()
+        process.stdout.readline()  # what `cat` says
+        look(process.pid, largest)
+        before = dict(largest)
+        process.stdin.close()
+        process.wait()
+        look(process.pid, largest)
+    assert 0 < largest[process.pid] < 64 * 2**20
+    assert largest == before  # one that has ended keeps what it had
 
 
 def test_a_part_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
