@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    __version__: str
     from meshforge.errors import MeshForgeError
     from meshforge.formats import load, load_many, save
     from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
@@ -53,6 +54,10 @@ _HOMES = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("meshforge")
     if name not in _HOMES:
         raise AttributeError(f"module 'meshforge' has no attribute {name!r}")
     value = getattr(import_module(f"meshforge.{_HOMES[name]}"), name)

@@ -4,68 +4,94 @@ from __future__ import annotations
 
 import io
 import os
-import re
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from typing import Any, cast
 
 import typer
+from typer.core import TyperCommand, TyperGroup
 
-COMMANDS = (
-    "demo",
-    "new",
-    "prepare",
-    "split",
-    "status",
-    "label",
-    "demonstrate",
-    "studio",
-    "synthesize",
-    "apply",
-    "check",
-    "info",
-    "select",
-    "render",
-    "diff",
-    "decompose",
-    "convert",
-    "fmt",
-)
-"""Every command is the function of its name in the module of its name, listed in this order."""
+import meshforge
+
+COMMANDS = {
+    "demo": "The whole loop on the bundled tables",
+    "new": "Make a project folder",
+    "prepare": "Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls",
+    "split": "Split a hull",
+    "status": "Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step",
+    "label": "Give labels to hulls",
+    "demonstrate": "Record the steps of a demonstration",
+    "studio": "See, label, demonstrate, learn and review in the browser",
+    "synthesize": "Learn the smallest program that does on every demonstrated asset what was shown there",
+    "apply": "Run a program on assets",
+    "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
+    "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
+    "select": "List the hulls that an extractor selects, in the frame the asset comes in",
+    "render": "Draw an asset as a PNG, one colour a hull or a label",
+    "diff": "Compare two assets hull by hull",
+    "decompose": "Decompose a mesh into convex hulls by CoACD or V-HACD",
+    "convert": "Write an asset in another format, or unchanged in its own",
+    "fmt": "Print a program in its canonical form, comments kept",
+}
+"""Every command with the line that the list of commands shows: the function of its name in the module of its name."""
+_HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
+
+
+class CommandGroup(TyperGroup):
+    """Imports the module of a command when that command runs; `meshforge --help` imports none of them."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands = dict.fromkeys(COMMANDS)  # type: ignore[assignment]  # only their names count, for suggestions
+
+    def list_commands(self, ctx: typer.Context) -> list[str]:  # type: ignore[override]
+        return list(COMMANDS)
+
+    def get_command(self, ctx: typer.Context, cmd_name: str) -> TyperCommand | None:  # type: ignore[override]
+        return load_command(cmd_name) if cmd_name in COMMANDS else None
+
+    def format_commands(self, ctx: typer.Context, formatter: Any) -> None:  # type: ignore[override]
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+def load_command(name: str) -> TyperCommand:
+    """The command of a name, from its module."""
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
+    app.command(name, context_settings=_HELP_OPTIONS)(function)
+    return cast(TyperCommand, typer.main.get_command(app))
 
 
 def application() -> typer.Typer:
     """The command-line application with all commands."""
     app = typer.Typer(
         name="meshforge",
+        cls=CommandGroup,
         help="Teach one collision mesh, mend the whole family.",
         epilog="Start with: meshforge demo",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,  # rich's help page alone costs a tenth of a second
-        context_settings={"help_option_names": ["-h", "--help"]},
+        context_settings=_HELP_OPTIONS,
     )
-    for name in COMMANDS:
-        command: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
-        app.command(name, short_help=_clause(command.__doc__ or ""))(command)
-    app.callback()(_version_option)
+    app.callback()(_root)
     return app
 
 
-def _clause(doc: str) -> str:
-    """The first clause of a docstring, which fits one line of the list of commands."""
-    return re.split(r"[;:.]", doc.strip(), maxsplit=1)[0]
-
-
-def _version_option(
-    version: bool = typer.Option(False, "--version", help="Print the version and leave.", is_eager=True),
-    debug: bool = typer.Option(False, "--debug", help="Show tracebacks (may stand after the command, too)."),
-) -> None:
-    if version:
-        from importlib.metadata import version as installed
-
-        typer.echo(f"meshforge {installed('meshforge')}")
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"meshforge {meshforge.__version__}")
         raise typer.Exit
+
+
+def _root(
+    version: bool = typer.Option(
+        False, "--version", help="Print the version and leave.", is_eager=True, callback=_print_version
+    ),
+    debug: bool = typer.Option(False, "--debug", help="Show tracebacks (may stand after the command, too)."),
+) -> None: ...
 
 
 def main() -> None:

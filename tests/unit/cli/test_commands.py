@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
-from meshforge.cli.main import COMMANDS
+import meshforge
+from meshforge.cli.main import COMMANDS, load_command
 from tests.unit.batch.families import write_table, write_tables
 from tests.unit.cli.in_process import Run, runner
 
@@ -50,6 +53,32 @@ def test_every_command_explains_itself(run: Run, command: str) -> None:
     told = run(command, "--help")
     assert told.code == 0
     assert f"Usage: meshforge {command}" in told.out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_list_of_commands_shows_the_first_clause_of_each_ones_help(command: str) -> None:
+    first = re.split(r"[;:.]", (load_command(command).help or "").strip(), maxsplit=1)[0]
+    assert " ".join(first.split()) == COMMANDS[command]
+
+
+def test_help_loads_no_command(run: Run) -> None:
+    code = (
+        "import sys; sys.argv[1:] = ['--help']\nfrom meshforge.cli import main\ntry: main()\nexcept SystemExit: pass\n"
+    )
+    code += "print(*(name for name in sys.modules if name.startswith('meshforge.')))"
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert set(shown.splitlines()[-1].split()) == {"meshforge.cli", "meshforge.cli.main"}
+
+
+@pytest.mark.parametrize("words", [["meshforge", "--version"], [sys.executable, "-m", "meshforge", "--version"]])
+def test_the_version_is_that_of_the_installed_package(words: list[str]) -> None:
+    words = [str(Path(sys.executable).parent / words[0]), *words[1:]] if words[0] == "meshforge" else words
+    shown = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    assert shown == f"meshforge {meshforge.__version__}\n" == f"meshforge {version('meshforge')}\n"
+
+
+def test_an_unknown_command_names_the_nearest(run: Run) -> None:
+    assert "Did you mean 'apply'?" in run("appl").err
 
 
 def test_help_and_import_load_nothing_heavy() -> None:
