@@ -1,11 +1,11 @@
-"""How laws are tried: without deadlines; in CI the same examples every time, elsewhere new ones every run."""
+"""What all tests share: which of them are run (see `tests/slow_tests.py`), and that Ctrl-C reaches their programs."""
 
 from __future__ import annotations
 
-import os
+import signal
 
-from hypothesis import settings
+pytest_plugins = ["tests.slow_tests"]
 
-settings.register_profile("explore", deadline=None)
-settings.register_profile("repeat", deadline=None, derandomize=True)
-settings.load_profile("repeat" if os.environ.get("CI") else "explore")
+# A job in the background is started with Ctrl-C ignored, and so would be all processes that tests start and interrupt.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
