@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from meshforge.geometry import Floats, distance
 from meshforge.symbolic import Hull, SymbolicMesh, bits, components
+from tests.examples import examples
 from tests.shape_strategies import KINDS, generators, shape
 
-LAW = settings(max_examples=60, deadline=None)
+LAW = examples(60)
 CLEAR = 1e-6  # gaps this close to the threshold, as a share of the diagonal, may fall on either side
 
 

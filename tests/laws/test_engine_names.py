@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Surface, unique_names
@@ -19,6 +19,7 @@ from meshforge.formats import Names, Saved, read, save
 from meshforge.geometry import Pose
 from tests.conversion_samples import foreign
 from tests.engine_rules import godot_word, looks_like_collision_to_fbx, unreal_target
+from tests.examples import examples
 from tests.gltf_files import tree_of
 from tests.shape_strategies import KINDS, generators, rotation, shape
 
@@ -52,7 +53,7 @@ def named(asset: Asset, names: Names, suffix: str) -> Iterator[Saved]:
 
 
 @pytest.mark.parametrize(("names", "suffix"), MADE)
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(asset=assets())
 def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
     names: Names, suffix: str, asset: Asset
@@ -74,7 +75,7 @@ def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
 
 
 @pytest.mark.parametrize("suffix", [".glb", ".obj"])
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(asset=assets())
 def test_unreal_finds_each_hull_and_the_mesh_of_its_body_for_it(suffix: str, asset: Asset) -> None:
     with named(asset, "unreal", suffix) as saved:
@@ -90,7 +91,7 @@ def test_unreal_finds_each_hull_and_the_mesh_of_its_body_for_it(suffix: str, ass
     assert {name: name[:3] for name in hulls} == {n: kinds.get(g.shape.kind, "UCX") for n, g in hulls.items()}
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(asset=assets())
 def test_godot_makes_a_convex_body_of_each_hull_and_nothing_else_of_anything(asset: Asset) -> None:
     with named(asset, "godot", ".glb") as saved:
@@ -101,7 +102,7 @@ def test_godot_makes_a_convex_body_of_each_hull_and_nothing_else_of_anything(ass
     assert [node["name"] for node in nodes if node["name"] not in hulls and godot_word(node["name"])] == []
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(asset=assets())
 def test_a_script_in_unity_finds_the_hulls_of_each_body_below_one_node(asset: Asset) -> None:
     with named(asset, "unity", ".glb") as saved:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Aabb, Box, Floats, Pose, Shape, close_pairs, convex_hull, distance
+from tests.examples import examples
 from tests.nearest import distance_bracket
 from tests.shape_strategies import clouds, directions, generators, poses, shape, shapes
 
-LAW = settings(max_examples=100, deadline=None)
+LAW = examples(100)
 RIGHT = 1e-6  # of the diagonal; what the module states where curved surfaces touch
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 
@@ -19,6 +19,7 @@ from meshforge.geometry import (
     outward,
     polygon_sizes,
 )
+from tests.examples import examples
 from tests.shape_strategies import clouds, generators
 
 _BUDGETS = st.builds(Budget, st.integers(8, 64), st.integers(6, 64), st.integers(4, 32))
@@ -43,7 +44,7 @@ def distance_to(point: Floats, vertices: Floats) -> float:
     return float(np.linalg.norm(weights / weights.sum() @ (vertices - point)))
 
 
-@settings(deadline=None, max_examples=80)
+@examples(80)
 @given(clouds(), _BUDGETS)
 def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(cloud: Floats, budget: Budget) -> None:
     hull = convex_hull(cloud)
@@ -58,7 +59,7 @@ def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(clou
     assert len(sizes) <= budget.polygons and max(sizes) <= budget.polygon_vertices
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(generators(), st.integers(8, 40))
 def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generator, vertices: int) -> None:
     hull = convex_hull(rng.normal(size=(60, 3)) * 10.0 ** rng.uniform(-1, 0, size=3))
@@ -68,7 +69,7 @@ def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generat
     assert found.error == pytest.approx(farthest, rel=1e-4, abs=1e-5)
 
 
-@settings(deadline=None, max_examples=25)
+@examples(25)
 @given(generators())
 def test_there_is_always_a_box(rng: np.random.Generator) -> None:
     hull = convex_hull(rng.normal(size=(30, 3)) * 10.0 ** rng.uniform(-3, 3, size=3))

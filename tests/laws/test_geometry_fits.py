@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import (
@@ -35,10 +35,11 @@ from meshforge.geometry import (
     tight_cylinder,
     volume_of_union,
 )
+from tests.examples import examples
 from tests.shape_strategies import clouds, directions, generators, posed, rotation, shapes
 
-LAW = settings(max_examples=60, deadline=None)
-SLOW = settings(max_examples=20, deadline=None)
+LAW = examples(60)
+SLOW = examples(20)
 FILLS = (aabb_box, aabb_cylinder, aabb_capsule, aabb_sphere)
 ANGULAR = ("polytope", "box")
 
@@ -111,7 +112,7 @@ def boxes(draw: st.DrawFn) -> Aabb:
     return Aabb(low, low + size)
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(bounds=boxes(), fill=st.sampled_from(FILLS))
 def test_a_shape_that_fills_a_box_has_that_box(bounds: Aabb, fill: Callable[[Aabb], Shape]) -> None:
     shape = fill(bounds)
@@ -125,7 +126,7 @@ def test_a_shape_that_fills_a_box_has_that_box(bounds: Aabb, fill: Callable[[Aab
     assert outward(hull.vertices, hull.faces)
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(bounds=boxes())
 def test_round_shapes_are_native_where_their_sides_agree_within_one_percent(bounds: Aabb) -> None:
     across = np.delete(bounds.size, longest_axis(bounds))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from meshforge.geometry import Floats, Polytope, convex_hull, is_closed, is_convex, outward, principal_extents
+from tests.examples import examples
 from tests.shape_strategies import clouds, directions, generators
 
-LAW = settings(max_examples=150, deadline=None)
+LAW = examples(150)
 
 
 def rows(points: Floats) -> set[tuple[float, ...]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from meshforge.geometry import Floats, Pose, Shape, is_closed, is_convex, outward, same_shape
+from tests.examples import examples
 from tests.shape_strategies import KINDS, directions, generators, posed, poses, shapes
 from tests.shape_strategies import shape as random_shape
 
-LAW = settings(max_examples=120, deadline=None)
+LAW = examples(120)
 ROUND = ("sphere", "cylinder", "capsule", "ellipsoid")
 EXACT = ("polytope", "box", "ellipsoid")  # kinds whose image is exact under any map
 

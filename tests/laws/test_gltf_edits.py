@@ -6,13 +6,14 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, same_shape
+from tests.examples import examples
 from tests.gltf_files import KHR, SceneFile, Tree, tree_of
 from tests.soups import angle, box, together
 
@@ -87,7 +88,7 @@ def edited(draw: st.DataObject, asset: Asset) -> Asset:
     return asset.with_geoms(geoms)
 
 
-@settings(max_examples=80)
+@examples(80)
 @given(scenes(), st.sampled_from([".glb", ".gltf"]), st.data())
 def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix: str, draw: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:

@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
@@ -25,6 +25,7 @@ from meshforge.language import (
     orient_mesh,
 )
 from meshforge.symbolic import Hull, Label, SymbolicMesh
+from tests.examples import examples
 from tests.laws.test_language_run import alike
 from tests.strategies import TEMPLATES, VOCABULARY, actions, programs, rotations, seeds, shape_of
 
@@ -51,7 +52,7 @@ def two_pairs() -> Orient:
 
 
 @given(landmarked(), rotations, programs(VOCABULARY, st.just(two_pairs()), actions(tight=False)))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_frame(
     mesh: SymbolicMesh, rotation: Floats, program: Program
 ) -> None:
@@ -72,7 +73,7 @@ def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_fra
 
 
 @given(landmarked(), rotations, st.sampled_from(("box", "cylinder", "capsule")))
-@settings(max_examples=15, deadline=None)
+@examples(15)
 def test_a_tight_fit_is_as_large_in_every_frame(mesh: SymbolicMesh, rotation: Floats, primitive: str) -> None:
     """Which one it is may depend on rounding, where several are equally small: around a sphere all boxes are."""
     program = Program(VOCABULARY, two_pairs(), (Rule(Is("misc"), Replace(primitive, "tight")),))
@@ -83,7 +84,7 @@ def test_a_tight_fit_is_as_large_in_every_frame(mesh: SymbolicMesh, rotation: Fl
 
 
 @given(landmarked(), rotations)
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_with_one_pair_the_frame_is_the_same_up_to_quarter_turns_about_its_axis(
     mesh: SymbolicMesh, rotation: Floats
 ) -> None:
@@ -118,7 +119,7 @@ AXES = st.permutations(DIRECTIONS).filter(lambda axes: axes[0][1] != axes[1][1])
 
 
 @given(landmarked(), rotations, AXES, st.booleans())
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_the_pairs_point_where_they_should(
     mesh: SymbolicMesh, rotation: Floats, axes: list[Direction], two: bool
 ) -> None:
@@ -135,7 +136,7 @@ def test_the_pairs_point_where_they_should(
 
 
 @given(landmarked(), st.booleans())
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_snap_takes_the_axis_aligned_turn_nearest_to_what_is_asked(mesh: SymbolicMesh, two: bool) -> None:
     pairs = two_pairs().pairs[: 1 + two]
     _, pose = orient_mesh(mesh, Orient(pairs, snap=True))
@@ -152,7 +153,7 @@ def test_snap_takes_the_axis_aligned_turn_nearest_to_what_is_asked(mesh: Symboli
 
 
 @given(landmarked(), st.integers(0, 23))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_an_axis_aligned_turn_is_exact(mesh: SymbolicMesh, which: int) -> None:
     """A mesh that lies square in a turned frame comes out with its very coordinates, permuted."""
     square = mesh.with_hulls([*mesh.hulls, *landmarks()])

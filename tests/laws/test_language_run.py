@@ -6,7 +6,7 @@ import itertools
 from collections import Counter
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
@@ -14,6 +14,7 @@ from meshforge.geometry import Shape
 from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
 from meshforge.language.actions.arguments import Axis
 from meshforge.symbolic import Hull, SymbolicMesh
+from tests.examples import examples
 from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules, seeds, shape_of
 
 DIRECTIONS = np.array([d for d in itertools.product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
@@ -41,7 +42,7 @@ def assert_sound(shape: Shape) -> None:
 
 
 @given(meshes(), programs(VOCABULARY, st.none()))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
     mesh: SymbolicMesh, program: Program
 ) -> None:
@@ -54,7 +55,7 @@ def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
 
 
 @given(meshes(), programs(VOCABULARY, st.none()))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh, program: Program) -> None:
     if program.asked_labels and not mesh.labels:
         return
@@ -74,7 +75,7 @@ def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh,
 
 
 @given(meshes(), st.lists(rules(), max_size=3))
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_a_program_is_its_rules_one_after_the_other(mesh: SymbolicMesh, given_rules: list[Rule]) -> None:
     """Names of made hulls follow each other, so that later rules may count on them."""
     program = Program(VOCABULARY, None, tuple(given_rules))
@@ -92,7 +93,7 @@ def test_a_program_is_its_rules_one_after_the_other(mesh: SymbolicMesh, given_ru
 
 
 @given(meshes(max_size=6))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_merge_is_idempotent(mesh: SymbolicMesh) -> None:
     everything = select_mask(All(), mesh)
     once = apply_action(mesh, everything, Merge()).mesh
@@ -102,7 +103,7 @@ def test_merge_is_idempotent(mesh: SymbolicMesh) -> None:
 
 
 @given(meshes(), st.sampled_from(VOCABULARY), rules())
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_a_rule_on_what_was_deleted_does_nothing(mesh: SymbolicMesh, label: str, rule: Rule) -> None:
     if not mesh.labels:
         return
@@ -124,7 +125,7 @@ ANGULAR = st.builds(
     ),
     st.floats(0.1, 10.0),
 )
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_scaling_by_a_factor_and_back_is_the_identity(scene: tuple[SymbolicMesh, Axis], factor: float) -> None:
     mesh, axis = scene
     there_and_back = (Rule(All(), Scale(axis, factor)), Rule(All(), Scale(axis, 1 / factor)))
@@ -137,7 +138,7 @@ def test_scaling_by_a_factor_and_back_is_the_identity(scene: tuple[SymbolicMesh,
 
 
 @given(meshes())
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_merging_each_component_covers_it_and_no_more(mesh: SymbolicMesh) -> None:
     action = Each(Merge())
     mask = select_mask(All(), mesh)

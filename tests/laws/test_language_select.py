@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 
 from meshforge.geometry import Aabb
 from meshforge.geometry.distance import distance
@@ -26,6 +26,7 @@ from meshforge.language import (
     size,
 )
 from meshforge.symbolic import SymbolicMesh, bits, components, mask_of
+from tests.examples import examples
 from tests.strategies import extractors, meshes
 
 
@@ -68,13 +69,13 @@ def diagonal(mesh: SymbolicMesh, q: set[int]) -> float:
 
 
 @given(meshes(), extractors())
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_extractors_select_what_their_set_builder_definitions_say(mesh: SymbolicMesh, extractor: Extractor) -> None:
     assert select(extractor, mesh) == naive(extractor, mesh) == extractor.select(mesh)
 
 
 @given(meshes(), extractors())
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_components_partition_a_selection_into_chains_of_contacts(mesh: SymbolicMesh, extractor: Extractor) -> None:
     chosen = select(extractor, mesh)
     parts = [bits(part) for part in components(mesh, mask_of(chosen))]
@@ -98,7 +99,7 @@ def connected(mesh: SymbolicMesh, part: frozenset[int]) -> bool:
 
 
 @given(extractors(max_leaves=6))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_the_size_counts_the_words_of_the_printed_extractor(extractor: Extractor) -> None:
     text = str(extractor)  # the dataclass form names every node once
     nodes = sum(text.count(f"{word}(") for word in ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff"))

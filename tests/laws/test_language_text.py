@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.language import (
@@ -22,6 +22,7 @@ from meshforge.language import (
     parse_orient,
     show,
 )
+from tests.examples import examples
 from tests.strategies import VOCABULARY, actions, extractors, orients, programs, rules
 
 LABELS = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=6) | st.sampled_from(
@@ -33,13 +34,13 @@ COMMENTS = st.builds(Comments, LINES, st.none() | COMMENT)
 
 
 @given(programs())
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_parsing_a_printed_program_gives_the_program(program: Program) -> None:
     assert Program.parse(str(program)) == program
 
 
 @given(extractors(), actions(), orients())
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_parsing_a_printed_part_gives_the_part(extractor: Extractor, action: Action, orient: Orient) -> None:
     assert parse_extractor(show(extractor)) == extractor
     assert parse_action(show(action)) == action
@@ -47,14 +48,14 @@ def test_parsing_a_printed_part_gives_the_part(extractor: Extractor, action: Act
 
 
 @given(st.lists(LABELS, min_size=1, max_size=3, unique=True).map(tuple))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_any_text_can_be_a_label(labels: tuple[str, ...]) -> None:
     program = Program(labels, rules=(Rule(Is(labels[0]), Scale("X", 2.0), label=labels[-1]),))
     assert Program.parse(str(program)) == program
 
 
 @given(st.floats(min_value=0, exclude_min=True, allow_infinity=False))
-@settings(max_examples=200, deadline=None)
+@examples(200)
 def test_a_number_is_printed_shortest_and_read_back_exactly(factor: float) -> None:
     action = Scale("all", factor)
     assert parse_action(show(action)) == action
@@ -66,7 +67,7 @@ def test_a_number_is_printed_shortest_and_read_back_exactly(factor: float) -> No
     st.lists(COMMENTS, min_size=3, max_size=3),
     st.builds(HeaderComments, COMMENTS, COMMENTS, COMMENTS, COMMENTS, LINES),
 )
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_formatting_twice_is_formatting_once_and_loses_no_comment(
     given_rules: list[Rule], beside: list[Comments], headers: HeaderComments
 ) -> None:

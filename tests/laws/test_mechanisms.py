@@ -7,12 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, JointKind, Mechanism
 from meshforge.formats import read, save
 from meshforge.geometry import Pose
+from tests.examples import examples
 from tests.shape_strategies import generators, rotation, shape
 
 KINDS: tuple[JointKind, ...] = ("fixed", "revolute", "prismatic", "revolute")
@@ -102,7 +103,7 @@ def assert_same_hulls(before: Asset, after: Asset) -> None:
         np.testing.assert_allclose(found.shape.aabb.max, geom.shape.aabb.max, atol=slack)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(mechanisms())
 def test_from_urdf_to_mjcf_and_back_all_is_what_it_was(asset: Asset) -> None:
     urdf = through(asset, "m.urdf")
@@ -120,7 +121,7 @@ def test_from_urdf_to_mjcf_and_back_all_is_what_it_was(asset: Asset) -> None:
     assert again.body_poses.keys() == urdf.body_poses.keys()
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(mechanisms())
 def test_from_sdf_to_urdf_and_back_all_is_what_it_was(asset: Asset) -> None:
     sdf = through(asset, "m.sdf")
@@ -130,7 +131,7 @@ def test_from_sdf_to_urdf_and_back_all_is_what_it_was(asset: Asset) -> None:
         assert_same_hulls(asset, other)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(mechanisms())
 def test_a_turn_of_the_root_frame_and_back_leaves_a_mechanism_as_it_was(asset: Asset) -> None:
     turn = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])

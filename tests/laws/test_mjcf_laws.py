@@ -5,9 +5,10 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.examples import examples
 from tests.mjcf_engines import assert_as_in_mujoco, put, read
 
 NUMBERS = st.integers(-8, 8).map(lambda k: k / 4)
@@ -49,7 +50,7 @@ def _split(text: str) -> tuple[str, dict[str, str | bytes]]:
     return stack[0], files
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(elements())
 def test_a_model_is_the_same_in_however_many_files_it_lies(parts: list[str]) -> None:
     text = f"<mujoco><worldbody>{''.join(parts)}</worldbody></mujoco>"

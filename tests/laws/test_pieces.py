@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import pieces
+from tests.examples import examples
 from tests.soups import box, together, unindexed
 
 CELLS = st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2))
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(cells=st.lists(CELLS, min_size=1, max_size=6, unique=True))
 def test_a_heap_of_boxes_without_shared_vertices_is_read_as_its_boxes(cells: list[tuple[int, int, int]]) -> None:
     vertices, faces = unindexed(together(*(box(cell) for cell in cells)))
@@ -21,7 +22,7 @@ def test_a_heap_of_boxes_without_shared_vertices_is_read_as_its_boxes(cells: lis
     assert lows == [list(map(float, cell)) for cell in cells]
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(cells=st.lists(CELLS, min_size=1, max_size=5, unique=True), seed=st.integers(0, 1000))
 def test_the_order_of_faces_only_orders_the_pieces_of_boxes_apart(cells: list[tuple[int, int, int]], seed: int) -> None:
     vertices, faces = unindexed(together(*(box([2.0 * x for x in cell]) for cell in cells)))

@@ -8,12 +8,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import convex_hull
+from tests.examples import examples
 from tests.mesh_files import ply, stl_ascii, stl_binary
 from tests.soups import Soup, box, together
 
@@ -51,7 +52,7 @@ def summary(asset: Asset, names: dict[str, str]) -> dict[str, list[float]]:
     return {names.get(g.name, g.name): [g.shape.volume, *g.shape.aabb.min, *g.shape.aabb.max] for g in asset.geoms}
 
 
-@settings(max_examples=120, deadline=None)
+@examples(120)
 @given(text=obj_texts(), data=st.data())
 def test_an_edited_obj_reads_back_as_the_edit_under_the_same_names(text: str, data: st.DataObject) -> None:
     with TemporaryDirectory() as folder:
@@ -70,7 +71,7 @@ def test_an_edited_obj_reads_back_as_the_edit_under_the_same_names(text: str, da
         assert again.path.read_bytes() == saved.path.read_bytes()
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(kind=st.sampled_from(sorted(WRITERS)), count=st.integers(1, 4), data=st.data())
 def test_an_edited_file_without_names_says_what_its_hulls_are_called(
     kind: str, count: int, data: st.DataObject

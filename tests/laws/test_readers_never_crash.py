@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import MeshForgeError
@@ -17,6 +17,7 @@ from meshforge.formats import read
 from meshforge.symbolic import SymbolicMesh, read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged
+from tests.examples import examples
 from tests.usd_crates import anyhow
 
 WHOLE = {
@@ -36,7 +37,7 @@ DAE = ("dae/parts/cube.dae", "dae/parts/mirrored.dae")
 
 
 @pytest.mark.parametrize("kind", WHOLE)
-@settings(max_examples=60)
+@examples(60)
 @given(seed=st.integers(0, 2**32))
 def test_a_damaged_asset_is_read_or_refused(kind: str, seed: int) -> None:
     rng = random.Random(seed)
@@ -47,14 +48,14 @@ def test_a_damaged_asset_is_read_or_refused(kind: str, seed: int) -> None:
         told_or_read(written(Path(folder, whole.name), damaged(whole.read_bytes(), rng)))
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(seed=st.integers(0, 2**32))
 def test_a_binary_layer_that_says_what_it_likes_is_read_or_refused(seed: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         told_or_read(written(Path(folder, "a.usdc"), anyhow(random.Random(seed))))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seed=st.integers(0, 2**32))
 def test_a_description_of_a_damaged_mesh_is_read_or_refused(seed: int) -> None:
     rng = random.Random(seed)
@@ -65,7 +66,7 @@ def test_a_description_of_a_damaged_mesh_is_read_or_refused(seed: int) -> None:
         told_or_read(written(Path(folder, "a.urdf"), f'<robot name="r">{link}</robot>'.encode()))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(seed=st.integers(0, 2**32))
 def test_damaged_labels_are_read_or_refused(seed: int) -> None:
     rng = random.Random(seed)

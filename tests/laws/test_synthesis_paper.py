@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.language import All, Attach, Base, Extractor, Geo, Is, labels_used, select_mask, size
@@ -32,6 +32,7 @@ from meshforge.synthesis.paper.partial import (
 )
 from meshforge.synthesis.search import Hit, Miss, Search
 from meshforge.synthesis.watch import Watch
+from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 
 LABELS = ("a", "b", "c")
@@ -48,7 +49,7 @@ def shown(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Example]:
     return examples_of(batch, [select_mask(extractor, mesh) for mesh in batch])
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(batches, extractors(LABELS, max_leaves=3), st.sampled_from(LAYERS))
 def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidden: Extractor, layers: Layers) -> None:
     examples = shown(batch, hidden)
@@ -85,7 +86,7 @@ def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
     return part(extractor)
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS), st.data())
 def test_a_completion_selects_within_the_bounds(mesh: SymbolicMesh, extractor: Extractor, data: st.DataObject) -> None:
     partial = data.draw(with_holes(extractor))
@@ -116,7 +117,7 @@ def completes(extractor: Extractor, partial: Partial) -> bool:
             return partial == extractor
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS))
 def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
     mesh: SymbolicMesh, hidden: Extractor
@@ -157,7 +158,7 @@ def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -
         yield tuple(correction for part in parts for correction in part)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(small_batches, extractors(LABELS, max_leaves=2), st.integers(0, 2**6 - 1), st.integers(0, 2))
 def test_a_repair_is_the_smallest_of_all_relabelings_of_suspects(
     batch: list[SymbolicMesh], extractor: Extractor, selections: int, eta: int
@@ -175,7 +176,7 @@ def test_a_repair_is_the_smallest_of_all_relabelings_of_suspects(
         assert matches(extractor, [corrected(example, found) for example in examples])
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(batches, st.integers(0, 2**24 - 1), st.integers(0, 2))
 def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
     batch: list[SymbolicMesh], selections: int, eta: int

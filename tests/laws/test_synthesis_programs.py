@@ -8,13 +8,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.errors import MeshForgeError
 from meshforge.language import Program, Rule, size
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, Options, synthesize
+from tests.examples import examples
 from tests.strategies import TEMPLATES, grid_boxes, meshes, programs
 from tests.synthesis_showing import demonstrated
 
@@ -46,7 +47,7 @@ def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
     return outcome
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(hidden_programs, batches)
 def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Program, batch: list[SymbolicMesh]) -> None:
     rules, demos = shown(hidden, batch)
@@ -59,7 +60,7 @@ def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Progr
         assert names[0] == names[1]
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(hidden_programs, batches, st.data())
 def test_a_demonstration_that_ends_early_leaves_the_later_rules_to_the_others(
     hidden: Program, batch: list[SymbolicMesh], data: st.DataObject

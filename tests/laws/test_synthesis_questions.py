@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
@@ -13,6 +13,7 @@ from benchmark.learning.hidden import hidden
 from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, Outcome, Repair, Step, synthesize
+from tests.examples import examples
 from tests.synthesis_boxes import Piece, boxes
 
 LAMPS = 20
@@ -66,7 +67,7 @@ def taught(
 
 
 @pytest.mark.parametrize("text", ["Is(base)", "Geo(Is(base), -Z)"])
-@settings(max_examples=12, deadline=None)
+@examples(12)
 @given(family=lamps(), first=st.integers(0, LAMPS - 1), second=st.integers(0, LAMPS - 1))
 def test_a_rare_variant_is_asked_about_and_one_answer_settles_it(
     text: str, family: tuple[dict[str, SymbolicMesh], str], first: int, second: int

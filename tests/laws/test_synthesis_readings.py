@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.language import Extractor, select_mask, size
@@ -17,6 +17,7 @@ from meshforge.synthesis.readings import Weighed, every
 from meshforge.synthesis.readings.every import Consistent
 from meshforge.synthesis.search import Hit, Search
 from meshforge.synthesis.watch import Watch
+from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_naive import naive_behaviours
 
@@ -54,7 +55,7 @@ def behaviours(search: Search, found: Consistent) -> dict[Behaviour, int]:
     return {tuple(search.field.on(term.bits, k) for k in count): term.size for term in found.terms}
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(batches, shown_on, extractors(TWO, max_leaves=2))
 def test_no_reading_is_missing_and_none_is_too_much(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch, shown, hidden, TWO, Options())
@@ -65,7 +66,7 @@ def test_no_reading_is_missing_and_none_is_too_much(batch: list[SymbolicMesh], s
     assert behaviours(search, found) == naive
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(batches, shown_on, extractors(LABELS, max_leaves=3))
 def test_every_reading_selects_what_was_shown_and_what_it_says(
     batch: list[SymbolicMesh], shown: int, hidden: Extractor
@@ -83,7 +84,7 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
     assert sum(weighed.beliefs) == pytest.approx(1.0)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(batches, shown_on, extractors(LABELS, max_leaves=4))
 def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch, shown, hidden, LABELS, Options())
@@ -94,7 +95,7 @@ def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: 
 
 
 @pytest.mark.parametrize("switched", OTHERWISE)
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(batch=batches, shown=shown_on, hidden=extractors(TWO, max_leaves=2))
 def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
     switched: str, batch: list[SymbolicMesh], shown: int, hidden: Extractor
@@ -106,7 +107,7 @@ def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
     assert behaviours(other, every(other, again, above)) == behaviours(search, every(search, answer, above))
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(batches, shown_on, extractors(LABELS, max_leaves=3))
 def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch[:shown], shown, hidden, LABELS, Options())
@@ -115,7 +116,7 @@ def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown:
     assert weighed.settled
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(batches, extractors(LABELS, max_leaves=4), st.integers(0, 40))
 def test_effort_that_is_cut_short_leaves_whole_sizes(batch: list[SymbolicMesh], hidden: Extractor, effort: int) -> None:
     search, answer = searched(batch, 1, hidden, LABELS, Options(effort=effort))

@@ -10,7 +10,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.language import Extractor, select_mask, size
@@ -25,6 +25,7 @@ from meshforge.synthesis.search import Hit, Search
 from meshforge.synthesis.search.arrays import Hulls
 from meshforge.synthesis.search.leaves import leaves
 from meshforge.synthesis.watch import Watch
+from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 
 LABELS = ("a", "b", "c")
@@ -66,7 +67,7 @@ def matches(extractor: Extractor, examples: list[Example], rows: list[Correction
     return all(select_mask(extractor, corrected(example, rows)) == example.selection for example in examples)
 
 
-@settings(max_examples=80, deadline=None)
+@examples(80)
 @given(spoilt())
 def test_the_extractor_selects_what_was_shown_on_the_corrected_meshes(shown: Shown) -> None:
     said = proposed(shown)
@@ -79,7 +80,7 @@ def test_the_extractor_selects_what_was_shown_on_the_corrected_meshes(shown: Sho
         assert not matches(said.extractor, shown[0], [other for other in rows if other != row])
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(spoilt(), st.integers(0, 2))
 def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int) -> None:
     spent = {example.name: before for example in shown[0][1:]}
@@ -97,7 +98,7 @@ def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int)
         assert row.to in LABELS
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(spoilt())
 def test_what_was_rejected_is_never_proposed_again(shown: Shown) -> None:
     rejected: frozenset[Correction] = frozenset()
@@ -109,7 +110,7 @@ def test_what_was_rejected_is_never_proposed_again(shown: Shown) -> None:
         rejected |= set(said.corrections)
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(spoilt())
 def test_beside_an_exact_extractor_only_smaller_ones_are_proposed(shown: Shown) -> None:
     answer = Search(shown[0], LABELS, Watch(600), OPTIONS).run()
@@ -118,7 +119,7 @@ def test_beside_an_exact_extractor_only_smaller_ones_are_proposed(shown: Shown) 
     assert said is None or exact is None or size(said.extractor) < size(exact)
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(spoilt(), st.data())
 def test_relabelled_hulls_are_selected_as_on_relabelled_meshes(shown: Shown, data: st.DataObject) -> None:
     examples, _ = shown

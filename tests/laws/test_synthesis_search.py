@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.language import Extractor, select_mask
@@ -16,6 +16,7 @@ from meshforge.synthesis.options import Options, Shortcuts
 from meshforge.synthesis.search import Hit, Miss, Search
 from meshforge.synthesis.search.order import Key, order
 from meshforge.synthesis.watch import Watch
+from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_naive import naive_search
 
@@ -54,14 +55,14 @@ def key(extractor: Extractor | None) -> Key | None:
     return order(extractor, {label: place for place, label in enumerate(LABELS)}) if extractor else None
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(batches, extractors(TWO))
 def test_the_answer_is_that_of_a_search_that_tries_everything(batch: list[SymbolicMesh], hidden: Extractor) -> None:
     examples = examples_of(batch, hidden)
     assert key(found(examples, max_size=6)) == key(naive_search(examples, TWO, max_size=6))
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(batches, st.integers(0, 2**24 - 1))
 def test_the_answer_for_any_selection_is_that_of_a_search_that_tries_everything(
     batch: list[SymbolicMesh], selections: int
@@ -72,7 +73,7 @@ def test_the_answer_for_any_selection_is_that_of_a_search_that_tries_everything(
 
 
 @pytest.mark.parametrize("switched", OFF)
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(batch=batches, hidden=extractors(TWO))
 def test_every_shortcut_can_be_switched_off_and_the_answer_stays(
     switched: str, batch: list[SymbolicMesh], hidden: Extractor
@@ -82,7 +83,7 @@ def test_every_shortcut_can_be_switched_off_and_the_answer_stays(
     assert found(examples, size) == found(examples, size, OFF[switched])
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(batches, extractors(LABELS, max_leaves=5))
 def test_what_is_found_selects_what_was_shown(batch: list[SymbolicMesh], hidden: Extractor) -> None:
     examples = examples_of(batch, hidden)

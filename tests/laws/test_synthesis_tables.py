@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.formats import load
@@ -17,6 +17,7 @@ from meshforge.synthesis.paper import paper_search
 from meshforge.synthesis.readings import every
 from meshforge.synthesis.search import Hit, Search
 from meshforge.synthesis.watch import Watch
+from tests.examples import examples
 from tests.strategies import extractors
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")
@@ -31,16 +32,16 @@ def tables() -> tuple[SymbolicMesh, ...]:
     return tuple(stage(load(path, path.with_suffix(".labels.json")), orient)[0] for path in paths)
 
 
-def examples(hidden: Extractor, shown: tuple[int, int]) -> list[Example]:
+def examples_from(hidden: Extractor, shown: tuple[int, int]) -> list[Example]:
     found = [Example(f"table {k}", tables()[k], select_mask(hidden, tables()[k])) for k in dict.fromkeys(shown)]
     assume(any(example.selection for example in found))
     return found
 
 
-@settings(max_examples=120, deadline=None)
+@examples(120)
 @given(extractors(LABELS, max_leaves=4), st.tuples(places, places))
 def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extractor, shown: tuple[int, int]) -> None:
-    known = examples(hidden, shown)
+    known = examples_from(hidden, shown)
     rest = [table for k, table in enumerate(tables()) if k not in shown]
     search = Search(known, LABELS, Watch(600), Options(max_size=19), batch=rest)
     answer = search.run()
@@ -52,10 +53,10 @@ def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extr
         assert search.field.bits(hidden) in {term.bits for term in found.terms}
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(extractors(LABELS, max_leaves=2), st.tuples(places, places))
 def test_the_strategy_of_the_paper_finds_nothing_smaller(hidden: Extractor, shown: tuple[int, int]) -> None:
-    known = examples(hidden, shown)
+    known = examples_from(hidden, shown)
     answer = Search(known, LABELS, Watch(600), Options()).run()
     assert isinstance(answer, Hit)
     assume(size(answer.extractor) <= 5)

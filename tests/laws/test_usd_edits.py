@@ -6,12 +6,13 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull
+from tests.examples import examples
 from tests.soups import angle
 from tests.usd_stages import COLLIDES, CONVEX, mesh, specs, stage, written
 
@@ -78,7 +79,7 @@ def edited(draw: st.DataObject, asset: Asset) -> Asset:
     return asset.with_geoms(geoms)
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(text=stages(), data=st.data())
 def test_an_edit_changes_what_it_says_and_nothing_else(text: str, data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:

@@ -4,11 +4,12 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.formats.gltf.writing.json_text import rewritten
 from meshforge.formats.naming.marks import godot_kind, render_name, unreal_kind, without_suffix
+from tests.examples import examples
 
 SCALARS = st.none() | st.booleans() | st.integers(-9, 9) | st.floats(allow_nan=False, allow_infinity=False) | st.text()
 KEYS = st.sampled_from("abcd")
@@ -17,7 +18,7 @@ TREES = st.dictionaries(KEYS, VALUES) | st.lists(VALUES)
 LAYOUTS = st.sampled_from([(None, (",", ":")), (None, (", ", ": ")), (2, (",", ": ")), ("\t", (",", " : ")), (0, None)])
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(TREES, TREES, LAYOUTS)
 def test_any_value_can_become_any_other(old: Any, new: Any, layout: Any) -> None:
     text = json.dumps(old, indent=layout[0], separators=layout[1])
@@ -25,7 +26,7 @@ def test_any_value_can_become_any_other(old: Any, new: Any, layout: Any) -> None
     assert rewritten(text, old) == text
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.lists(VALUES, min_size=1, max_size=6), VALUES, st.data(), LAYOUTS)
 def test_what_stays_of_a_list_keeps_its_text(old: list[Any], more: Any, data: st.DataObject, layout: Any) -> None:
     kept = [value for value in old if data.draw(st.booleans())]

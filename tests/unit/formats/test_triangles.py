@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import AssetError
 from meshforge.formats import RawSurface, pieces_of, read_triangles
 from meshforge.formats.triangles import surfaces_in
 from meshforge.geometry import Floats
+from tests.examples import examples
 from tests.mesh_files import KINDS, dae, glb, gltf, gltf_tree, ply, stl_ascii, stl_binary, wrl
 from tests.soups import Soup, box, together
 
@@ -44,7 +45,7 @@ def test_every_kind_of_file_gives_the_same_triangles(tmp_path: Path, suffix: str
 
 
 @pytest.mark.parametrize(("suffix", "write"), KINDS.values(), ids=KINDS.keys())
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused_by_name_never_more(suffix: str, write: Write, data: st.DataObject) -> None:
     whole = write(box())

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import AssetError
 from meshforge.geometry import Pose
+from tests.examples import examples
 from tests.urdf_sample import link, read, robot, sample
 
 BALL = '<sphere radius="0.1"/>'
@@ -84,7 +85,7 @@ def test_a_chain_of_two_thousand_links_is_placed(tmp_path: Path) -> None:
 ANGLES = st.floats(-4, 4) | st.sampled_from([np.pi / 2, -np.pi / 2, 1.5707963, np.pi / 2 + 1e-11, np.pi, 0.0])
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(st.tuples(ANGLES, ANGLES, ANGLES))
 def test_roll_pitch_and_yaw_are_written_without_a_loss(rpy: tuple[float, float, float]) -> None:
     pose = Pose.from_rpy([0, 0, 0], rpy)

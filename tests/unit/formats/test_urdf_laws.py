@@ -7,12 +7,13 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Geom
 from meshforge.formats.xml import Splice, parsed, spliced
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere
+from tests.examples import examples
 from tests.urdf_sample import put, read, robot, sample, write
 
 GEOMETRY = st.sampled_from(
@@ -71,7 +72,7 @@ def _outside(data: bytes) -> bytes:
     return re.sub(rb"\s+", b"", cut)
 
 
-@settings(max_examples=80, deadline=None)
+@examples(80)
 @given(st.data())
 def test_an_edit_reads_back_as_it_was_meant_and_changes_only_collisions(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as name:

@@ -7,11 +7,12 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import AssetError
 from meshforge.formats.xml import Element, Text, parsed
+from tests.examples import examples
 from tests.urdf_sample import SAMPLE, link, read, robot, sample, write
 
 BOX = link('<box size="1 1 1"/>')
@@ -118,7 +119,7 @@ def element_text(draw: st.DrawFn, depth: int = 3) -> str:
     return f"{head}>{inside}</{tag}{draw(SPACE)}>"
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(element_text())
 def test_the_place_of_every_element_is_exactly_its_text(text: str) -> None:
     data = Text.of(text.encode()).data

@@ -2,10 +2,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Aabb, Box, common, convex_hull, cut, is_convex, overlap_volume, parted
+from tests.examples import examples
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Box:
@@ -30,7 +31,7 @@ def test_a_shape_has_itself_in_common_with_one_around_it() -> None:
     assert met is not None and met.volume == pytest.approx(inner.volume)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.integers(0, 10_000))
 def test_what_two_hulls_have_in_common_is_convex_and_as_large_as_their_overlap(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -3,13 +3,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from meshforge.errors import ProjectError, UsageError
 from meshforge.language import Action, Delete, Each, Merge, Replace, Scale
 from meshforge.project import Project
 from meshforge.synthesis import Answer, Step
+from tests.examples import examples
 from tests.unit.batch.families import tree
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, labelled
 
@@ -119,7 +120,7 @@ def test_what_a_newer_version_keeps_in_a_step_moves_with_it(tmp_path: Path) -> N
 KINDS = st.lists(st.sampled_from(["shown", "nothing", "open"]), max_size=4)
 
 
-@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(demos=st.tuples(KINDS, KINDS, KINDS), data=st.data())
 def test_moving_keeps_what_each_asset_says_about_each_rule(
     tmp_path_factory: pytest.TempPathFactory, demos: tuple[list[str], ...], data: st.DataObject

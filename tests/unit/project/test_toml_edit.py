@@ -3,11 +3,12 @@ from __future__ import annotations
 import tomllib
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import ProjectError
 from meshforge.project.toml_edit import Value, set_value
+from tests.examples import examples
 
 TEXT = """\
 # our tables
@@ -81,7 +82,7 @@ def test_an_indented_array_line_that_looks_like_a_table_is_none() -> None:
     assert tomllib.loads(set_value(text, "y", 2)) == {"x": [["contact"]], "y": 2}
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(
     key=st.sampled_from(["name", "vocabulary", "orient", "fresh"]),
     value=st.text(st.characters(exclude_categories=["Cs"])) | st.lists(st.text("ab\"'#\\é\n"), max_size=3),

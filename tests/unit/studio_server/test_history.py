@@ -5,12 +5,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import ProjectError
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.history import History
+from tests.examples import examples
 from tests.unit.studio_server.writing import Write, bare, data
 
 NAMES = st.sampled_from(["a", "b", "deep/c", "deep/er/d"])
@@ -20,7 +21,7 @@ WRITES = st.builds(
 MOVES = st.lists(st.one_of(WRITES, st.sampled_from(["undo", "redo", "reopen"])), max_size=14)
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(MOVES)
 def test_undo_and_redo_walk_through_the_very_states_that_were(moves: Sequence[Write | str]) -> None:
     with TemporaryDirectory() as folder:
@@ -44,7 +45,7 @@ def test_undo_and_redo_walk_through_the_very_states_that_were(moves: Sequence[Wr
             assert (history.view.undoable, history.view.redoable) == (at, len(states) - 1 - at)
 
 
-@settings(max_examples=15, deadline=None)
+@examples(15)
 @given(st.lists(WRITES, max_size=6))
 def test_all_undone_is_the_beginning_and_all_redone_is_the_end(edits: Sequence[Write]) -> None:
     with TemporaryDirectory() as folder:

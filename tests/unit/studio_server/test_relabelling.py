@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
@@ -19,6 +19,7 @@ from meshforge.studio.state.relabelling import Relabelling
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.labelling import CarriedOver
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
+from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.labels.test_propagating import NAMES, family
@@ -220,7 +221,7 @@ MOVES = st.lists(
 )
 
 
-@settings(max_examples=12, deadline=None)
+@examples(12)
 @given(moves=MOVES)
 def test_no_label_of_a_person_is_lost_whatever_is_done(
     tmp_path_factory: pytest.TempPathFactory, moves: Sequence[LabelHulls | str]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.language import EXTREMITY, Extractor, select_mask
@@ -10,6 +10,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.search.columns import Columns, positions
 from meshforge.synthesis.search.field import Field
 from meshforge.synthesis.search.miss import Errors
+from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_boxes import boxes, table
 
@@ -25,7 +26,7 @@ def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list
     assert list(positions(found)) == [k for k, row in enumerate(rows) if row & need == need and not row & avoid]
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(batches, extractors(LABELS), st.booleans(), st.sampled_from([EXTREMITY, 0.3]))
 def test_what_an_extractor_selects_is_a_set_of_groups(
     batch: list[SymbolicMesh], extractor: Extractor, group: bool, extremity: float
@@ -35,7 +36,7 @@ def test_what_an_extractor_selects_is_a_set_of_groups(
     assert [field.on(chosen, k) for k in range(len(batch))] == [select_mask(extractor, m, extremity) for m in batch]
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(batches)
 def test_leaves_tell_the_first_hulls_of_two_groups_apart(batch: list[SymbolicMesh]) -> None:
     field = Field(batch, LABELS)
@@ -43,7 +44,7 @@ def test_leaves_tell_the_first_hulls_of_two_groups_apart(batch: list[SymbolicMes
     assert len(seen) == field.width
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(batches, st.integers(0, 2**32 - 1), masks)
 def test_errors_are_counted_by_hulls(batch: list[SymbolicMesh], shown: int, chosen: int) -> None:
     field = Field(batch, LABELS)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, size
 from meshforge.synthesis.search.order import order
+from tests.examples import examples
 from tests.strategies import VOCABULARY, extractors
 
 LABELS = {label: place for place, label in enumerate(VOCABULARY)}
@@ -47,7 +48,7 @@ def test_smaller_comes_first(extractor: Extractor) -> None:
     assert order(extractor, LABELS)[0] == size(extractor)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(extractors(max_leaves=2), extractors(max_leaves=2), extractors(max_leaves=2))
 def test_an_earlier_part_makes_the_whole_earlier(one: Extractor, other: Extractor, third: Extractor) -> None:
     one, other = sorted((one, other), key=lambda extractor: order(extractor, LABELS))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Floats, Ints
 from meshforge.views.labelling.lines import crosses, cuts, overlaps
 from meshforge.views.labelling.placing import LEAST, Place, placed
 from meshforge.views.middles import Middle
+from tests.examples import examples
 
 SIZES = {22: (34.0, 24.0), 17: (27.0, 19.0)}
 SHAPE = (260, 320)
@@ -30,7 +31,7 @@ def put(items: Ints) -> dict[int, Place]:
 RECTANGLES = st.tuples(st.integers(10, 280), st.integers(10, 220), st.integers(3, 150), st.integers(3, 120))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.lists(RECTANGLES, min_size=1, max_size=40))
 def test_numbers_never_cover_each_other_nor_the_lines_to_them(rectangles: list[tuple[int, int, int, int]]) -> None:
     items = picture(rectangles)
@@ -83,7 +84,7 @@ def test_hulls_hardly_seen_have_no_number_unless_it_is_known_where_they_are() ->
     assert [place.item for place in placed(items, {0: SIZES, 1: SIZES}, {1: Middle(30, 40, 0.0)})] == [1]
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(st.lists(RECTANGLES, min_size=1, max_size=12), st.tuples(st.integers(0, 200), st.integers(0, 160)))
 def test_nothing_is_written_on_a_box_that_is_taken(
     rectangles: list[tuple[int, int, int, int]], corner: tuple[int, int]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.asset import Asset, Document, Opaque, Surface
@@ -26,6 +26,7 @@ from meshforge.views.labelling.placing import LEAST
 from meshforge.views.labelling.sights import LIKED, WORDS
 from meshforge.views.labelling.sitter import Sitter
 from tests.corpus_path import corpus
+from tests.examples import examples
 from tests.unit.views.scenes import box, hull, pixels, table
 
 SMALL = 320
@@ -75,7 +76,7 @@ PLACES = st.tuples(*[st.integers(-2, 2)] * 3)
 LENGTHS = st.tuples(*[st.sampled_from([0.02, 0.3, 1.0, 1.0, 3.0])] * 3)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(st.lists(st.tuples(PLACES, LENGTHS), min_size=1, max_size=9), st.data())
 def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], data: st.DataObject) -> None:
     mesh = mesh_of(*(box(place, lengths) for place, lengths in parts))

@@ -10,11 +10,12 @@ from time import sleep
 from typing import IO
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES
+from tests.examples import examples
 from tests.unit.batch.families import table_boxes
 from tests.unit.project.labels.test_propagating import family
 
@@ -66,7 +67,7 @@ def said_by_people(folder: Path) -> dict[tuple[str, str], str]:
     }
 
 
-@settings(max_examples=6)
+@examples(6)
 @given(rounds=ROUNDS)
 def test_what_a_person_said_outlives_every_kill(
     tmp_path_factory: pytest.TempPathFactory, rounds: list[tuple[list[Act], Act, float]]

@@ -3,12 +3,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.errors import ProjectError
 from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES, Label
+from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, write_table
 
 NAMES = tuple(table_boxes())
@@ -121,7 +122,7 @@ ACTS = st.lists(
 )
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(acts=ACTS)
 def test_no_label_of_a_person_is_ever_changed_by_a_machine(
     tmp_path_factory: pytest.TempPathFactory, acts: list[Act]

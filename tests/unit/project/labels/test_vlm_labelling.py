@@ -15,7 +15,6 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given
-from hypothesis import settings as trying
 from hypothesis import strategies as st
 
 from meshforge.batch import HERE, Spread
@@ -23,6 +22,7 @@ from meshforge.errors import MeshForgeError, ProjectError, UsageError
 from meshforge.perception import vlm
 from meshforge.project import Project, VlmLabelled
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
+from tests.examples import examples
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
 from tests.unit.project.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
 
@@ -281,7 +281,7 @@ ACTS = st.lists(
 )
 
 
-@trying(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(acts=ACTS, seed=st.integers(0, 1000))
 def test_no_label_of_a_person_or_a_file_is_ever_changed(
     tmp_path_factory: pytest.TempPathFactory, acts: list[Act], seed: int
