@@ -8,6 +8,8 @@ import time
 import weakref
 from pathlib import Path
 
+import pytest
+
 from meshforge.batch import Lost, isolated
 from meshforge.batch.workers.pool import workers_context
 
@@ -66,6 +68,7 @@ def test_nothing_to_do_starts_no_process() -> None:
     assert list(isolated(square, [], workers=4)) == []
 
 
+@pytest.mark.slow
 def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text("from meshforge.batch import isolated\nprint(list(isolated(abs, [1, -2], workers=1)))\n")

@@ -56,6 +56,7 @@ def told(project: Project, of: Literal["asset", "output"], measures: Measures) -
     return examine(path, path.parent, None, Wanted(measures, against=against)).to_json()
 
 
+@pytest.mark.slow
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: Checks) -> None:
     everything = Measures(fit=True, clearance=True, physics=True)
     was, now = told(project, "asset", everything), told(project, "output", everything)
