@@ -67,5 +67,5 @@ test("signs that do not fit are counted; what matters most stays", () => {
 test("what became of labels is said in words", () => {
   const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
   expect(relabelledText(found)).toBe("2 labels are new, 1 label changed");
-  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels are others");
+  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels changed");
 });

@@ -30,7 +30,7 @@ it("says why labels cannot be propagated", () => {
   useProject.setState({ cards: { a: { ...whole, given: 0 } } });
   expect(whyNotPropagate()).toContain("one asset first");
   useProject.setState({ project: emptyProject.project });
-  expect(whyNotPropagate()).toContain("called");
+  expect(whyNotPropagate()).toContain("names of the labels");
   useProject.setState({ order: [] });
   expect(whyNotPropagate()).toContain("no assets");
 });
