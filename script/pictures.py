@@ -39,7 +39,7 @@ def _tables(path: Path) -> None:
         mesh = load(TABLES / f"{name}.obj")
         upright, pose = stage(mesh, program.orient)
         edited = program.run(mesh, templates).mesh
-        after: SymbolicMesh = replace(edited, hulls=tuple(hull.moved(pose) for hull in edited.hulls))
+        after: SymbolicMesh = replace(edited, hulls=tuple(hull.move(pose) for hull in edited.hulls))
         pairs.append(compare(upright, after, size=(520, 400), color_by="hull"))
         titles.append((f"{len(mesh.hulls)} hulls", f"{len(after.hulls)} hulls"))
     pictures = [image for k in (0, 1) for image in (pair[k] for pair in pairs)]

@@ -13,7 +13,7 @@ from meshforge.views import render, sheet, write_png
 
 def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
     """The mesh moved rigidly."""
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def upright(sample: Sample, mesh: SymbolicMesh | None = None) -> SymbolicMesh:

@@ -67,7 +67,7 @@ class Agent:
     def opening(self) -> tuple[Message, ...]:
         """What the model is told first."""
         frame = self.task.program
-        header = show(replace(frame, rules=()))
+        header = str(replace(frame, rules=()))
         begun = _OPENING.format(header=header.strip(), templates=showing.templates(self.task.templates))
         return instructions(), Message.user(begun, *showing.told(self.shown, frame), _CLOSING)
 

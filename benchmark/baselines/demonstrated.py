@@ -65,7 +65,7 @@ def _shown(bench: Bench, desk: Desk, person: Person, name: str) -> Shown:
 
 
 def _landmarks_right(bench: Bench, desk: Desk, name: str) -> Desk:
-    landmarks = Program(orient=bench.task.program.orient).used_labels
+    landmarks = Program(orient=bench.task.program.orient).labels_in_use
     true = bench.truth.meshes[name].labels
     right = {hull: label for hull, label in true.items() if label.name in landmarks}
-    return Desk(bench, {name: desk.meshes[name].labelled(right)})
+    return Desk(bench, {name: desk.meshes[name].with_labels(right)})

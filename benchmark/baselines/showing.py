@@ -53,7 +53,7 @@ def steps(shown: Shown) -> str:
         if not step.select:
             lines.append(f"{what}: on no hull of this mesh")
             continue
-        made = [hull(shown.stages[step.rule].named(name)) for name in shown.made(step.rule)]
+        made = [hull(shown.stages[step.rule].hull_of(name)) for name in shown.made(step.rule)]
         more = [f"and {len(made) - _FEW} more"] if len(made) > _FEW else []
         end = f"\n   made {'; '.join([*made[:_FEW], *more])}" if made else ""
         lines.append(f"{what}: on {', '.join(sorted(step.select))}{end}")

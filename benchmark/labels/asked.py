@@ -51,8 +51,8 @@ class Asked:
         client = CountingClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         with closing(client), closing(Labeller(client, manner)) as labeller:
             pending = [labeller.begin(family.bare[place]) for place in family.drawn]
-            said = [one.said() for one in pending]
-        self.spent += client.bill.cost or 0.0
+            said = [one.result() for one in pending]
+        self.spent += client.usage.cost or 0.0
         labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))
         why = next((problem for one in said for problem in one.failed), "")
         cost = client.cost if endpoint.is_priced else None

@@ -40,7 +40,7 @@ class Rows:
 def rows_of(samples: Sequence[Sample]) -> Rows:
     """The hulls of some samples."""
     sizes = [len(sample.mesh.hulls) for sample in samples]
-    rows = np.concatenate([Sketcher(sample.mesh).sketch().rows for sample in samples])
+    rows = np.concatenate([Sketcher(sample.mesh).describe().rows for sample in samples])
     return Rows(
         Scale.of(rows)(rows),
         np.array([hull.label for sample in samples for hull in sample.mesh.hulls]),

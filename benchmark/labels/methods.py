@@ -60,7 +60,7 @@ def offline(folders: Sequence[Path]) -> list[Method]:
 def _propagated(count: int, family: Family, repeat: int) -> Told:
     labelled = family.told(family.advised[:count])
     started = perf_counter()
-    found = family.relatives.propagated(labelled)
+    found = family.relatives.propagate(labelled)
     seconds = perf_counter() - started
     return Told(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
 

@@ -61,7 +61,7 @@ class Known:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += self.relatives.propagated(self.told(meshes)).next_to_label()
+            meshes += self.relatives.propagate(self.told(meshes)).next_to_label()
         return tuple(meshes)
 
     def drawn(self, count: int, seed: int) -> list[int]:
@@ -132,14 +132,14 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
 
 def _propagated(metric: Floats | None = None) -> Guess:
     def guess(known: Known, told: Told) -> tuple[Strings, Floats]:
-        return _likeliest(known.relatives.propagated(told, metric))
+        return _likeliest(known.relatives.propagate(told, metric))
 
     return guess
 
 
 def _as_it_lies(known: Known, told: Told) -> tuple[Strings, Floats]:
     """Propagation that takes each mesh to stand as it seems to."""
-    family = known.family.taught(told)
+    family = known.family.with_labels(told)
     return _likeliest(Propagated(family, agreeing(family, by_likeness(family, weights()))))
 
 
@@ -226,7 +226,7 @@ def _lying(tell: Tell) -> Table:
 
 
 def _turned(mesh: SymbolicMesh, turn: Pose) -> SymbolicMesh:
-    return SymbolicMesh(tuple(hull.moved(turn) for hull in mesh.hulls))
+    return SymbolicMesh(tuple(hull.move(turn) for hull in mesh.hulls))
 
 
 def _left_out(tell: Tell) -> Table:

@@ -87,7 +87,7 @@ def families(count: int, names: tuple[str, ...] = CATEGORIES) -> list[Family]:
 
 @cache
 def _bare(name: str) -> tuple[SymbolicMesh, ...]:
-    return tuple(sample.mesh.labelled(dict.fromkeys(sample.mesh.index)) for sample in samples(name))
+    return tuple(sample.mesh.with_labels(dict.fromkeys(sample.mesh.index)) for sample in samples(name))
 
 
 @cache
@@ -99,7 +99,7 @@ def _relatives(name: str) -> Relatives:
 def _advised(name: str) -> tuple[int, ...]:
     chosen = list[int]()
     while len(chosen) < LABELLED:
-        chosen += _relatives(name).propagated(_told(name, chosen)).next_to_label()
+        chosen += _relatives(name).propagate(_told(name, chosen)).next_to_label()
     return tuple(chosen)
 
 

@@ -66,7 +66,7 @@ def spoilt(
     for index, hull in enumerate(mesh.hulls):
         sure = 1.0 if noise.source == "file" else float(rng.beta(6, 3) if index in wrong else rng.beta(18, 2))
         labels[hull.name] = Label(wrong.get(index) or str(hull.label), sure, noise.source)
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
 def found(examples: Sequence[Example], vocabulary: Sequence[str]) -> Extractor | None:
@@ -141,7 +141,7 @@ def _learn(case: Case, tally: Tally) -> None:
 
 def _corrected(example: Example, rows: Sequence[Correction]) -> Example:
     labels = {row.hull: Label(row.to, 1.0, "repair") for row in rows if row.asset == example.name}
-    return Example(example.name, example.mesh.labelled(labels), example.selection)
+    return Example(example.name, example.mesh.with_labels(labels), example.selection)
 
 
 def measure(tell: Tell, quick: bool) -> Result:

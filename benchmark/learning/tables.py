@@ -62,6 +62,6 @@ def stretched(count: int) -> dict[str, SymbolicMesh]:
     for k in range(len(found), count):
         mesh = list(bundled().values())[k % len(bundled())]
         factors = np.diag(draw.uniform(0.8, 1.25, 3))
-        hulls = (replace(hull, shape=hull.shape.mapped(factors, np.zeros(3))) for hull in mesh.hulls)
+        hulls = (replace(hull, shape=hull.shape.transform(factors, np.zeros(3))) for hull in mesh.hulls)
         found[f"table_{k + 1:02}"] = SymbolicMesh(tuple(hulls))
     return dict(list(found.items())[:count])

@@ -50,4 +50,4 @@ def _answer(task: Wanted, outcome: Ambiguous) -> Answer:
     """The choice that is what is wanted, or neither."""
     asks = outcome.question
     meant = task.meant(asks.asset, asks.rule, outcome)
-    return asks.answered(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))
+    return asks.answer_with(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))

@@ -54,7 +54,7 @@ def one_file(name: str, mesh: SymbolicMesh, suffix: str, folder: Path, rounds: i
 
 def _polytopes(mesh: SymbolicMesh) -> Asset:
     """The hulls of a mesh as an asset of no format."""
-    geoms = tuple(Geom(hull.name, "body", hull.shape.tessellated()) for hull in mesh.hulls)
+    geoms = tuple(Geom(hull.name, "body", hull.shape.tessellate()) for hull in mesh.hulls)
     return Asset(Path("memory"), "memory", (Body("body", Pose.identity()),), geoms, Document())
 
 
@@ -62,9 +62,9 @@ def _content(asset: Asset, suffix: str) -> bytes:
     """The bytes of a file of the hulls."""
     match suffix:
         case ".obj":
-            return Obj().made(as_parts(asset.geoms)[0])
+            return Obj().format_parts(as_parts(asset.geoms)[0])
         case ".stl":
-            return Stl().made(as_parts(asset.geoms)[0])
+            return Stl().format_parts(as_parts(asset.geoms)[0])
         case _:
             return GltfFormat().create(asset, "saved.glb").main
 

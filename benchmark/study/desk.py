@@ -159,7 +159,7 @@ class Desk:
         """The same with some labels corrected."""
         meshes = dict(self.meshes)
         for one in corrections:
-            meshes[one.asset] = meshes[one.asset].labelled({one.hull: Label(one.to, 1.0, "repair")})
+            meshes[one.asset] = meshes[one.asset].with_labels({one.hull: Label(one.to, 1.0, "repair")})
         kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
         return Desk(self.bench, meshes, kept)
 

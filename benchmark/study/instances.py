@@ -135,7 +135,7 @@ def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[Correction]:
     for name in names:
         true = desk.bench.truth.meshes[name]
         for hull in desk.meshes[name].hulls:
-            right = true.named(hull.name).label
+            right = true.hull_of(hull.name).label
             if right and hull.label != right:
                 yield Correction(name, hull.name, hull.label, right)
 

@@ -87,7 +87,7 @@ class Person:
         right = next((choices.index(select) for select in wanted if select in choices), None)
         if self._slips.random() < self._errs:
             right = self._slips.choice([place for place in (*range(len(choices)), None) if place != right])
-        return question.answered(right)
+        return question.answer_with(right)
 
     def _wanted(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
         name, place = question.asset, question.rule - 1
@@ -112,4 +112,4 @@ class Person:
 
     def knows(self, correction: Correction) -> bool:
         """Whether a correction is right."""
-        return self._truth.meshes[correction.asset].named(correction.hull).label == correction.to
+        return self._truth.meshes[correction.asset].hull_of(correction.hull).label == correction.to

@@ -179,9 +179,9 @@ class _Teaching:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
         if not isinstance(outcome, MeshForgeError) or outcome.where not in self.given:
             return False
-        landmarks = Program(orient=self.bench.task.program.orient).used_labels
+        landmarks = Program(orient=self.bench.task.program.orient).labels_in_use
         mesh, true = self.desk.meshes[outcome.where], self.bench.truth.meshes[outcome.where]
-        pairs = [(hull, true.named(hull.name).label) for hull in mesh.hulls]
+        pairs = [(hull, true.hull_of(hull.name).label) for hull in mesh.hulls]
         wrong = [Correction(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to]
         self.desk = self.desk.corrected(wrong)
         self.log.typed += len(wrong)

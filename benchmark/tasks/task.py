@@ -100,7 +100,7 @@ def _truly_labelled(edited: Edited, truth: Mapping[str, Label | None]) -> Symbol
     """Hulls with their true labels; made ones with that of the hull they are named after, or what the program says."""
     assert edited.mesh
     names = [hull.name for hull in edited.mesh.hulls if hull.name not in edited.named]
-    return edited.mesh.labelled({name: truth.get(name.split("~")[0]) for name in names})
+    return edited.mesh.with_labels({name: truth.get(name.split("~")[0]) for name in names})
 
 
 @cache

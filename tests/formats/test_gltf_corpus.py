@@ -108,7 +108,7 @@ def edited(asset: Asset) -> tuple[Asset, set[int], int]:
     """The last hull gone and the first one a box; the nodes that this touches, and how many triangles it takes."""
     assert isinstance(asset.document, GltfDocument)
     first, gone = asset.geoms[0], {geom.name for geom in (asset.geoms[0], asset.geoms[-1])}
-    boxed = Geom(f"{first.name}~1", first.body, Box.filling(first.shape.aabb), first.name)
+    boxed = Geom(f"{first.name}~1", first.body, Box.of_bounds(first.shape.aabb), first.name)
     touched, less = set(), 0
     for element in asset.document.authored:
         for k, name in enumerate(element.names):

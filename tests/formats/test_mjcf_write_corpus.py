@@ -59,7 +59,7 @@ def deleted(asset: Asset, k: int) -> tuple[Asset, list[Geom]]:
 
 def boxed(asset: Asset, k: int) -> tuple[Asset, list[Geom]]:
     geom = asset.geoms[k]
-    made = hull(asset, geom.name, Box.filling(geom.shape.aabb))
+    made = hull(asset, geom.name, Box.of_bounds(geom.shape.aabb))
     return replaced(asset, [geom.name], made), [made]
 
 

@@ -25,7 +25,7 @@ def random_mesh(rng: np.random.Generator, count: int) -> SymbolicMesh:
 
 
 def mapped(mesh: SymbolicMesh, linear: Floats, offset: Floats) -> SymbolicMesh:
-    hulls = [Hull(h.name, h.body, h.shape.mapped(linear, offset)) for h in mesh.hulls]
+    hulls = [Hull(h.name, h.body, h.shape.transform(linear, offset)) for h in mesh.hulls]
     return SymbolicMesh(tuple(hulls), epsilon=mesh.epsilon)
 
 

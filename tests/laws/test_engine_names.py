@@ -66,7 +66,7 @@ def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
     assert asset.aabb is not None
     for geom in asset.geoms:
         now = after.pop(saved.names.get(geom.name, geom.name))
-        was = geom.shape if now.kind == geom.shape.kind else geom.shape.tessellated()
+        was = geom.shape if now.kind == geom.shape.kind else geom.shape.tessellate()
         near = FITTED if now.kind == "capsule" else 1e-6
         slack = 1e-6 * (1 + asset.aabb.diagonal) + near * geom.shape.aabb.diagonal
         np.testing.assert_allclose(now.aabb.min, was.aabb.min, atol=slack, err_msg=geom.name)

@@ -44,7 +44,7 @@ def landmarked(draw: st.DrawFn) -> SymbolicMesh:
 
 def turned(mesh: SymbolicMesh, rotation: Floats) -> SymbolicMesh:
     pose = Pose(rotation, np.zeros(3))
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def two_pairs() -> Orient:
@@ -69,7 +69,7 @@ def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_fra
     back = turned(again.mesh, rotation.T)
     for a, b in zip(result.mesh.hulls, back.hulls, strict=True):
         assert a.name == b.name
-        assert alike(a.shape.tessellated(), b.shape.tessellated(), 1e-6 * mesh.diagonal)
+        assert alike(a.shape.tessellate(), b.shape.tessellate(), 1e-6 * mesh.diagonal)
 
 
 @given(landmarked(), rotations, st.sampled_from(("box", "cylinder", "capsule")))

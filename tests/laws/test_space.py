@@ -21,7 +21,7 @@ _CLOSED = ("polytope", "box")
 
 def middles(grid: Grid) -> Floats:
     """The middles (n, 3) of all cells."""
-    axes = np.meshgrid(*(grid.centres(k) for k in range(3)), indexing="ij")
+    axes = np.meshgrid(*(grid.cell_centers(k) for k in range(3)), indexing="ij")
     return np.stack(axes, axis=-1).reshape(-1, 3)
 
 
@@ -29,7 +29,7 @@ def middles(grid: Grid) -> Floats:
 @given(shapes())
 def test_a_cell_is_filled_where_its_middle_is_inside(shape: Shape) -> None:
     grid = grid_around(shape.aabb, shape.aabb.diagonal / 24)
-    above = heights(middles(grid), shape.tessellated()).reshape(grid.shape)
+    above = heights(middles(grid), shape.tessellate()).reshape(grid.shape)
     mask, slack = filled(grid, [shape]), 1e-6 * grid.cell
     assert mask[above < -slack].all() and not mask[above > slack].any()
 
@@ -38,7 +38,7 @@ def test_a_cell_is_filled_where_its_middle_is_inside(shape: Shape) -> None:
 @given(shapes(), st.sampled_from([17, 40, 64]))
 def test_nothing_leaks_through_a_closed_surface(shape: Shape, cells: int) -> None:
     grid = grid_around(shape.aabb, shape.aabb.diagonal / cells)
-    hull = shape.tessellated()
+    hull = shape.tessellate()
     outside = reached(crossed(grid, hull.vertices[hull.faces]))
     inside = heights(middles(grid), hull).reshape(grid.shape) < -1e-9
     assert not (outside & inside).any()
@@ -73,7 +73,7 @@ def mean_curvature(corners: Floats) -> float:
 @given(st.integers(0, 2**32 - 1))
 @example(1646)  # a needle, thinner than the cells: most of what is within a cell of it is beside its edges
 def test_cells_measure_volume_the_better_the_smaller_they_are(seed: int) -> None:
-    hull = shape_of("polytope", np.random.default_rng(seed)).tessellated()
+    hull = shape_of("polytope", np.random.default_rng(seed)).tessellate()
     truth, size = volume_of_union([hull]), hull.aabb.diagonal
     corners = hull.vertices[hull.faces]
     area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()

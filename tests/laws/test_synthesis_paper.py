@@ -126,7 +126,7 @@ def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
     partial: Partial = Hole()
     while isinstance(partial, Open):
         assert feasible(partial, demo)
-        (following,) = [candidate for candidate in grammar.filled(partial) if completes(hidden, candidate)]
+        (following,) = [candidate for candidate in grammar.fill(partial) if completes(hidden, candidate)]
         assert nodes(partial) <= nodes(following) <= size(hidden)
         partial = following
     assert partial == hidden
@@ -135,7 +135,7 @@ def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
 def corrected(example: Example, corrections: Sequence[Correction]) -> Example:
     example.mesh.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
     labels = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == example.name}
-    return Example(example.name, example.mesh.labelled(labels), example.selection)
+    return Example(example.name, example.mesh.with_labels(labels), example.selection)
 
 
 def matches(extractor: Extractor, examples: Sequence[Example]) -> bool:

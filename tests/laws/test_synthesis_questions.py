@@ -63,7 +63,7 @@ def taught(
             return outcome, answers
         truth = selected(meshes[outcome.question.asset], meant)
         offered = [frozenset(choice.select) for choice in outcome.question.choices]
-        answers.append(outcome.question.answered(offered.index(truth) if truth in offered else None))
+        answers.append(outcome.question.answer_with(offered.index(truth) if truth in offered else None))
 
 
 @pytest.mark.parametrize("text", ["Is(base)", "Geo(Is(base), -Z)"])
@@ -131,7 +131,7 @@ def test_a_wrong_label_is_found_out_confirmed_and_forgotten(name: str, text: str
     found = 0
     for mislabelled in [h for h in meshes[names[0]].hulls if h.label == hull]:
         label = Label(wrong, 0.6, "vlm")
-        mesh = meshes[names[0]].labelled({mislabelled.name: label})
+        mesh = meshes[names[0]].with_labels({mislabelled.name: label})
         asked: list[Repair] = []
 
         def confirm(repair: Repair, asked: list[Repair] = asked, name: str = mislabelled.name) -> bool:

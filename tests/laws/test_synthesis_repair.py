@@ -43,7 +43,7 @@ def spoilt(draw: st.DrawFn) -> Shown:
         wrong = draw(st.lists(st.sampled_from(mesh.hulls), max_size=2))
         names: list[str | None] = [draw(st.sampled_from((*LABELS, None))) for _ in wrong]
         labels = {hull.name: Label(to, 0.5, "vlm") if to else None for hull, to in zip(wrong, names, strict=True)}
-        examples.append(Example(f"mesh {k}", mesh.labelled(labels), select_mask(hidden, mesh)))
+        examples.append(Example(f"mesh {k}", mesh.with_labels(labels), select_mask(hidden, mesh)))
     assume(any(example.selection for example in examples))
     shown, rest = {one.name: one.mesh for one in examples}, {f"other {k}": mesh for k, mesh in enumerate(true)}
     return examples, Labels(shown, rest, LABELS)
@@ -60,7 +60,7 @@ def proposed(
 
 
 def corrected(example: Example, rows: list[Correction]) -> SymbolicMesh:
-    return example.mesh.labelled({row.hull: Label(row.to) for row in rows if row.asset == example.name})
+    return example.mesh.with_labels({row.hull: Label(row.to) for row in rows if row.asset == example.name})
 
 
 def matches(extractor: Extractor, examples: list[Example], rows: list[Correction]) -> bool:
@@ -94,7 +94,7 @@ def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int)
     assert all(0 < belief <= 1 for belief in said.beliefs)
     by_name = {example.name: example for example in shown[0]}
     for row in said.corrections:
-        assert by_name[row.asset].mesh.named(row.hull).label == row.was != row.to
+        assert by_name[row.asset].mesh.hull_of(row.hull).label == row.was != row.to
         assert row.to in LABELS
 
 

@@ -131,14 +131,14 @@ def _written(asset: Asset, path: Path, name: str, *, shows: bool, edited: bool =
 
 def _edited(before: Made) -> Made | Refused:
     mesh = SymbolicMesh.of(read(before.path))
-    edited = EDIT.run(mesh, {"block.obj": Template((wedge(0.0),), "block.obj")}).mesh.lowered()
+    edited = EDIT.run(mesh, {"block.obj": Template((wedge(0.0),), "block.obj")}).mesh.to_asset()
     path = before.path.parent / "edited" / before.path.name
     return _written(edited, path, before.asset, shows=before.shows, edited=True)
 
 
 def _one_hull(path: Path) -> Path:
     """A sample whose mesh has one piece, and no side like another: engines make one hull of a mesh file."""
-    hull = wedge(0.5).tessellated()
+    hull = wedge(0.5).tessellate()
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in hull.vertices.tolist()]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in hull.faces.tolist()]
     (path.parent / "meshes" / "three.obj").write_text("\n".join(lines))

@@ -44,7 +44,7 @@ def test_every_table_comes_back_mended(shown: tuple[Path, Done]) -> None:
         assert count["misc"] == 0
         assert count["drawer"] % 5 == 0  # every tray is a floor and four walls
         assert [h.volume for h in after.hulls if h.source != "edit"] == [
-            before.named(h.name).volume for h in after.hulls if h.source != "edit"
+            before.hull_of(h.name).volume for h in after.hulls if h.source != "edit"
         ]
         legs = components(before, mask_of(k for k, hull in enumerate(before.hulls) if hull.label == "leg"))
         assert count["leg"] == len(legs)

@@ -74,7 +74,7 @@ def test_every_chair_comes_back_with_four_boxes_one_back_and_its_seat(chairs: Pa
     labels = [str(hull.label) for hull in after.hulls]
     assert sorted(labels) == ["back"] * back + ["leg"] * 4 + ["seat"]
     seat = next(hull for hull in after.hulls if hull.label == "seat")
-    assert same_shape(seat.shape, before.named(seat.name).shape, 1e-9)
+    assert same_shape(seat.shape, before.hull_of(seat.name).shape, 1e-9)
     assert sum(len(hull.vertices) == 8 for hull in after.hulls) == 4
 
 

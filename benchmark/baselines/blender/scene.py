@@ -60,7 +60,7 @@ def mesh_of(objects: Iterable[Any], before: SymbolicMesh) -> tuple[SymbolicMesh,
     wrong = [found.message for found in check(mesh) if found.severity == "error"]
     if wrong:
         raise Illegal("; ".join(wrong))
-    named = frozenset(r.name for r in rows if r.name not in before.index or before.named(r.name).label != r.label)
+    named = frozenset(r.name for r in rows if r.name not in before.index or before.hull_of(r.name).label != r.label)
     return mesh, named
 
 
@@ -75,9 +75,9 @@ def _mesh(shape: Shape) -> dict[str, Any]:
 def _hulls(rows: Iterable[_Object], before: SymbolicMesh) -> Iterator[Hull]:
     for row in rows:
         label = Label(row.label, 1.0, "edit") if row.label else None
-        known = before.named(row.name) if row.same and row.name in before.index else None
+        known = before.hull_of(row.name) if row.same and row.name in before.index else None
         if known and row.primitive is None:
-            yield known if known.label == row.label else known.labelled(label)
+            yield known if known.label == row.label else known.with_label(label)
         else:
             body = _body(row, known)
             yield Hull(row.name, before.hulls[0].body if before.hulls else _BODY, body.shape(row.primitive), label)

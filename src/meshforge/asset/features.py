@@ -67,7 +67,7 @@ class What(Enum):
 class Feature:
     """Things of one kind that an asset has; count: where they have no names; reason: why no file could hold them."""
 
-    what: What
+    kind: What
     names: tuple[str, ...] = ()
     unnamed: int = 0
     reason: str = ""

@@ -67,7 +67,7 @@ class Mechanism:
     apart: tuple[tuple[str, str], ...] = ()
     paired: tuple[tuple[str, str], ...] = ()
 
-    def moved(self, pose: Pose) -> Mechanism:
+    def move(self, pose: Pose) -> Mechanism:
         """The mechanism in another root frame; pose: new_T_old."""
         turn = pose.rotation
         return replace(

@@ -73,11 +73,11 @@ def _run(
             stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
             shutil.rmtree(drafts(task.out), ignore_errors=True)
             ledger = Ledger(task.out, (job.id for job in jobs))
-        results = spread.over(partial(edit, task), jobs, progress)
+        results = spread.run(partial(edit, task), jobs, progress)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             worked = _lost(job, result) if isinstance(result, Lost) else result
-            yield ledger.settle(worked) if ledger else worked.outcome
+            yield ledger.commit(worked) if ledger else worked.outcome
 
 
 def _lost(job: AssetJob, lost: Lost) -> Worked:

@@ -22,12 +22,12 @@ class Correction:
         names = ", ".join(f"{name} ({known})" for name, known in self.hulls)
         return f"{names} => {self.action}" + (f" as {show_label(self.label)}" if self.label else "")
 
-    def lost(self, mesh: SymbolicMesh) -> str | None:
+    def find_problem(self, mesh: SymbolicMesh) -> str | None:
         """Why this edit cannot be replayed on a mesh, None where it can."""
         for name, known in self.hulls:
             if name not in mesh.index:
                 return f"{name} is gone"
-            if digest(mesh.named(name).shape) != known:
+            if digest(mesh.hull_of(name).shape) != known:
                 return f"{name} has another shape now"
         return None
 
@@ -49,11 +49,11 @@ def replay(
     staged, pose = stage(source, program.orient, program.contact)
     known = staged.index
     current = staged.with_hulls(
-        staged.hulls[known[h.name]].labelled(h.annotation) if h.name in known else h.moved(pose) for h in edited.hulls
+        staged.hulls[known[h.name]].with_label(h.annotation) if h.name in known else h.move(pose) for h in edited.hulls
     )
     flags, used = [], frozenset(edited.index)
     for number, correction in enumerate(corrections, 1):
-        lost = correction.lost(_as_made(current, edited))
+        lost = correction.find_problem(_as_made(current, edited))
         if lost:
             flags.append(f"edit {number} by hand was left out: {lost}")
             continue
@@ -67,5 +67,5 @@ def _as_made(mesh: SymbolicMesh, edited: SymbolicMesh) -> SymbolicMesh:
     """The mesh with the program's own hulls where they stayed, so that turning there and back leaves no rounding."""
     return replace(
         mesh,
-        hulls=tuple(edited.named(h.name).labelled(h.annotation) if h.name in edited.index else h for h in mesh.hulls),
+        hulls=tuple(edited.hull_of(h.name).with_label(h.annotation) if h.name in edited.index else h for h in mesh.hulls),
     )

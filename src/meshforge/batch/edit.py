@@ -88,7 +88,7 @@ def _skipped(task: Task, job: AssetJob) -> Worked | None:
         return None
     if not same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
         return None
-    return Worked(stamp.skipped(task.out))
+    return Worked(stamp.to_skipped(task.out))
 
 
 def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: float) -> Worked:
@@ -113,7 +113,7 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
     )
     if task.dry_run:
         return Worked(outcome)
-    Stamp.of(outcome, inputs, draft).write(draft.whole / STAMP)
+    Stamp.of(outcome, inputs, draft).write(draft.root / STAMP)
     return Worked(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
 
 

@@ -41,7 +41,7 @@ class Summary:
         return self.counts.total()
 
     @property
-    def shown(self) -> tuple[Outcome, ...]:
+    def outcomes_to_show(self) -> tuple[Outcome, ...]:
         """Those that a report shows: failed ones first, then the first of the others."""
         return (*self.failed, *self.ran)[:SHOWN]
 

@@ -27,7 +27,7 @@ class Measures:
     cell: float | None = None
 
     @property
-    def any_costly(self) -> bool:
+    def is_costly(self) -> bool:
         """Whether anything is measured that takes its time."""
         return self.fit or self.clearance or self.physics
 
@@ -48,12 +48,12 @@ class Examination:
     notes: tuple[str, ...] = ()
 
     @property
-    def told(self) -> tuple[str, ...]:
+    def descriptions(self) -> tuple[str, ...]:
         """What was measured, a sentence each."""
-        found = [f"fit: {self.fit.told}"] if self.fit and self.fit.hulls else []
-        found += [f"clearance: {c.told}" for c in (self.clearance, self.changed) if c]
-        found += [f"physics: {self.physics.told}"] if self.physics else []
-        found += [f"physics before: {self.earlier.told}"] if self.earlier else []
+        found = [f"fit: {self.fit.description}"] if self.fit and self.fit.hulls else []
+        found += [f"clearance: {c.description}" for c in (self.clearance, self.changed) if c]
+        found += [f"physics: {self.physics.description}"] if self.physics else []
+        found += [f"physics before: {self.earlier.description}"] if self.earlier else []
         return (*found, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
@@ -75,7 +75,7 @@ def examine_mesh(mesh: SymbolicMesh, wanted: Measures, before: SymbolicMesh | No
     Hulls that are not legal are left out of all but the first findings. Raises UsageError for an unknown engine.
     """
     findings = list(check(mesh, wanted.engine))
-    if not wanted.any_costly:
+    if not wanted.is_costly:
         return Examination(tuple(findings))
     sound, was = _sound(_shown_as(mesh, before)), _sound(before) if before else None
     notes = []

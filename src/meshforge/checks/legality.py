@@ -22,7 +22,7 @@ class HullRule:
     name: str
     problem: str
     remedy: str
-    broken: Callable[[Shape], bool]
+    is_broken: Callable[[Shape], bool]
 
 
 def _not_finite(shape: Shape) -> bool:
@@ -87,7 +87,7 @@ def legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
 
 def _first_broken(shape: Shape) -> HullRule | None:
     with np.errstate(all="ignore"):
-        return next((rule for rule in HULL_RULES if rule.broken(shape)), None)
+        return next((rule for rule in HULL_RULES if rule.is_broken(shape)), None)
 
 
 def _names(mesh: SymbolicMesh) -> Iterator[Finding]:

@@ -127,7 +127,7 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out
         out or project.layout.edited,
         partial(run, program, jobs, templates=templates),
         project.readers,
-        frozenset(project.layout.kept_for("demonstrations")),
+        frozenset(project.layout.ids_with("demonstrations")),
     )
 
 
@@ -175,10 +175,10 @@ def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, mea
     from meshforge.cli.compared import compared
     from meshforge.cli.report import report
 
-    readers = work.readers(outcome.asset for outcome in summary.shown)
+    readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
     report(
         path,
-        list(compared(summary.shown, work.program, readers, work.demonstrated, measures)),
+        list(compared(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
         title=work.out.resolve().name,
         program=work.program,
         figures=Figures.of_run(summary),

@@ -92,12 +92,12 @@ def check(
     work = jobs(expand(assets), labels)
     if len(work) > _FEW:
         remark(str(plan(work, out)))
-    if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
+    if len(work) == 1 and not wanted.measures.is_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
     failed, page, started = 0, CheckReport() if report else None, perf_counter()
     spread = spread_of(workers, timeout, memory, backend)
     with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
-        known = book.seen if book else {}
+        known = book.inputs if book else {}
         results = examine_all(work, wanted, spread, known=known, done=advance)
         for job, examined in zip(work, results, strict=True):
             row = _row(book, job.id, examined)
@@ -129,20 +129,20 @@ def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[st
     """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
     if examined is None:
         assert book is not None
-        return book.row(asset)
+        return book.read_row(asset)
     row = {
-        "failed": examined.failed,
+        "failed": examined.has_failed,
         "found": examined.to_json(),
         "said": _said(examined),
         "told": list(_told(examined)),
     }
-    if book and examined.seen:
-        book.add(asset, examined.seen, row)
+    if book and examined.inputs:
+        book.add(asset, examined.inputs, row)
     return row
 
 
 def _said(examined: Examined) -> str:
-    path, found = examined.path, examined.found
+    path, found = examined.path, examined.examination
     if found is None:
         return f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  ")
     lines = [*_told(examined)]
@@ -154,5 +154,5 @@ def _said(examined: Examined) -> str:
 
 def _told(examined: Examined) -> tuple[str, ...]:
     """What was mended, measured and written, a sentence each."""
-    measured = examined.found.told if examined.found else ()
+    measured = examined.examination.descriptions if examined.examination else ()
     return (*told_changes(examined), *measured, *(f"wrote {picture}" for picture in examined.pictures))

@@ -54,11 +54,11 @@ class CheckReport:
 
 def _new(job: AssetJob, examined: Examined) -> _Line:
     notes = (*told_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
-    if examined.found is None:
+    if examined.examination is None:
         return _Line(job, "failed", examined.error, notes, None, None)
-    status = _status(finding.severity for finding in examined.found.findings)
-    mended = examined.written if examined.fixed and examined.fixed.changes else None
-    return _Line(job, status, None, notes, examined.found, mended)
+    status = _status(finding.severity for finding in examined.examination.findings)
+    mended = examined.output if examined.fix_result and examined.fix_result.changes else None
+    return _Line(job, status, None, notes, examined.examination, mended)
 
 
 def _kept(job: AssetJob, row: Mapping[str, Any]) -> _Line:
@@ -81,10 +81,10 @@ def _status(severities: Iterable[Severity]) -> Status:
 
 def told_changes(examined: Examined) -> tuple[str, ...]:
     """What was mended, what was left, and where it was written, a sentence each."""
-    fixed = examined.fixed
+    fixed = examined.fix_result
     if fixed is None:
         return ()
-    return (*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}")
+    return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
 
 
 def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:

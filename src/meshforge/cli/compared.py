@@ -33,7 +33,7 @@ def compared(
     meshes = read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
     todo = [(after, measures, before) for _, before, after in pairs if before and after] if measures else []
-    found = Spread(timeout=PATIENCE).over(_examined, todo)
+    found = Spread(timeout=PATIENCE).run(_examined, todo)
     for outcome, was, now in pairs:
         name, is_shown = outcome.asset, outcome.asset in demonstrated
         if isinstance(outcome, Failed) or was is None or now is None:
@@ -46,7 +46,7 @@ def compared(
             notes = (*notes, *problem)
         else:
             was, pose = stage(was, program.orient, program.contact)
-            now = replace(now, hulls=tuple(hull.moved(pose) for hull in now.hulls))
+            now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
         yield ReportAsset(name, was, now, trace, status(outcome), None, is_shown, notes, checked)
 

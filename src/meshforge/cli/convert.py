@@ -148,7 +148,7 @@ def _one(
         return print_json(_as_data(source, saved, len(mesh.hulls), read_notes))
     for note in (*read_notes, *saved.notes):
         remark(f"note: {note}")
-    held = [counted(feature.count, feature.what.one, feature.what.many) for feature in saved.report.held]
+    held = [counted(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
     remark(f"wrote {saved.path}: {', '.join([counted(len(mesh.hulls), 'hull'), *held])}")
     return None
 
@@ -167,7 +167,7 @@ def _as_data(source: Path, saved: Saved, hulls: int, notes: Sequence[str]) -> di
 
 
 def _row(thing: Feature | Loss) -> dict[str, Any]:
-    return {"what": thing.what.many, "count": thing.count, "names": list(thing.names)}
+    return {"what": thing.kind.many, "count": thing.count, "names": list(thing.names)}
 
 
 def _write_labels(mesh: SymbolicMesh, saved: Saved, overwrite: bool) -> None:

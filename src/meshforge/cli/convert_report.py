@@ -22,8 +22,8 @@ def write_convert_report(
     from meshforge.language import Program
 
     known = {job.id: job for job in jobs}
-    readers = [partial(read_job, known[outcome.asset]) for outcome in summary.shown]
-    shown = compared(summary.shown, Program(), readers)
+    readers = [partial(read_job, known[outcome.asset]) for outcome in summary.outcomes_to_show]
+    shown = compared(summary.outcomes_to_show, Program(), readers)
     report(
         path,
         [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown],

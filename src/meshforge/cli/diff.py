@@ -41,7 +41,7 @@ def compared(old: SymbolicMesh, new: SymbolicMesh) -> dict[str, Any]:
 
     near = 1e-6 * max(old.diagonal, new.diagonal)
     both = [name for name in old.index if name in new.index]
-    kept = [name for name in both if same_shape(old.named(name).shape, new.named(name).shape, near)]
+    kept = [name for name in both if same_shape(old.hull_of(name).shape, new.hull_of(name).shape, near)]
     return {
         "removed": [name for name in old.index if name not in new.index],
         "made": [name for name in new.index if name not in old.index],

@@ -62,7 +62,7 @@ class Lessons:
         return Family(self.project)
 
     @property
-    def looked_at(self) -> tuple[str, ...]:
+    def ids_in_use(self) -> tuple[str, ...]:
         """The ids of the assets to learn from."""
         from meshforge.project import looked_at
 

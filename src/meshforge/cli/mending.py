@@ -20,7 +20,7 @@ def doubtful_hulls(question: Question) -> tuple[str, ...]:
 
 def labels_card(hulls: Sequence[str], mesh: SymbolicMesh) -> str:
     """The labels that some hulls have; of many the first ones."""
-    rows = [f"  {name}  {mesh.named(name).label or 'no label'}" for name in hulls if name in mesh.index]
+    rows = [f"  {name}  {mesh.hull_of(name).label or 'no label'}" for name in hulls if name in mesh.index]
     more = len(rows) - _MOST
     return "\n".join([*rows[:_MOST], f"  and {more} more"] if more > 1 else rows)
 

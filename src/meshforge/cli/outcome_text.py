@@ -23,7 +23,7 @@ class About:
 
     folder: Path
     assets: int
-    looked_at: int
+    in_use: int
     readable: int
     answers: int = 0
     repairs: int = 0
@@ -31,7 +31,7 @@ class About:
     stopped: bool = False
 
     @property
-    def word(self) -> str:
+    def folder_word(self) -> str:
         return shlex.quote(str(self.folder))
 
 
@@ -63,7 +63,7 @@ def remarks(outcome: Outcome, about: About) -> str:
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_used(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
         lines += _settled(outcome, about)
-        lines += [f"Next: meshforge apply {about.word}"] if about.kept else []
+        lines += [f"Next: meshforge apply {about.folder_word}"] if about.kept else []
     return "\n".join(lines)
 
 
@@ -80,7 +80,7 @@ def _settled(outcome: Found | Ambiguous, about: About) -> Iterator[str]:
 
     if outcome.settled:
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
-        part = "were looked at" if about.looked_at < about.assets else "can be read"
+        part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
         yield f"settled: all believable readings agree on {seen}"
         return
@@ -92,7 +92,7 @@ def _settled(outcome: Found | Ambiguous, about: About) -> Iterator[str]:
             yield f"After applying, look at {listed(outcome.sample)} first: these tell best whether it is right"
     if outcome.hint:
         yield f"To be surer, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
-        yield f"  meshforge demonstrate {about.word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
+        yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
 
 
 def _almost(outcome: Found | Ambiguous) -> Iterator[str]:
@@ -118,7 +118,7 @@ def _stale(outcome: Outcome, about: About) -> Iterator[str]:
     for answer in outcome.stale:
         said = f"{answer.rule}:{answer.asset}"
         yield f"the answer {said} no longer fits what is there, and is left out"
-        yield f"  to take it back: meshforge synthesize {about.word} --forget {shlex.quote(said)}"
+        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(said)}"
 
 
 def _overruled(outcome: Outcome) -> Iterator[str]:
@@ -175,6 +175,6 @@ def _repairs(outcome: NeedsRepair, about: About) -> Iterator[str]:
     if outcome.proposed:
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
-    command = f"meshforge synthesize {about.word}"
+    command = f"meshforge synthesize {about.folder_word}"
     yield f"To look at each: {command} in a terminal; to mend all: {command} --accept-repairs"
     yield f"To keep the labels as they are: {command} --reject-repairs"

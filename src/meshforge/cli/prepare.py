@@ -103,7 +103,7 @@ def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
 
     Raises ProjectError for a name that nothing has.
     """
-    kept = project.layout.prepared()
+    kept = project.layout.ids_with_preparation()
     for asset in assets or ():
         if asset not in kept:
             project.path(asset)

@@ -21,7 +21,7 @@ class QuestionPictures:
     """Draws into `.meshforge/questions` of a project; every new card takes away the pictures of the one before."""
 
     def __init__(self, lessons: Lessons) -> None:
-        self._lessons = lessons
+        self._session = lessons
         self._folder = lessons.project.layout.questions
 
     def of_question(self, question: Question, program: Program) -> list[Path]:
@@ -31,7 +31,7 @@ class QuestionPictures:
         self.clear()
         name = f"rule-{question.rule}-{Path(question.asset).stem}"
         try:
-            mesh = self._lessons.project.met(question.asset, question.rule, program, self._lessons.meshes())
+            mesh = self._session.project.mesh_before_rule(question.asset, question.rule, program, self._session.meshes())
             return [
                 self._draw(mesh, frozenset(choice.select), f"{name}-choice-{k}", f"choice {k} on {question.asset}")
                 for k, choice in enumerate(question.choices, 1)
@@ -47,7 +47,7 @@ class QuestionPictures:
         self.clear()
         wrong = repair.correction
         try:
-            mesh = self._upright(wrong.asset)
+            mesh = self._upright_mesh(wrong.asset)
             return self._draw(mesh, frozenset({wrong.hull}), f"label-{Path(wrong.asset).stem}", change(repair))
         except MeshForgeError:
             return None
@@ -56,23 +56,23 @@ class QuestionPictures:
         """Take all pictures away."""
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _upright(self, asset: str) -> SymbolicMesh:
+    def _upright_mesh(self, asset: str) -> SymbolicMesh:
         from meshforge.language import Program
 
-        return self._lessons.project.met(
-            asset, 1, Program(orient=self._lessons.project.orientation), self._lessons.meshes()
+        return self._session.project.mesh_before_rule(
+            asset, 1, Program(orient=self._session.project.orientation), self._session.meshes()
         )
 
     def _draw(self, mesh: SymbolicMesh, chosen: frozenset[str], name: str, title: str) -> Path:
         from meshforge.views import render, write_png
 
         path, here = self._folder / f"{name}.png", Path.cwd()
-        up: Up | None = "Z" if self._turned_upright else None
+        up: Up | None = "Z" if self._has_upright_axis else None
         write_png(path, render(mesh, highlight=chosen, size=SIZE, title=title, up=up))
         return path.relative_to(here) if path.is_relative_to(here) else path
 
     @property
-    def _turned_upright(self) -> bool:
+    def _has_upright_axis(self) -> bool:
         """Whether the orientation says what +Z is, so that Z points up whatever the files say."""
-        orient = self._lessons.project.orientation
+        orient = self._session.project.orientation
         return orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)

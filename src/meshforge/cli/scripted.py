@@ -23,7 +23,7 @@ def scripted(lessons: Lessons, given: Given | None, verdict: bool | None) -> Out
     confirm = None if verdict is None else _always(verdict)
     outcome = lessons.learn(confirm)
     while isinstance(outcome, Ambiguous) and outcome.question.id in waiting:
-        lessons.answer(outcome.question.answered(_place(outcome.question, waiting.pop(outcome.question.id))))
+        lessons.answer(outcome.question.answer_with(_place(outcome.question, waiting.pop(outcome.question.id))))
         outcome = lessons.learn(confirm)
     return outcome
 

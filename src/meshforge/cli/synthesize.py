@@ -110,7 +110,7 @@ def _print(outcome: Outcome, lessons: Lessons, folder: Path, asked: bool) -> Non
     if more:
         remark(f"\n{more}")
     if outcome.question and not asked:
-        remark(f"\n{choices_card(outcome.question)}\n{answer_help(outcome.question, about.word)}")
+        remark(f"\n{choices_card(outcome.question)}\n{answer_help(outcome.question, about.folder_word)}")
 
 
 def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
@@ -120,7 +120,7 @@ def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
     return About(
         folder,
         assets=len(lessons.project.assets()),
-        looked_at=len(lessons.looked_at),
+        in_use=len(lessons.ids_in_use),
         readable=len(lessons.meshes()),
         answers=len(said.answers) + len(lessons.given) - len(outcome.stale),
         repairs=len(said.confirmed),

@@ -94,15 +94,15 @@ class Format(ABC):
         Raises AssetError where the file cannot hold the edit.
         """
 
-    def takes_back(self, asset: Asset) -> bool:
+    def can_write_back(self, asset: Asset) -> bool:
         """Whether an asset was read from a file of this kind, so that `write` writes it back."""
         return asset.format == self.name
 
     def create(self, asset: Asset, name: str) -> Output:
         """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""
-        raise self._cannot_create(asset)
+        raise self._creation_error(asset)
 
-    def _cannot_create(self, asset: Asset) -> Exception:
+    def _creation_error(self, asset: Asset) -> Exception:
         from meshforge.errors import AssetError
 
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
@@ -119,6 +119,6 @@ class Format(ABC):
         """Whether a file of this format is an asset of its own, and not what stands in for one in older programs."""
         return True
 
-    def sniffs(self, head: bytes) -> bool:
+    def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True

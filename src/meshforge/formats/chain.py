@@ -70,13 +70,13 @@ class _Builder:
         self.chain = Chain()
         self.links = set(self.poses)
         self.joint_names = self.tree.joint_names
-        self.dropped = None if rules.world else self._idle_root(bare)
-        self.root = self._root()
+        self.dropped = None if rules.world else self._find_idle_root(bare)
+        self.root = self._add_root()
         for body in self.tree.order:
             if body != self.dropped and body not in self.chain.frames:
-                self._add(body)
+                self._add_body(body)
 
-    def _idle_root(self, bare: set[str]) -> str | None:
+    def _find_idle_root(self, bare: set[str]) -> str | None:
         """A root that only holds one other body, rigidly or not at all: then that other one is the root link.
 
         Whether its root link is free or fixed to the world is for the loader of a URDF to say.
@@ -102,7 +102,7 @@ class _Builder:
         ]
         return roots[0]
 
-    def _root(self) -> str:
+    def _add_root(self) -> str:
         """Add the root link; its name."""
         hung = [b for b in self.tree.order if self.dropped and self.tree.parent(b) == self.dropped]
         still = hung or [body for body in self.tree.roots if _is_identity(self.poses[body])]
@@ -112,31 +112,31 @@ class _Builder:
         self.chain.frames[name] = Pose.identity()
         return name
 
-    def _add(self, body: str) -> None:
+    def _add_body(self, body: str) -> None:
         """Add the link of a body behind its parent's, with light links between where several joints lead to it."""
-        joints = [part for joint in self.tree.joints[body] for part in self._parts(joint)]
+        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint)]
         up = self.tree.parent(body)
         parent = self.root if up is None or up == self.dropped else self.chain.of_body[up]
         if not joints:
-            self._link(body, None, parent, self.poses[body], free_name(f"{body}_fixed", self.joint_names))
+            self._add_link(body, None, parent, self.poses[body], free_name(f"{body}_fixed", self.joint_names))
         for k, joint in enumerate(joints):
             last = k == len(joints) - 1
             link = body if last else free_name(f"{body}_{joint.name or k}", self.links)
             frame = Pose(self.poses[body].rotation, _origin(joint, self.poses[body]))
             name = joint.name or free_name(f"{body}_{joint.kind}", self.joint_names)
-            self._link(link, joint, parent, frame, name)
+            self._add_link(link, joint, parent, frame, name)
             if not last:
                 self.chain.light.append(link)
             parent = link
         self.chain.of_body[body] = body
 
-    def _link(self, link: str, joint: Joint | None, parent: str, frame: Pose, name: str) -> None:
+    def _add_link(self, link: str, joint: Joint | None, parent: str, frame: Pose, name: str) -> None:
         pose = self.chain.frames[parent].inverse() @ frame
         axis = frame.rotation.T @ joint.axis if joint else np.array([1.0, 0.0, 0.0])
         self.chain.joints.append(LinkJoint(name, joint, parent, link, pose, axis))
         self.chain.frames[link] = frame
 
-    def _parts(self, joint: Joint) -> Sequence[Joint]:
+    def _split_joint(self, joint: Joint) -> Sequence[Joint]:
         """The joints of the format that move as one does: a ball is three that turn about one point."""
         if joint.kind in self.rules.kinds or joint.kind not in ("ball", "planar"):
             return [joint]

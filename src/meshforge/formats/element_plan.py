@@ -27,13 +27,13 @@ class Maker(Protocol):
     @property
     def data(self) -> bytes: ...
 
-    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
 
-    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
 
 
@@ -77,7 +77,7 @@ class Plan:
     def splices(self) -> list[Splice]:
         """The edits of the document's text."""
         data = self.maker.data
-        edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].untouched))
+        edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].is_untouched))
         edits = [in_place(data, element, slots) for element, slots in edited]
         return edits + [at_end(data, self.links[link], slots) for link, slots in self.ends.items()]
 
@@ -88,14 +88,14 @@ class Plan:
             if len(staying) == len(authored.names):
                 slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
             else:
-                slots = [self._parted(element, authored.link, name, k) for k, name in staying.items()]
+                slots = [self._split_element(element, authored.link, name, k) for k, name in staying.items()]
                 for slot in slots[1:]:
                     slot.copy = True
             self.places.append((element, slots))
 
-    def _parted(self, element: Element, link: str, name: str, k: int) -> Slot:
+    def _split_element(self, element: Element, link: str, name: str, k: int) -> Slot:
         """An element for one piece of a mesh, its triangles as authored in a file of their own."""
-        edits = self.maker.part(element, name, k)
+        edits = self.maker.extract_piece(element, name, k)
         return Slot(link, (name,), element.attributes.get("name"), element, edits)
 
     def _place_made(self, geom: Geom) -> None:
@@ -105,7 +105,7 @@ class Plan:
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
         lead = lead_inside(self.maker.data, link)
-        slot = self.maker.slot(geom, self._poses[geom.body], template, lead)
+        slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
         else:

@@ -46,7 +46,7 @@ class HullFiles:
             stem, number = f"{safe}_{number}", number + 1
         self.taken.add(stem.lower())
         reference = f"{folder}{stem}.obj"
-        self.made[self._place(reference) or f"{stem}.obj"] = obj_text(vertices, faces)
+        self.made[self._placement_of(reference) or f"{stem}.obj"] = obj_text(vertices, faces)
         return reference
 
     def folder_of(self, reference: str | None) -> str:
@@ -55,12 +55,12 @@ class HullFiles:
         The empty text, which is the folder of the description, where the mesh lies outside of it or at an absolute
         place.
         """
-        place = self._place(reference) if reference else None
+        place = self._placement_of(reference) if reference else None
         if reference is None or place is None or place.startswith(".."):
             return ""
         return reference[: reference.replace("\\", "/").rfind("/") + 1].lstrip()
 
-    def _place(self, reference: str) -> str | None:
+    def _placement_of(self, reference: str) -> str | None:
         return self.resolver.place(reference) if self.resolver else placement(reference)
 
 

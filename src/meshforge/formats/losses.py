@@ -16,7 +16,7 @@ class Loss:
     not; unnamed: how many there are that have no name.
     """
 
-    what: What
+    kind: What
     names: tuple[str, ...]
     why: str
     instead: str | None = None

@@ -27,7 +27,7 @@ class MeshPart:
 def mesh_parts(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[MeshPart]:
     """The pieces of a mesh file under x -> linear @ x + offset, reflections included."""
     parts = [
-        MeshPart(piece.shape.mapped(linear, offset))
+        MeshPart(piece.shape.transform(linear, offset))
         if piece.shape is not None
         else MeshPart(None, piece.reason or "no hull", placed(piece.vertices, piece.faces, linear, offset))
         for piece in pieces

@@ -36,11 +36,11 @@ class Resolver:
         if package := _PACKAGE.fullmatch(reference):
             yield from self._in_package(package[1], package[2])
         elif file := _FILE.fullmatch(reference):
-            yield self._joined(self.folder, unquote(file[1]))
+            yield self._join(self.folder, unquote(file[1]))
         elif reference and not is_address(reference):
-            yield self._joined(self.folder, reference)
+            yield self._join(self.folder, reference)
             if "\\" in reference:
-                yield self._joined(self.folder, reference.replace("\\", "/"))
+                yield self._join(self.folder, reference.replace("\\", "/"))
 
     def place(self, reference: str) -> str | None:
         """Where the file of a reference goes in an output: `placement`."""
@@ -48,7 +48,7 @@ class Resolver:
 
     def _in_package(self, package: str, rest: str) -> Iterator[Path]:
         for home in self._homes(package):
-            yield self._joined(home, rest)
+            yield self._join(home, rest)
 
     def _homes(self, package: str) -> Iterator[Path]:
         """Where a package may be, in the given roots, then upwards: by a folder's name, or by its package.xml."""
@@ -58,7 +58,7 @@ class Resolver:
                 yield root
 
     @staticmethod
-    def _joined(folder: Path, rest: str) -> Path:
+    def _join(folder: Path, rest: str) -> Path:
         return Path(os.path.normpath(folder / rest))
 
     def advice(self, reference: str) -> str:

@@ -78,7 +78,7 @@ def is_asset(path: Path) -> bool:
     """
     if not path.is_file() or is_segmented(path):
         return False
-    return any(known.sniffs(_head(path)) and known.is_main(path) for known in _of_suffix(path))
+    return any(known.matches_head(_head(path)) and known.is_main(path) for known in _of_suffix(path))
 
 
 def format_for(path: Path, own: str) -> Format:

@@ -41,9 +41,9 @@ def report(asset: Asset, source: Format | None, target: Format, output: Output, 
     told = [_without(feature, own) for feature in (*features(asset), *_of_visuals(asset))]
     # a creator sees the asset, not the document: what only that tells is never carried over
     beyond = [f for f in (source.features(asset) if source else ()) if f.count]
-    lost = [f for f in told if f.count and f.what not in target.holds]
+    lost = [f for f in told if f.count and f.kind not in target.holds]
     return Report(
-        held=tuple(f for f in told if f.count and f.what in target.holds),
+        held=tuple(f for f in told if f.count and f.kind in target.holds),
         lost=(*(_lost(f, target) for f in (*lost, *beyond)), *_together(own)),
         remarks=(*remarks, *output.notes),
     )
@@ -51,14 +51,14 @@ def report(asset: Asset, source: Format | None, target: Format, output: Output, 
 
 def _without(feature: Feature, losses: Sequence[Loss]) -> Feature:
     """A feature without the things that losses tell about."""
-    like = [loss for loss in losses if loss.what is feature.what]
+    like = [loss for loss in losses if loss.what is feature.kind]
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
-    return Feature(feature.what, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
+    return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
 
 
 def _lost(feature: Feature, target: Format) -> Loss:
-    what = feature.what
+    what = feature.kind
     return Loss(what, feature.names, feature.reason or _why(what, target), target.instead.get(what), feature.unnamed)
 
 

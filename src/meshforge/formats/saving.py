@@ -63,7 +63,7 @@ def save(
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
     overwritten. Raises UsageError: the engine knows no collision by name in files of this format.
     """
-    asset = what if isinstance(what, Asset) else what.lowered() if what.asset else _of_memory(what)
+    asset = what if isinstance(what, Asset) else what.to_asset() if what.asset else _of_memory(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
     known = with_names(known, names) if names else known
@@ -82,7 +82,7 @@ def save(
 
 def _written(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, Report]:
     """The files of an asset in its own format or another, and what there is to say about them."""
-    if known.takes_back(asset):
+    if known.can_write_back(asset):
         output = known.write(asset, name, mass)
         return output, Report(remarks=output.notes)
     source = next((own for own in FORMATS if own.name == asset.format), None)

@@ -37,12 +37,12 @@ class Slot:
     text: bytes = b""
 
     @property
-    def untouched(self) -> bool:
+    def is_untouched(self) -> bool:
         """Whether it is an element of the file to which nothing is done."""
         same_name = self.source is not None and self.name == self.source.attributes.get("name")
         return same_name and not self.edits and not self.copy
 
-    def written(self, data: bytes) -> bytes:
+    def to_bytes(self, data: bytes) -> bytes:
         """Its text; data: the authored document."""
         if self.source is None:
             return spliced(self.text, [attribute(self.text, _new(self.text), "name", self.name)])
@@ -89,7 +89,7 @@ def lead_inside(data: bytes, parent: Element) -> bytes:
 def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
     """Elements one after another, each on lines of its own where the first is."""
     gap = b"" if lead is None else newline(data) + lead
-    return gap.join(slot.written(data) for slot in slots)
+    return gap.join(slot.to_bytes(data) for slot in slots)
 
 
 def _new(text: bytes) -> Element:

@@ -36,10 +36,10 @@ def turned(asset: Asset, turn: Pose) -> Asset:
     return replace(
         asset,
         bodies=tuple(Body(body.name, turn @ body.pose @ back) for body in asset.bodies),
-        geoms=tuple(replace(geom, shape=geom.shape.moved(turn)) for geom in asset.geoms),
+        geoms=tuple(replace(geom, shape=geom.shape.move(turn)) for geom in asset.geoms),
         opaque=tuple(_opaque(piece, turn) for piece in asset.opaque),
         visuals=_visuals(asset.visuals, turn),
-        mechanism=asset.mechanism.moved(turn),
+        mechanism=asset.mechanism.move(turn),
     )
 
 
@@ -50,7 +50,7 @@ def _opaque(piece: Opaque, turn: Pose) -> Opaque:
 
 def _visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:
     if isinstance(visuals, VisualSurfaces):
-        return VisualSurfaces(tuple(visual.moved(turn) for visual in visuals.visuals))
+        return VisualSurfaces(tuple(visual.move(turn) for visual in visuals.visuals))
     return tuple(_surface(surface, turn) for surface in visuals)
 
 

@@ -55,50 +55,50 @@ class VisualFiles:
         if paths:
             self._base = Path(os.path.commonpath([path.parent for path in (*paths, *beside)]))
 
-    def shown(self, body: str, visual: Visual | Surface, root_t_link: Pose) -> Shown | None:
+    def add_visual(self, body: str, visual: Visual | Surface, root_t_link: Pose) -> Shown | None:
         """A visual as it is to be written; None where its file cannot be read."""
         link_t_root = root_t_link.inverse()
         if isinstance(visual, Surface):
-            reference = self._made_of(f"{body}-visual", link_t_root.apply(visual.vertices), visual.faces)
+            reference = self._make_obj(f"{body}-visual", link_t_root.apply(visual.vertices), visual.faces)
             return Shown(reference, Pose.identity(), np.ones(3), visual.rgba)
-        moved = visual.moved(link_t_root)
+        moved = visual.move(link_t_root)
         if isinstance(moved.what, Shape):
             return Shown(moved.what, Pose.identity(), np.ones(3), moved.rgba)
         split = _split(moved.linear)
         if split is None:
-            return self._baked(body, moved)
-        file = self._placed(moved.what)
+            return self._bake(body, moved)
+        file = self._place_file(moved.what)
         if file is None:
             self.refused.append(body)
             return None
         return Shown(file, Pose(split[0], tidy(moved.offset, 1.0)), split[1], moved.rgba)
 
-    def _placed(self, mesh: Path) -> str | None:
+    def _place_file(self, mesh: Path) -> str | None:
         """The reference to a mesh file in the output."""
         if mesh not in self._made:
-            self._made[mesh] = self._copied(mesh) if self.takes(mesh) else self._converted(mesh)
+            self._made[mesh] = self._copy(mesh) if self.takes(mesh) else self._convert(mesh)
         return self._made[mesh]
 
-    def _copied(self, mesh: Path) -> str:
-        place = self._place(mesh)
+    def _copy(self, mesh: Path) -> str:
+        place = self._place_of(mesh)
         self.copies[place] = mesh
         for key, path in companions(mesh).items():
             self.copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), path)
         return place
 
-    def _place(self, mesh: Path) -> str:
+    def _place_of(self, mesh: Path) -> str:
         assert self._base is not None  # `gather` saw the file
         return f"{self.files.stem}--visuals/{mesh.relative_to(self._base).as_posix()}"
 
-    def _converted(self, mesh: Path) -> str | None:
+    def _convert(self, mesh: Path) -> str | None:
         """An OBJ of a file of another kind; None where it cannot be read."""
         try:
             soup = joined(read_triangles(mesh))
         except MeshForgeError:
             return None
-        return self._made_of(f"{mesh.stem}-visual", soup.vertices, soup.faces)
+        return self._make_obj(f"{mesh.stem}-visual", soup.vertices, soup.faces)
 
-    def _baked(self, body: str, visual: Visual) -> Shown | None:
+    def _bake(self, body: str, visual: Visual) -> Shown | None:
         """An OBJ of a visual under a map that shears."""
         surfaces = visual.surfaces()
         if not surfaces:
@@ -106,10 +106,10 @@ class VisualFiles:
             return None
         starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
         faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
-        reference = self._made_of(f"{body}-visual", np.concatenate([s.vertices for s in surfaces]), faces)
+        reference = self._make_obj(f"{body}-visual", np.concatenate([s.vertices for s in surfaces]), faces)
         return Shown(reference, Pose.identity(), np.ones(3), visual.rgba)
 
-    def _made_of(self, name: str, vertices: Floats, faces: Ints) -> str:
+    def _make_obj(self, name: str, vertices: Floats, faces: Ints) -> str:
         """An OBJ of triangles, with the four vertices at least that MuJoCo asks for."""
         enough = np.concatenate([vertices, vertices[:1]]) if len(vertices) < 4 else vertices
         return self.files.add(name, "", enough, faces)

@@ -30,10 +30,10 @@ class Visual:
     offset: Floats
     rgba: Rgba | None = None
 
-    def moved(self, pose: Pose) -> Visual:
+    def move(self, pose: Pose) -> Visual:
         """The visual in another root frame; pose: new_T_old."""
         if isinstance(self.what, Shape):
-            return replace(self, what=self.what.moved(pose))
+            return replace(self, what=self.what.move(pose))
         offset = pose.rotation @ self.offset + pose.translation
         return replace(self, linear=pose.rotation @ self.linear, offset=offset)
 

@@ -41,31 +41,31 @@ class Frame:
     unit: float
 
     @staticmethod
-    def around(low: Floats, high: Floats) -> Frame:
+    def of_bounds(low: Floats, high: Floats) -> Frame:
         """The frame of all that is between two corners (3,); rounded, so that small edits mostly keep it."""
         bottom, top = low.tolist(), high.tolist()
         unit = 2.0 ** frexp(dist(bottom, top))[1]
         return Frame(np.array([round((a + b) / unit) * (unit / 2) for a, b in zip(bottom, top, strict=True)]), unit)
 
     @contextmanager
-    def placed(self, shapes: Sequence[Shape]) -> Iterator[list[Placed]]:
+    def place(self, shapes: Sequence[Shape]) -> Iterator[list[Placed]]:
         """Shapes in this frame, as long as the context lasts."""
         filled: list[_Vessel] = []
         try:
-            yield self._placed(shapes, filled)
+            yield self._place_all(shapes, filled)
         finally:
             for vessel in filled:
                 if len(idle := _idle[vessel.size]) < _IDLE:
                     idle.append(vessel)
 
-    def _placed(self, shapes: Sequence[Shape], filled: list[_Vessel]) -> list[Placed]:
+    def _place_all(self, shapes: Sequence[Shape], filled: list[_Vessel]) -> list[Placed]:
         polytopes = [shape.vertices for shape in shapes if isinstance(shape, Polytope)]
         points = (np.concatenate(polytopes) - self.origin) / self.unit if polytopes else None
         placed: list[Placed] = []
         stop = 0
         for shape in shapes:
             if not isinstance(shape, Polytope):
-                placed.append(self._primitive(shape))
+                placed.append(self._place_primitive(shape))
                 continue
             assert points is not None
             start, stop = stop, stop + len(shape.vertices)
@@ -77,7 +77,7 @@ class Frame:
             placed.append((vessel.shape, _STILL))
         return placed
 
-    def _primitive(self, shape: Shape) -> Placed:
+    def _place_primitive(self, shape: Shape) -> Placed:
         match shape:
             case Box():
                 made = coal.Box(*(2 * shape.half / self.unit))

@@ -34,7 +34,7 @@ def common(a: Shape, b: Shape) -> Polytope | None:
     if not (low < high).all():
         return None
     bounds = Aabb.union([a.aabb, b.aabb])
-    met = solid(a.tessellated(), bounds) ^ solid(b.tessellated(), bounds)
+    met = solid(a.tessellate(), bounds) ^ solid(b.tessellate(), bounds)
     corners = np.asarray(met.to_mesh64().vert_properties, dtype=np.float64)[:, :3] * bounds.diagonal + bounds.center
     return convex_hull(corners, name="the common part") if len(corners) > 3 and spans_volume(corners) else None
 
@@ -46,5 +46,5 @@ def parted(shape: Shape, by: Sequence[Shape], least: float = 1e-3) -> Parting:
     """
     found = [part for other in by if (part := common(shape, other))]
     parts = tuple(part for part in found if part.volume >= least * shape.volume)
-    lost = 1.0 - volume_of_union(parts) / shape.tessellated().volume
+    lost = 1.0 - volume_of_union(parts) / shape.tessellate().volume
     return Parting(parts, len(found) - len(parts), min(max(lost, 0.0), 1.0))

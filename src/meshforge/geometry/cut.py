@@ -21,7 +21,7 @@ def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, P
     is cut as its tessellation. A part that is thinner than 1e-6 of the shape's size is left out.
     Raises GeometryError for a point that is not finite, or a normal without direction.
     """
-    whole = shape.tessellated()
+    whole = shape.tessellate()
     if not np.isfinite(point).all():
         raise GeometryError("a plane needs a point whose coordinates are finite")
     direction = _direction(normal)

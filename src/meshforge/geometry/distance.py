@@ -44,9 +44,9 @@ def close_pairs(
     near = near_boxes(low, high, reach)
     if settled:
         near = [(i, j) for i, j in near if i not in settled or j not in settled]
-    frame = Frame.around(low.min(axis=0), high.max(axis=0))
+    frame = Frame.of_bounds(low.min(axis=0), high.max(axis=0))
     used = list(dict.fromkeys(k for pair in near for k in pair))
-    with frame.placed([shapes[k] for k in used]) as found:
+    with frame.place([shapes[k] for k in used]) as found:
         placed = dict(zip(used, found, strict=True))
         gaps = _gaps([(placed[i], placed[j]) for i, j in near])
     return {pair: gap * frame.unit for pair, gap in zip(near, gaps, strict=True) if gap * frame.unit <= reach}

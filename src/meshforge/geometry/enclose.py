@@ -160,7 +160,7 @@ class _Search:
         most = min(self.budget.polygons, 2 * self.budget.vertices - 4, _MOST)  # faces of any polytope, by Euler
         while len(self.normals) < most:
             corners = self.corners()
-            away = corners - self._below(corners)
+            away = corners - self._nearest_below(corners)
             gaps = np.linalg.norm(away, axis=1)
             order = [k for k in np.argsort(-gaps, kind="stable")[:_TRIES] if gaps[k] > least]
             if not any(self._cut(corners[k], away[k] / gaps[k]) for k in order):
@@ -183,12 +183,12 @@ class _Search:
             return False
         self.normals = np.vstack([self.normals, normal])
         self.offsets = np.append(self.offsets, offset)
-        if self._within():
+        if self._fits_budget():
             return True
         self.normals, self.offsets = before
         return False
 
-    def _within(self) -> bool:
+    def _fits_budget(self) -> bool:
         corners = self.corners() / self.extents
         if len(corners) > self.budget.vertices:
             return False
@@ -209,7 +209,7 @@ class _Search:
         _, first = np.unique(np.round(met / _SAME), axis=0, return_index=True)
         return np.asarray(met[np.sort(first)] * self.extents)
 
-    def _below(self, corners: Floats) -> Floats:
+    def _nearest_below(self, corners: Floats) -> Floats:
         """The nearest point (n, 3) of the hull to each corner."""
         keys = [key.tobytes() for key in np.round(corners / self.extents / _SAME)]
         new = [k for k, key in enumerate(keys) if key not in self.places]

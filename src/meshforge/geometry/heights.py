@@ -19,7 +19,7 @@ class Planes:
     normals: Floats
     offsets: Floats
     middle: Floats
-    kept: Ints
+    face_indices: Ints
 
 
 def planes_of(vertices: Floats, faces: Ints) -> Planes:

@@ -37,7 +37,7 @@ def _spread(shape: Shape) -> Floats:
             return _turned(shape.pose.rotation, _of_rod(shape.radius, shape.half_length))
         case Capsule():
             return _turned(shape.pose.rotation, _of_capsule(shape.radius, shape.half_length))
-    return _of_polytope(shape.tessellated(), shape.centroid)
+    return _of_polytope(shape.tessellate(), shape.centroid)
 
 
 def _turned(rotation: Floats, squares: Floats) -> Floats:

@@ -44,7 +44,7 @@ def solid(shape: Shape, bounds: Aabb) -> Any:
     """The shape in coordinates where `bounds` has a diagonal of one about the origin."""
     match shape:
         case Polytope() | Box():
-            hull = shape.tessellated()
+            hull = shape.tessellate()
             return _mesh((hull.vertices - bounds.center) / bounds.diagonal, hull)
         case Sphere() | Ellipsoid() | Cylinder() | Capsule():
             fine = _tessellated(shape)

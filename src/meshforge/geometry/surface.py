@@ -46,7 +46,7 @@ def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
     """How far [m] any corner lies above the plane of a face that shares an edge with its own."""
     planes = planes_of(vertices, faces)
     place = np.full(len(faces), -1)
-    place[planes.kept] = np.arange(len(planes.kept))
+    place[planes.face_indices] = np.arange(len(planes.face_indices))
     pairs = neighbours(faces)
     pairs = np.concatenate([pairs, pairs[:, ::-1]])
     pairs = pairs[place[pairs[:, 0]] >= 0]

@@ -104,4 +104,4 @@ def _relabelled(groups: list[Group], edits: list[Edit], label: str | None) -> di
     if label is None:
         return {}
     whole = [g for g, edit in zip(groups, edits, strict=True) if not edit.removes and not edit.made]
-    return {hull.name: hull.labelled(_annotation(hull, label)) for group in whole for hull in group.hulls}
+    return {hull.name: hull.with_label(_annotation(hull, label)) for group in whole for hull in group.hulls}

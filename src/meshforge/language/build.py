@@ -61,8 +61,8 @@ def build_program(source: Source, tree: Node) -> Program:
 def build_rule(text: Text, tree: Node, comments: Comments) -> Rule:
     """The rule of a `rule` node."""
     extractor, action, *label = nodes(tree)
-    parts = build_extractor(text, extractor), build_action(text, action), text.label(label[0]) if label else None
-    return text.placed(label[0] if label else tree, lambda: Rule(*parts, comments))
+    parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
+    return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
 def build_extractor(text: Text, tree: Node) -> Extractor:
@@ -86,7 +86,7 @@ def build_orient(text: Text, tree: Node) -> Orient:
     given = nodes(tree)
     pairs = tuple(_pair(text, node) for node in given)
     wrong = given[min(2, len(given) - 1)]
-    return text.placed(wrong, lambda: Orient(pairs, snap=len(tokens(tree)) > 0))
+    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens(tree)) > 0))
 
 
 def _pair(text: Text, tree: Node) -> LandmarkPair:
@@ -95,7 +95,7 @@ def _pair(text: Text, tree: Node) -> LandmarkPair:
 
 
 def _base(text: Text, tree: Node) -> Base:
-    return All() if tree.data == "all" else Is(text.label(nodes(tree)[0]))
+    return All() if tree.data == "all" else Is(text.read_label(nodes(tree)[0]))
 
 
 def _direction(text: Text, token: Token) -> Direction:
@@ -104,7 +104,7 @@ def _direction(text: Text, token: Token) -> Direction:
     except ProgramError as error:
         like = likely(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
-        raise text.error(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
+        raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
     return cast(Direction, str(token))
 
 
@@ -113,7 +113,7 @@ def _headers(text: Text, statements: list[Node]) -> dict[str, Node]:
     for node in statements:
         if node.data in headers:
             line = headers[node.data].meta.line
-            raise text.error(node, f"{node.data} is given twice", f"It stands on line {line} already.")
+            raise text.error_at(node, f"{node.data} is given twice", f"It stands on line {line} already.")
         headers[node.data] = node
     return headers
 
@@ -121,9 +121,9 @@ def _headers(text: Text, statements: list[Node]) -> dict[str, Node]:
 def _declared(text: Text, tree: Node) -> tuple[str, ...]:
     labels: list[str] = []
     for node in nodes(tree):
-        label = text.label(node)
+        label = text.read_label(node)
         if label in labels:
-            raise text.error(node, f"the label {label!r} is declared twice", "Leave one of them out.")
+            raise text.error_at(node, f"the label {label!r} is declared twice", "Leave one of them out.")
         labels.append(label)
     return tuple(labels)
 
@@ -132,5 +132,5 @@ def _threshold(text: Text, tree: Node | None) -> float | None:
     if tree is None:
         return None
     (token,) = tokens(tree)
-    text.placed(token, lambda: check_threshold(tree.data, float(token)))
+    text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
     return float(token)

@@ -28,19 +28,19 @@ def build_action(text: Text, tree: Node) -> Action:
         raise _unknown(text, name)
     takes = list(kind.arguments().values())
     if len(given) > len(takes):
-        raise text.error(given[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
-    if len(given) < kind.required():
-        raise text.error(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
+        raise text.error_at(given[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
+    if len(given) < kind.min_arguments():
+        raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
     values = [_argument(text, kind, argument, part) for argument, part in zip(takes, given, strict=False)]
-    return text.placed(tree, lambda: kind(*values))
+    return text.locate_errors(tree, lambda: kind(*values))
 
 
 def _unknown(text: Text, name: Token) -> ProgramError:
     known = f"Actions are {one_of(ACTIONS)}."
     if name in OPERATORS:
-        return text.error(name, f"{name} selects hulls, it is no action", known)
+        return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely(name, ACTIONS)
-    return text.error(name, f"unknown action {shown(name)}", f"Did you mean {like}? {known}" if like else known)
+    return text.error_at(name, f"unknown action {shown(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
 def _argument(text: Text, kind: type[Action], argument: Argument, given: Node | Token) -> Any:
@@ -51,7 +51,7 @@ def _argument(text: Text, kind: type[Action], argument: Argument, given: Node | 
         return build_action(text, given)
     token = _bare(given)
     if token is not None:
-        content = text.unquoted(token) if token.type == "STRING" else str(token)
+        content = text.unquote(token) if token.type == "STRING" else str(token)
         value = argument.read(_KINDS[token.type], content)
         if value is not None:
             return value
@@ -68,11 +68,11 @@ def _bare(given: Node | Token) -> Token | None:
 
 
 def _misfit(text: Text, kind: type[Action], argument: Argument, given: Node | Token) -> ProgramError:
-    thing = text.source.thing(start_of(given))
+    thing = text.source.piece_at(start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely(thing.strip('"'), argument.choices)
     if like:
         remedy = f"Did you mean {like}? {remedy}"
     elif isinstance(argument, File) and "\\" in thing:
         remedy = "Write / between the folders of a path."
-    return text.error(given, f"{kind.__name__} takes {argument.wants} here, not {shown(thing)}", remedy)
+    return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {shown(thing)}", remedy)

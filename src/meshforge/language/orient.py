@@ -27,7 +27,7 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     pose = Pose(rotation, np.zeros(3))
     if np.array_equal(rotation, np.eye(3)):
         return mesh, pose
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls), pose
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
 def _rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:

@@ -17,21 +17,21 @@ class Source:
     text: str
     name: str
 
-    def thing(self, offset: int) -> str:
+    def piece_at(self, offset: int) -> str:
         """The word, text, number or sign at an offset; empty at the end of a line."""
         found = _THING.match(self.text, offset)
         thing = found.group() if found else ""
         return "" if thing.startswith("#") or thing.isspace() else thing
 
-    def place(self, offset: int) -> tuple[int, int]:
+    def position_of(self, offset: int) -> tuple[int, int]:
         """Line and column of an offset, both from 1."""
         before = self.text[:offset]
         return before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1
 
-    def error(self, offset: int, problem: str, remedy: str | None = None, width: int | None = None) -> ProgramError:
+    def error_at(self, offset: int, problem: str, remedy: str | None = None, width: int | None = None) -> ProgramError:
         """The error at an offset, with the line and `width` carets below it (the length of what stands there)."""
-        line, column = self.place(offset)
+        line, column = self.position_of(offset)
         text = self.text.split("\n")[line - 1].replace("\t", " ").rstrip("\r")
-        carets = "^" * max(1, len(self.thing(offset)) if width is None else width)
+        carets = "^" * max(1, len(self.piece_at(offset)) if width is None else width)
         excerpt = f"    {text}\n    {' ' * (column - 1)}{carets}"
         return ProgramError(f"{problem}\n{excerpt}", where=f"{self.name}:{line}:{column}", remedy=remedy)

@@ -28,11 +28,11 @@ WORD = re.compile(r"[^\W\d]\w*")
 RESERVED = frozenset(OPERATORS) | frozenset(ACTIONS)
 _ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
-Node = Extractor | Action | LandmarkPair | Orient | Rule | Program
+Node = Extractor | Action | LandmarkPair | Orient | Rule
 
 
 def show(node: Node) -> str:
-    """A node as program text; that of a program ends with a line break."""
+    """A node as program text."""
     match node:
         case All():
             return "All"
@@ -50,8 +50,6 @@ def show(node: Node) -> str:
             return f"orient {'snap ' if snap else ''}{', '.join(map(show, pairs))}"
         case Rule():
             return _rule(node, 0)
-        case Program():
-            return "".join(f"{line}\n" for line in _program(node))
         case _:
             assert_never(node)
 

@@ -82,19 +82,19 @@ class Program:
     comments: HeaderComments = field(default=HeaderComments(), compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "labels", tuple(self.labels) or self.used_labels)
+        object.__setattr__(self, "labels", tuple(self.labels) or self.labels_in_use)
         object.__setattr__(self, "rules", tuple(self.rules))
         for label in self.labels:
             check_label(label)
             if self.labels.count(label) > 1:
                 raise ProgramError(f"the label {label!r} is declared twice")
-        for label in self.used_labels:
+        for label in self.labels_in_use:
             check_declared(label, self.labels)
         check_threshold("contact", self.contact)
         check_threshold("extremity", self.extremity)
 
     @property
-    def asked_labels(self) -> tuple[str, ...]:
+    def labels_asked(self) -> tuple[str, ...]:
         """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
         asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
@@ -102,10 +102,10 @@ class Program:
         return tuple(dict.fromkeys(label for extractor in asked for label in labels_used(extractor)))
 
     @property
-    def used_labels(self) -> tuple[str, ...]:
+    def labels_in_use(self) -> tuple[str, ...]:
         """The labels asked for, then those that rules give to what they make."""
         given = [rule.label for rule in self.rules if rule.label is not None]
-        return tuple(dict.fromkeys([*self.asked_labels, *given]))
+        return tuple(dict.fromkeys([*self.labels_asked, *given]))
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -133,9 +133,9 @@ class Program:
         return run(self, mesh, templates or {})
 
     def __str__(self) -> str:
-        from meshforge.language.print import show
+        from meshforge.language.print import _program
 
-        return show(self)
+        return "".join(f"{line}\n" for line in _program(self))
 
 
 def check_declared(label: str, declared: tuple[str, ...]) -> None:

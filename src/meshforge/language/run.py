@@ -115,13 +115,13 @@ def _run(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]
 def _home(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
     """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
     if hull.name in incoming.index:
-        original = incoming.named(hull.name)
-        return original if original.annotation == hull.annotation else original.labelled(hull.annotation)
-    return hull.moved(back) if back else hull
+        original = incoming.hull_of(hull.name)
+        return original if original.annotation == hull.annotation else original.with_label(hull.annotation)
+    return hull.move(back) if back else hull
 
 
 def _check_labels(program: Program, mesh: SymbolicMesh) -> None:
-    if program.asked_labels and mesh.hulls and not any(hull.label for hull in mesh.hulls):
+    if program.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
         raise ProgramError(
             "no labels: the program asks for labels, and no hull has one",
             remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",

@@ -21,13 +21,13 @@ def syntax_error(source: Source, offset: int, accepted: Set[str], before: str) -
 
     accepted: names of the grammar's terminals that may stand there; before: the text of the token before it.
     """
-    found = source.thing(offset)
+    found = source.piece_at(offset)
     words = _candidates(accepted)
     like = likely(found, words)
     problem = _problem(found, accepted)
     if like:
-        return source.error(offset, problem, f"Did you mean {like}?")
-    return source.error(offset, problem, _remedy(source, offset, found, accepted, before))
+        return source.error_at(offset, problem, f"Did you mean {like}?")
+    return source.error_at(offset, problem, _remedy(source, offset, found, accepted, before))
 
 
 def likely(word: str, words: Iterable[str]) -> str | None:

@@ -28,34 +28,34 @@ class Text:
     source: Source
     declared: tuple[str, ...] = ()
 
-    def label(self, node: Node) -> str:
+    def read_label(self, node: Node) -> str:
         """The label of a `label` node: no operator name, and declared where labels are."""
         (token,) = tokens(node)
         if token.type == "NAME" and token in RESERVED:
-            raise self.error(token, f"{token} is the name of an operator", f'As a label it is written "{token}".')
-        label = self.unquoted(token) if token.type == "STRING" else str(token)
-        self.placed(node, lambda: check_label(label))
+            raise self.error_at(token, f"{token} is the name of an operator", f'As a label it is written "{token}".')
+        label = self.unquote(token) if token.type == "STRING" else str(token)
+        self.locate_errors(node, lambda: check_label(label))
         if self.declared:
-            self.placed(node, lambda: check_declared(label, self.declared))
+            self.locate_errors(node, lambda: check_declared(label, self.declared))
         return label
 
-    def unquoted(self, token: Token) -> str:
+    def unquote(self, token: Token) -> str:
         """The text between quotation marks."""
         try:
             return str(json.loads(token))
         except ValueError:
             remedy = r"Write \\ for a backslash and \" for a quotation mark."
-            raise self.error(token, "a backslash in this text begins nothing known", remedy) from None
+            raise self.error_at(token, "a backslash in this text begins nothing known", remedy) from None
 
-    def placed(self, at: Node | Token, make: Callable[[], T], width: int | None = None) -> T:
+    def locate_errors(self, at: Node | Token, make: Callable[[], T], width: int | None = None) -> T:
         """What is made; an error on the way is given its place in the text."""
         try:
             return make()
         except ProgramError as error:
-            raise self.source.error(start_of(at), error.problem, error.remedy, width) from None
+            raise self.source.error_at(start_of(at), error.problem, error.remedy, width) from None
 
-    def error(self, at: Node | Token, problem: str, remedy: str | None) -> ProgramError:
-        return self.source.error(start_of(at), problem, remedy)
+    def error_at(self, at: Node | Token, problem: str, remedy: str | None) -> ProgramError:
+        return self.source.error_at(start_of(at), problem, remedy)
 
 
 def nodes(tree: Node) -> list[Node]:

@@ -53,12 +53,12 @@ def decompose_asset(
     """
     fit = fitting(asset, _without(before, only) if again else before)
     kept = fit.preparation
-    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *kept.made}
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *kept.hull_digests}
     made: list[Replaced] = []
     hulls: list[Polytope] = []
     failed: list[Lost] = []
     bare = sources(fit.asset)
-    missed = _missed(only, [*(source.what for source in bare), *kept.decomposed])
+    missed = _missed(only, [*(source.what for source in bare), *kept.source_names])
     for source in bare:
         if not _chosen(source.what, only):
             continue
@@ -72,7 +72,7 @@ def decompose_asset(
         hulls += own
         taken |= entry.made.keys()
     if made:
-        kept = kept.then(Step("decompose", settings_record(settings, hollow), software(settings), tuple(made)), hulls)
+        kept = kept.with_step(Step("decompose", settings_record(settings, hollow), software(settings), tuple(made)), hulls)
     return Decomposed(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
@@ -93,7 +93,7 @@ def _without(before: Preparation, only: Sequence[str]) -> Preparation:
     for step in before.steps:
         stay = tuple(r for r in step.replaced if step.do != "decompose" or not _chosen(r.what, only))
         kept += [Step(step.do, step.settings, step.software, stay)] if stay else []
-    return before.of(kept)
+    return before.with_only(kept)
 
 
 def _missed(only: Sequence[str], there: Sequence[str]) -> str | None:

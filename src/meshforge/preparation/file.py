@@ -58,10 +58,10 @@ def read_preparation(folder: Path) -> Preparation | None:
         raise _no_file(path, error) from error
     hulls = _read_hulls(folder / _HULLS) if steps else {}
     found = Preparation(steps, hulls)
-    for name, known in found.made.items():
+    for name, known in found.hull_digests.items():
         if known not in hulls:
             raise _damaged(folder / _HULLS, f"the hull {name} is not in it as it was made")
-    return found.of(steps)
+    return found.with_only(steps)
 
 
 def record_digest(folder: Path) -> str | None:
@@ -83,8 +83,8 @@ def write_preparation(folder: Path, preparation: Preparation) -> None:
         before = read_preparation(folder) or Preparation()
     except AssetError:
         before = Preparation()
-    own = [(name, preparation.hulls[known]) for name, known in preparation.made.items()]
-    old = [(f"{n}@before", before.hulls[k]) for n, k in before.made.items() if k not in preparation.hulls]
+    own = [(name, preparation.hulls[known]) for name, known in preparation.hull_digests.items()]
+    old = [(f"{n}@before", before.hulls[k]) for n, k in before.hull_digests.items() if k not in preparation.hulls]
     write_atomically(folder / _HULLS, _hulls_text([*own, *old]))
     record = _Record(preparation.steps)
     write_atomically(folder / RECORD, json.dumps(asdict(record), ensure_ascii=False, indent=2) + "\n")

@@ -59,28 +59,28 @@ class Preparation:
     hulls: Mapping[str, Polytope] = field(default_factory=dict)
 
     @property
-    def made(self) -> dict[str, str]:
+    def hull_digests(self) -> dict[str, str]:
         """The digests of all hulls it makes by name, those that later steps replace too."""
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
     @property
-    def decomposed(self) -> tuple[str, ...]:
+    def source_names(self) -> tuple[str, ...]:
         """The names of the pieces and bodies that got hulls."""
         return tuple(r.what for step in self.steps for r in step.replaced if r.kind != "hull")
 
     @property
-    def divided(self) -> frozenset[str]:
+    def hulls_replaced(self) -> frozenset[str]:
         """The names of the hulls that its steps put others in the place of, authored ones too."""
         return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
 
-    def then(self, step: Step, hulls: Iterable[Polytope]) -> Preparation:
+    def with_step(self, step: Step, hulls: Iterable[Polytope]) -> Preparation:
         """With one step more, which makes these hulls."""
         return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})
 
-    def of(self, steps: Iterable[Step]) -> Preparation:
+    def with_only(self, steps: Iterable[Step]) -> Preparation:
         """With these of its steps, and their hulls."""
         shorter = replace(self, steps=tuple(steps))
-        return replace(shorter, hulls={known: self.hulls[known] for known in shorter.made.values()})
+        return replace(shorter, hulls={known: self.hulls[known] for known in shorter.hull_digests.values()})
 
 
 def hull_digest(hull: Polytope) -> str:

@@ -60,7 +60,7 @@ def fitting(asset: Asset, preparation: Preparation) -> Fitting:
                 fits.append(entry)
                 current = _with(current, entry, preparation, authored)
         kept += [replace(step, replaced=tuple(fits))] if fits else []
-    return Fitting(_noted(current), preparation.of(kept), tuple(lost))
+    return Fitting(_noted(current), preparation.with_only(kept), tuple(lost))
 
 
 def _noted(asset: Asset) -> Asset:

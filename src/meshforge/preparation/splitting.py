@@ -100,12 +100,12 @@ def _knife(asset: Asset, geom: Geom) -> Surface:
 def _then(
     asset: Asset, before: Preparation, geom: Geom, step: Step, parts: Sequence[Polytope], told: Sequence[str]
 ) -> Preparation:
-    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.made}
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
     names = free_names(geom.name, len(parts), taken)
     made = dict(zip(names, map(hull_digest, parts), strict=True))
     remarks = "; ".join([counted(len(parts), "hull"), *told])
     entry = Replaced(geom.name, "hull", digest(geom.shape), made, remarks)
-    return before.then(Step(step.do, step.settings, step.software, (entry,)), parts)
+    return before.with_step(Step(step.do, step.settings, step.software, (entry,)), parts)
 
 
 def _shown(point: Floats) -> str:

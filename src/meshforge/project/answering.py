@@ -33,7 +33,7 @@ def answer(project: Project, given: Answer) -> str:
     """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `checked` does."""
     line = checked(project, given)
     with project.lock():
-        write_answers(project, answers(project).adding(line))
+        write_answers(project, answers(project).with_line(line))
     return line.id
 
 
@@ -41,7 +41,7 @@ def chosen(question: Question, choice: int | None) -> Answer:
     """The answer that takes a choice, counted from 0. Raises UsageError where there is no such choice."""
     if choice is not None and not 0 <= choice < len(question.choices):
         raise UsageError(f"the question {question.id} has {len(question.choices)} choices, none at place {choice}")
-    return question.answered(choice)
+    return question.answer_with(choice)
 
 
 def checked(project: Project, given: Answer) -> AnswerLine:
@@ -79,11 +79,11 @@ def confirm(project: Project, right: Correction) -> str:
             raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {project.folder}")
         said, identity = answers(project), repair_id(right)
         known = [line.before for line in said.confirmed if line.id == identity]
-        current = mesh.named(right.hull).annotation
+        current = mesh.hull_of(right.hull).annotation
         before = known[0] if known and current == _given(right) else LabelBefore.of(current)
         line = ConfirmedLine(id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before)
         # the record first: killed in between, the repair is merely proposed again
-        write_answers(project, said.adding(line))
+        write_answers(project, said.with_line(line))
         labelling.write_merged(project, right.asset, labelling.digests(mesh), mended, project.vocabulary)
     return identity
 
@@ -94,7 +94,7 @@ def reject(project: Project, wrong: Correction) -> str:
     identity = repair_id(wrong)
     line = RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
     with project.lock():
-        write_answers(project, answers(project).adding(line))
+        write_answers(project, answers(project).with_line(line))
     return identity
 
 
@@ -132,7 +132,7 @@ def _mended(project: Project, mesh: SymbolicMesh, right: Correction) -> tuple[di
     mended, report = labelling.merged(right.asset, mesh.index, mesh.labels, given, project.vocabulary)
     if report.problems:
         return mended, report.problems[0]
-    label = mesh.named(right.hull).label
+    label = mesh.hull_of(right.hull).label
     if label not in (right.was, right.to):
         return mended, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
     return mended, None
@@ -142,7 +142,7 @@ def _restored(project: Project, line: ConfirmedLine) -> str | None:
     """Give a hull the label back that it had before a repair; the sentence to tell where that is not done."""
     try:
         mesh = project.mesh(line.asset)
-        current = mesh.named(line.hull).annotation
+        current = mesh.hull_of(line.hull).annotation
     except MeshForgeError as error:
         return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
     before = line.before.annotation if line.before else None
@@ -150,7 +150,7 @@ def _restored(project: Project, line: ConfirmedLine) -> str | None:
         said = f"labelled {current.name}" if current else "without a label"
         return f"{line.hull} in {line.asset} is left {said}, as it was changed after the repair"
     if current != before:
-        labels = mesh.labelled({line.hull: before}).labels
+        labels = mesh.with_labels({line.hull: before}).labels
         labelling.write_merged(project, line.asset, labelling.digests(mesh), labels, project.vocabulary)
     return None
 

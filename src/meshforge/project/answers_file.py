@@ -18,7 +18,7 @@ class _Said(JsonFile):
     id: str
 
     @model_validator(mode="after")
-    def _is_called_right(self) -> Self:
+    def _check_id(self) -> Self:
         if self.id != self.proper_id:
             raise ValueError(f"the id of this entry is {self.proper_id!r}")
         return self
@@ -115,7 +115,7 @@ class AnswersFile(JsonFile):
             }
         )
 
-    def adding(self, line: AnswerLine | RepairLine) -> AnswersFile:
+    def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
         """The same with one thing more, in place of what was said under its id before."""
         rest = self.without(line.id)
         match line:

@@ -33,7 +33,7 @@ def jobs(project: Project, only: Collection[str] | None = None) -> tuple[AssetJo
 
 def task(project: Project, program: Program) -> Task:
     """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
-    corrected = project.found.ids.keys() & set(project.layout.kept_for("corrections"))
+    corrected = project.found.ids.keys() & set(project.layout.ids_with("corrections"))
     edits = (edit for asset in sorted(corrected) for edit in project.corrections(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
     templates = project.templates(dict.fromkeys([*program.templates, *by_hand]))

@@ -35,7 +35,7 @@ def correct(project: Project, asset: str, select: Sequence[str], action: Action,
                 like = nearest(name, mesh.index)
                 remedy = f"Did you mean {like!r}?" if like else None
                 raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-        added = Correction(tuple((name, digest(mesh.named(name).shape)) for name in select), action, label)
+        added = Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
         lines = correction_lines((*before, added))
         kept = read_json(path, CorrectionsFile)
         fresh = CorrectionsFile(asset=asset, steps=lines)

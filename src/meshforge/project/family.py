@@ -28,12 +28,12 @@ class Family:
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets to learn from that can be read, by id, with the labels they have now."""
         if not self._kept:
-            rows = self._project.named_meshes(looked_at(self._project))
+            rows = self._project.meshes_by_id(looked_at(self._project))
             self._kept = {asset: (self._labels(asset), mesh) for asset, mesh in rows}
         for asset, (before, mesh) in self._kept.items():
             now = self._labels(asset)
             if now != before:
-                bare = mesh.labelled(dict.fromkeys(mesh.index))
+                bare = mesh.with_labels(dict.fromkeys(mesh.index))
                 self._kept[asset] = now, follow_labels(self._project.labels(asset), bare).mesh
         return {asset: mesh for asset, (_, mesh) in self._kept.items()}
 

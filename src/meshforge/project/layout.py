@@ -84,12 +84,12 @@ class Layout:
         """What was sent to models, and what came back."""
         return self.folder / STATE / "vlm"
 
-    def kept_for(self, kind: str) -> tuple[str, ...]:
+    def ids_with(self, kind: str) -> tuple[str, ...]:
         """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
         root = self.folder / kind
         return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))
 
-    def prepared(self) -> tuple[str, ...]:
+    def ids_with_preparation(self) -> tuple[str, ...]:
         """The ids of all assets that have a preparation, sorted."""
         root = self.folder / "prepared"
         return tuple(sorted(path.parent.relative_to(root).as_posix() for path in root.rglob(RECORD)))

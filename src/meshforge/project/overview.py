@@ -141,6 +141,6 @@ def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) 
 
 def _lost(project: Project) -> tuple[str, ...]:
     """The ids that something is kept for, though there is no such asset."""
-    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.kept_for(kind)}
-    kept |= set(project.layout.prepared())
+    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.ids_with(kind)}
+    kept |= set(project.layout.ids_with_preparation())
     return tuple(sorted(kept - set(project.assets())))

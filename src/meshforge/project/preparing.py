@@ -77,7 +77,7 @@ def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
 
     What is kept for an asset that is gone, or cannot be read, can be taken back as a whole.
     """
-    if asset not in project.layout.prepared():
+    if asset not in project.layout.ids_with_preparation():
         project.path(asset)
     folder = project.layout.preparation(asset)
     seen = record_digest(folder)
@@ -85,7 +85,7 @@ def unprepare(project: Project, asset: str, everything: bool) -> Prepared:
         raise ProjectError("nothing was done to it that could be taken back", where=asset)
     before = _readable(folder) if everything else read_preparation(folder) or Preparation()
     left = 0 if everything else len(before.steps) - 1
-    notes = exchanged(project, asset, before.of(before.steps[:left]), seen)
+    notes = exchanged(project, asset, before.with_only(before.steps[:left]), seen)
     undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
     return Prepared(asset, undone=undone, notes=tuple(notes))
 
@@ -112,9 +112,9 @@ def _hulls(source: Asset, folder: Path) -> dict[str, Shape]:
     A hull that a step puts others in the place of is none of them, whether or not that step still fits the asset.
     """
     before = _readable(folder)
-    made = {name: before.hulls[known] for name, known in before.made.items()}
+    made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
     there = made | {geom.name: geom.shape for geom in fitting(source, before).asset.geoms}
-    return {name: shape for name, shape in there.items() if name not in before.divided}
+    return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
 
 
 def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:

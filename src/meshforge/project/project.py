@@ -173,15 +173,15 @@ class Project:
 
     def meshes(self) -> Iterator[SymbolicMesh]:
         """All assets with their labels, one after the other; those that cannot be read are left out."""
-        return (mesh for _, mesh in self.named_meshes())
+        return (mesh for _, mesh in self.meshes_by_id())
 
-    def named_meshes(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
+    def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """The same with their ids, of some assets only."""
         return reading.named_meshes(self, self.assets() if assets is None else tuple(assets))
 
     def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
         """What reads each of some assets as `mesh` does, in this process or another."""
-        return tuple(place.mesh for place in reading.places(self, assets))
+        return tuple(place.read_mesh for place in reading.places(self, assets))
 
     # Preparation
 
@@ -289,7 +289,7 @@ class Project:
         """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
         return filing.from_files(self, source, how or Filing(), vocabulary, spread)
 
-    def offered_labels(self) -> Offered:
+    def label_offers(self) -> Offered:
         """What `label_from_files` and `label_from_names` would give; see `Offers` for asking often."""
         return Offers().of(self)
 
@@ -425,7 +425,7 @@ class Project:
         """Make it the project's program."""
         accepting.accept(self, program)
 
-    def standing(self) -> Standing:
+    def program_state(self) -> Standing:
         """How the program stands to what it was learned from, and whether a person wrote it."""
         return accepting.present_standing(self)
 
@@ -452,7 +452,7 @@ class Project:
         )
         return learning.learn(self, how)
 
-    def met(
+    def mesh_before_rule(
         self, asset: str, rule: int, program: Program, meshes: Mapping[str, SymbolicMesh] | None = None
     ) -> SymbolicMesh:
         """An asset as a rule of a program meets it: turned, and edited by the rules before."""

@@ -24,7 +24,7 @@ class Place:
     labels: Path
     contact: float | None
 
-    def mesh(self) -> SymbolicMesh:
+    def read_mesh(self) -> SymbolicMesh:
         """The asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         source = read_prepared(self.path, self.preparation)
         labelled = follow_labels(kept_labels(self.labels), SymbolicMesh.of(source)).mesh
@@ -47,13 +47,13 @@ def places(project: Project, assets: Iterable[str]) -> tuple[Place, ...]:
 def mesh(project: Project, asset: str) -> SymbolicMesh:
     """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
     (place,) = places(project, [asset])
-    return place.mesh()
+    return place.read_mesh()
 
 
 def named_meshes(project: Project, assets: Sequence[str]) -> Iterator[tuple[str, SymbolicMesh]]:
     """Assets with their ids, one after the other; those that cannot be read are left out."""
     for asset, place in zip(assets, places(project, assets), strict=True):
         try:
-            yield asset, place.mesh()
+            yield asset, place.read_mesh()
         except MeshForgeError:
             continue

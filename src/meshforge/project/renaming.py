@@ -71,13 +71,13 @@ def _is_writable(label: str) -> bool:
 def _texts(project: Project, old: str, new: str) -> Iterator[tuple[Path, str]]:
     """The files that say the label, except for program and settings, with what they say then."""
     layout = project.layout
-    for path in map(layout.labels, layout.kept_for("labels")):
+    for path in map(layout.labels, layout.ids_with("labels")):
         file = read_labels(path)
         if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
             yield path, labels_text(_labels(file, old, new))
-    for path in map(layout.demonstration, layout.kept_for("demonstrations")):
+    for path in map(layout.demonstration, layout.ids_with("demonstrations")):
         yield from _steps(path, read_json(path, DemonstrationFile), old, new)
-    for path in map(layout.corrections, layout.kept_for("corrections")):
+    for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _steps(path, read_json(path, CorrectionsFile), old, new)
     said = answers(project)
     now = _answers(said, layout.answers, old, new)
@@ -108,9 +108,9 @@ def _answers(said: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
     """What was said with the label by its other name; of what says the same then, one stays."""
     now = said.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
     for line in said.answers:
-        now = now.adding(_answer(line, where, old, new))
+        now = now.with_line(_answer(line, where, old, new))
     for repair in (*said.rejected, *said.confirmed):
-        now = now.adding(_repair(repair, old, new))
+        now = now.with_line(_repair(repair, old, new))
     return now
 
 

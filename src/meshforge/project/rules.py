@@ -47,7 +47,7 @@ def _demonstrations(project: Project) -> dict[Path, DemonstrationFile]:
 
 
 def _ids(project: Project) -> tuple[str, ...]:
-    return project.layout.kept_for("demonstrations")
+    return project.layout.ids_with("demonstrations")
 
 
 def _rules(kept: Mapping[Path, DemonstrationFile], *asked: int) -> list[int]:
@@ -100,5 +100,5 @@ def _renumbered(said: AnswersFile, order: Sequence[int], before: int) -> Answers
     for line in said.answers:
         rule = places.get(line.rule, line.rule if line.rule > before else 0)
         if rule:
-            now = now.adding(line.model_copy(update={"rule": rule, "id": f"{rule}:{line.asset}"}))
+            now = now.with_line(line.model_copy(update={"rule": rule, "id": f"{rule}:{line.asset}"}))
     return now

@@ -85,7 +85,7 @@ def surveyed(
     work = {key: _Work(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _holds(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
-    results = (spread or Spread()).over(_facts, todo, progress)
+    results = (spread or Spread()).run(_facts, todo, progress)
     try:
         for key, own in work.items():
             if key not in fresh:

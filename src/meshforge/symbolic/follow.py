@@ -39,7 +39,7 @@ class Followed:
 def follow_labels(file: LabelFile, mesh: SymbolicMesh) -> Followed:
     """The mesh with the labels of the file, in the places that `label_homes` gives them."""
     homes = label_homes(file, {hull.name: digest(hull.shape) if file.digests else "" for hull in mesh.hulls})
-    return Followed(mesh.labelled(homes.labels), homes.changed, homes.renamed, homes.gone)
+    return Followed(mesh.with_labels(homes.labels), homes.changed, homes.renamed, homes.gone)
 
 
 def label_homes(file: LabelFile, hulls: Mapping[str, str]) -> Homes:

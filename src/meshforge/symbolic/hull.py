@@ -56,8 +56,8 @@ class Hull:
         """The native primitive, or None for a polytope."""
         return self.shape if self.shape.is_primitive else None
 
-    def labelled(self, annotation: Label | None) -> Hull:
+    def with_label(self, annotation: Label | None) -> Hull:
         return replace(self, annotation=annotation)
 
-    def moved(self, pose: Pose) -> Hull:
-        return replace(self, shape=self.shape.moved(pose))
+    def move(self, pose: Pose) -> Hull:
+        return replace(self, shape=self.shape.move(pose))

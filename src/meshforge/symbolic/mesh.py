@@ -104,7 +104,7 @@ class SymbolicMesh:
         """Position of each hull by name."""
         return {hull.name: k for k, hull in enumerate(self.hulls)}
 
-    def named(self, name: str) -> Hull:
+    def hull_of(self, name: str) -> Hull:
         """The hull of that name. Raises MeshForgeError where there is none."""
         if name not in self.index:
             raise MeshForgeError(f"there is no hull {name!r}", where=str(self.asset.path) if self.asset else None)
@@ -114,9 +114,9 @@ class SymbolicMesh:
     def labels(self) -> dict[str, Label]:
         return {h.name: h.annotation for h in self.hulls if h.annotation}
 
-    def labelled(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
+    def with_labels(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
         """The mesh with some labels set, or taken away by None."""
-        return self.with_hulls(h.labelled(labels[h.name]) if h.name in labels else h for h in self.hulls)
+        return self.with_hulls(h.with_label(labels[h.name]) if h.name in labels else h for h in self.hulls)
 
     def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
         """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
@@ -129,7 +129,7 @@ class SymbolicMesh:
             edited.__dict__["graph"] = graph
         return edited
 
-    def lowered(self) -> Asset:
+    def to_asset(self) -> Asset:
         """The asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in memory."""
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")

@@ -34,7 +34,7 @@ class Question:
     def id(self) -> str:
         return f"{self.rule}:{self.asset}"
 
-    def answered(self, choice: int | None) -> Answer:
+    def answer_with(self, choice: int | None) -> Answer:
         """The answer that takes a choice, counted from 0, or None for neither.
 
         Raises DemonstrationError where there is no such choice.

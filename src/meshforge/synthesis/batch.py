@@ -37,7 +37,7 @@ def _called(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, SymbolicMesh]]
 def corrected(mesh: SymbolicMesh, name: str, corrections: Iterable[Correction]) -> SymbolicMesh:
     """A mesh with the labels that corrections give to its hulls, as far as they are there."""
     given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == name}
-    return mesh.labelled(given) if given else mesh
+    return mesh.with_labels(given) if given else mesh
 
 
 class Course:
@@ -59,21 +59,21 @@ class Course:
         self.shown = [begun(name, demo, frame.orient, frame.contact) for name, demo in named(demos)]
         bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
         rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
-        self.others = [replay for name, mesh in rows if (replay := self._begun(name, mesh))]
+        self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
         rules = range(1, 1 + max((len(demo.steps) for demo in demos), default=0))
-        self._stale = self._lost(answers) + [answer for answer in answers if answer.rule not in rules]
+        self._stale = self._answers_without_asset(answers) + [answer for answer in answers if answer.rule not in rules]
 
     @property
     def stale(self) -> tuple[Answer, ...]:
         """Answers whose rule, asset or hulls are not there."""
         return tuple(dict.fromkeys(self._stale))
 
-    def _lost(self, answers: Iterable[Answer]) -> list[Answer]:
+    def _answers_without_asset(self, answers: Iterable[Answer]) -> list[Answer]:
         """Those about assets that are not, or no longer, on their way."""
         names = {replay.name for replay in [*self.shown, *self.others]}
         return [answer for answer in answers if answer.asset not in names]
 
-    def _begun(self, name: str, mesh: SymbolicMesh) -> Replay | None:
+    def _begin(self, name: str, mesh: SymbolicMesh) -> Replay | None:
         try:
             return begun(name, Demonstration(mesh, (), name), self._frame.orient, self._frame.contact)
         except MeshForgeError:
@@ -93,16 +93,16 @@ class Course:
                 examples.append(shown)
             else:
                 open_.append(replay)
-        self._stale += self._lost(answered.values())
+        self._stale += self._answers_without_asset(answered.values())
         return examples, open_
 
-    def answered(self, rule: int) -> tuple[str, ...]:
+    def assets_with_answers(self, rule: int) -> tuple[str, ...]:
         """The meshes of which an answer, and no demonstration, says what the rule selects."""
         silent = {replay.name for replay in [*self.shown, *self.others] if not replay.demo.step(rule)}
         said = {a.asset: a.select for a in self._answers if a.rule == rule}
         return tuple(name for name, select in said.items() if select is not None and name in silent)
 
-    def refused(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
+    def rejections(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
         """What a person said is not meant: places in the list of meshes, and hulls there, as bit sets."""
         places = {id(mesh): place for place, mesh in enumerate(meshes)}
         met = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
@@ -113,14 +113,14 @@ class Course:
             if answer.asset in met and names <= met[answer.asset].index.keys()
         ]
 
-    def take(self, number: int, rule: Rule, last: bool) -> None:
+    def advance(self, number: int, rule: Rule, last: bool) -> None:
         """Run a rule on all meshes; the last one only on those that are demonstrated."""
         delta = self._frame.extremity
         self.shown = [advanced(replay, number, rule, self._templates, delta) for replay in self.shown]
         if not last:
-            self.others = [done for replay in self.others if (done := self._advanced(replay, number, rule))]
+            self.others = [done for replay in self.others if (done := self._advance(replay, number, rule))]
 
-    def _advanced(self, replay: Replay, number: int, rule: Rule) -> Replay | None:
+    def _advance(self, replay: Replay, number: int, rule: Rule) -> Replay | None:
         try:
             return advanced(replay, number, rule, self._templates, self._frame.extremity)
         except MeshForgeError:

@@ -33,7 +33,7 @@ def advice(miss: NearMiss, examples: Sequence[Example], answered: Sequence[str] 
 
 
 def _unlabelled(miss: NearMiss, example: Example) -> Iterator[str]:
-    bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.named(name).label is None]
+    bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.hull_of(name).label is None]
     if bare:
         yield f"{_said(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"
 
@@ -43,7 +43,7 @@ def _odd_labels(example: Example, names: Sequence[str], left_out: bool) -> Itera
     right = {hull.label for k, hull in enumerate(example.mesh.hulls) if example.selection >> k & 1}
     by_label: dict[str | None, list[str]] = {}
     for name in names:
-        by_label.setdefault(example.mesh.named(name).label, []).append(name)
+        by_label.setdefault(example.mesh.hull_of(name).label, []).append(name)
     for label, alike in by_label.items():
         if label is None:
             continue

@@ -106,7 +106,7 @@ def _place(rule: int, wanted: Extractor, weighed: Weighed, names: Sequence[str],
 
 def _instead(weighed: Weighed, place: int, names: Sequence[str]) -> str:
     """Why another reading was taken, and what would help."""
-    differs = [names[k] for k in weighed.differing(place)]
+    differs = [names[k] for k in weighed.differences(place)]
     first, second = weighed.beliefs[0], weighed.beliefs[place]
     better = "more believable" if first >= second else "smaller, though less believable"
     one = "it" if len(differs) == 1 else "one of these"

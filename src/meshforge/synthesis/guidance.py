@@ -28,11 +28,11 @@ def question(
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
     """
-    doubt = weighed.doubt
+    doubt = weighed.question_value
     if len(declined) >= BALKED:
         return None
-    split = weighed.split({k: trust[name] for k, name in enumerate(names) if name not in declined})
-    if not split or not split.worth_asking:
+    split = weighed.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
+    if not split or not split.is_worth_asking:
         return None
     choices = tuple(
         Choice(reading_id(rule, reading), _hulls(weighed, reading, split.asset)) for reading in split.choices
@@ -47,7 +47,7 @@ def hint(learned: Sequence[tuple[Weighed, Sequence[str]]]) -> Hint | None:
     """
     gains: dict[str, float] = {}
     for weighed, names in learned:
-        for place, gain in weighed.doubt.gains(len(weighed.examples)).items():
+        for place, gain in weighed.question_value.gains(len(weighed.examples)).items():
             gains[names[place]] = gains.get(names[place], 0.0) + gain
     if gains:
         most = max(gains, key=lambda name: (gains[name], name))

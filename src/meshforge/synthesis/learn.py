@@ -72,10 +72,10 @@ def synthesize(
             follow,
             confirmed,
         )
-        outcome = Lesson(task, watch, asked.again if confirm else None).outcome()
+        outcome = Lesson(task, watch, asked.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):
             return outcome
-        confirmed += asked.confirmed(outcome.repairs)
+        confirmed += asked.confirm_all(outcome.repairs)
 
 
 class _Asked:
@@ -83,15 +83,15 @@ class _Asked:
 
     def __init__(self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[Correction], watch: Watch) -> None:
         self._confirm, self._watch = confirm, watch
-        self._said = dict.fromkeys(rejected, False)
+        self._decisions = dict.fromkeys(rejected, False)
 
     @property
     def rejected(self) -> frozenset[Correction]:
         """What is not to be proposed: what was refused, and the reverse of what was confirmed."""
-        refused = {correction for correction, right in self._said.items() if not right}
-        return frozenset(refused.union(c.reverse for c, right in self._said.items() if right and c.reverse))
+        refused = {correction for correction, right in self._decisions.items() if not right}
+        return frozenset(refused.union(c.reverse for c, right in self._decisions.items() if right and c.reverse))
 
-    def confirmed(self, repairs: Iterable[Repair]) -> tuple[Correction, ...]:
+    def confirm_all(self, repairs: Iterable[Repair]) -> tuple[Correction, ...]:
         """Those that are confirmed; of a rule's repairs none is asked about after one that is refused.
 
         They explain the rule together, so without one the others may be pointless; if not, they are proposed again.
@@ -100,16 +100,16 @@ class _Asked:
         for repair in repairs:
             if repair.rule in refused:
                 continue
-            if self.again(repair):
+            if self.confirm(repair):
                 right.append(repair.correction)
             else:
                 refused.add(repair.rule)
         return tuple(right)
 
-    def again(self, repair: Repair) -> bool:
+    def confirm(self, repair: Repair) -> bool:
         """Whether a repair is confirmed."""
         assert self._confirm
-        if repair.correction not in self._said:
-            with self._watch.paused():
-                self._said[repair.correction] = self._confirm(repair)
-        return self._said[repair.correction]
+        if repair.correction not in self._decisions:
+            with self._watch.pause():
+                self._decisions[repair.correction] = self._confirm(repair)
+        return self._decisions[repair.correction]

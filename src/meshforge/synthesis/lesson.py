@@ -38,7 +38,7 @@ class Learned:
     """One rule, its readings, and the names of the meshes in their field."""
 
     rule: Rule
-    weighed: Weighed
+    readings: Weighed
     names: tuple[str, ...]
 
 
@@ -56,71 +56,71 @@ class Lesson:
 
     def __init__(self, task: Task, watch: Watch, confirm: Callable[[Repair], bool] | None = None) -> None:
         self._task, self._watch, self._confirm = task, watch, confirm
-        self._course = Course(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._replays = Course(task.demos, task.batch, task.frame, task.templates, task.answers)
         self._learned: list[Learned] = []
         self._tried: list[Tried] = []
         self._question: Question | None = None
         self._searching = 0.0
         self._followed = list(unfollowed(task, task.follow)) if task.follow else []
-        meshes = {replay.name: replay.mesh for replay in [*self._course.shown, *self._course.others]}
+        meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
         self._repairs = Repairs(task, meshes, watch)
 
-    def outcome(self) -> Outcome:
+    def run(self) -> Outcome:
         """What comes of it."""
         for agreed in self._task.rules:
             failed = self._learn(agreed)
             if failed:
                 return failed
-        return self._repaired() if self._repairs.found else self._found()
+        return self._propose_repairs() if self._repairs.repairs else self._finish()
 
     def _learn(self, agreed: Agreed) -> Outcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
         while True:
-            examples, rest = self._course.examples(agreed)
+            examples, rest = self._replays.examples(agreed)
             names = (*(example.name for example in examples), *(replay.name for replay in rest))
             start = self._watch.elapsed
-            found = self._answer(agreed, examples, [replay.mesh for replay in rest])
+            found = self._find_readings(agreed, examples, [replay.mesh for replay in rest])
             self._searching += self._watch.elapsed - start
             if not isinstance(found, tuple):
                 self._follow(agreed, found if isinstance(found, Weighed) else None, names, examples)
             match found:
                 case Weighed():
-                    self._take(agreed, found, names)
+                    self._accept(agreed, found, names)
                     return None
                 case Miss():
-                    return self._missed(agreed, found, examples)
+                    return self._fail(agreed, found, examples)
                 case Unfinished():
                     nearest = _placed(agreed.number, found.nearest) if found.nearest else None
-                    return TimedOut(nearest=nearest, **self._shared())
+                    return TimedOut(nearest=nearest, **self._common_fields())
                 case tuple():
-                    self._course.correct(found)
+                    self._replays.correct(found)
                 case _:
                     assert_never(found)
 
-    def _answer(
+    def _find_readings(
         self, agreed: Agreed, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> Weighed | Miss | Unfinished | tuple[Correction, ...]:
         """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
         task, watch = self._task, self._watch
         if task.options.strategy == "paper":
-            return self._by_the_paper(agreed, examples, rest)
+            return self._find_by_paper(agreed, examples, rest)
         search = Search(examples, task.frame.labels, watch, task.options, task.extremity, rest)
         found = search.run()
-        self._note(agreed, found.tried)
+        self._record_effort(agreed, found.tried)
         if isinstance(found, Unfinished):
             return found
         try:
-            corrections = self._repairs.explaining(agreed.number, examples, found)
+            corrections = self._repairs.find_corrections(agreed.number, examples, found)
         except OutOfTime:
             corrections = ()
         if corrections:
             return corrections
         if isinstance(found, Miss):
             return found
-        refused = self._course.refused(agreed.number, search.field.meshes)
+        refused = self._replays.rejections(agreed.number, search.field.meshes)
         return Weighed(search, every(search, found.extractor, task.options.above), refused)
 
-    def _by_the_paper(
+    def _find_by_paper(
         self, agreed: Agreed, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> Weighed | Miss | Unfinished | tuple[Correction, ...]:
         task = self._task
@@ -132,15 +132,15 @@ class Lesson:
             task.extremity,
             inquiry(agreed.number, self._confirm) if self._confirm else None,
             task.rejected,
-            self._repairs.spent,
+            self._repairs.counts,
         )
-        self._note(agreed, found.tried)
+        self._record_effort(agreed, found.tried)
         if isinstance(found, Explained):
-            return self._repairs.inferred(agreed.number, found)
+            return self._repairs.record_inferred(agreed.number, found)
         if not isinstance(found, Hit):
             return found
         search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity, rest)
-        return Weighed.alone(search, found.extractor)
+        return Weighed.of_single(search, found.extractor)
 
     def _follow(
         self, agreed: Agreed, weighed: Weighed | None, names: Sequence[str], examples: Sequence[Example]
@@ -150,41 +150,41 @@ class Lesson:
             extractor = wanted.rules[agreed.number - 1].extractor
             self._followed.append(followed(agreed, extractor, weighed, names, examples, self._task))
 
-    def _take(self, agreed: Agreed, weighed: Weighed, names: tuple[str, ...]) -> None:
+    def _accept(self, agreed: Agreed, weighed: Weighed, names: tuple[str, ...]) -> None:
         rule = Rule(weighed.extractor, agreed.action, agreed.label)
         self._learned.append(Learned(rule, weighed, names))
         if not self._question:
             declined = {a.asset for a in self._task.answers if a.rule == agreed.number and a.select is None}
             self._question = question(agreed.number, weighed, names, self._repairs.trust, declined)
-        self._course.take(agreed.number, rule, last=agreed.number == len(self._task.rules))
+        self._replays.advance(agreed.number, rule, last=agreed.number == len(self._task.rules))
 
-    def _found(self) -> Outcome:
+    def _finish(self) -> Outcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
-        known = [(learned.weighed, learned.names) for learned in self._learned]
+        known = [(learned.readings, learned.names) for learned in self._learned]
         ahead, looks = hint(known), sample(known, self._repairs.trust)
         if self._question:
-            return Ambiguous(program=program, question=self._question, hint=ahead, sample=looks, **self._shared())
-        settled = bool(self._course.others) and all(learned.weighed.settled for learned in self._learned)
-        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._shared())
+            return Ambiguous(program=program, question=self._question, hint=ahead, sample=looks, **self._common_fields())
+        settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
+        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._common_fields())
 
-    def _repaired(self) -> Outcome:
-        return NeedsRepair(repairs=self._repairs.found, proposed=self._program(), **self._shared())
+    def _propose_repairs(self) -> Outcome:
+        return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
 
-    def _missed(self, agreed: Agreed, miss: Miss, examples: Sequence[Example]) -> Outcome:
-        nearest, repairs = _placed(agreed.number, miss.nearest), self._repairs.found
+    def _fail(self, agreed: Agreed, miss: Miss, examples: Sequence[Example]) -> Outcome:
+        nearest, repairs = _placed(agreed.number, miss.nearest), self._repairs.repairs
         if repairs:
-            return NeedsRepair(repairs=repairs, nearest=nearest, **self._shared())
-        answered = self._course.answered(agreed.number)
+            return NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
+        answered = self._replays.assets_with_answers(agreed.number)
         return NoProgram(
             why=miss.why,
             nearest=nearest,
             advice=advice(miss.nearest, examples, answered),
-            suggested=self._suggested(),
-            **self._shared(),
+            suggested=self._suggest_orientation(),
+            **self._common_fields(),
         )
 
-    def _suggested(self) -> Suggested | None:
+    def _suggest_orientation(self) -> Suggested | None:
         task = self._task
         try:
             return suggest_orientation(
@@ -204,28 +204,28 @@ class Lesson:
         rules = tuple(learned.rule for learned in self._learned)
         return replace(self._task.frame, rules=rules)
 
-    def _note(self, agreed: Agreed, tried: Tried) -> None:
+    def _record_effort(self, agreed: Agreed, tried: Tried) -> None:
         self._tried = [*self._tried[: agreed.number - 1], tried]
 
-    def _shared(self) -> _Shared:
+    def _common_fields(self) -> _Shared:
         elapsed = self._watch.elapsed
         return {
             "rules": tuple(learned.rule for learned in self._learned),
             "readings": tuple(
                 reading
                 for number, learned in enumerate(self._learned, 1)
-                for reading in _readings(number, learned.weighed, learned.names)
+                for reading in _readings(number, learned.readings, learned.names)
             ),
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": elapsed - self._searching},
-            "stale": self._course.stale,
+            "stale": self._replays.stale,
             "followed": tuple(self._followed),
         }
 
 
 def _readings(rule: int, weighed: Weighed, names: Sequence[str]) -> Iterator[Reading]:
     for place, (term, belief) in enumerate(zip(weighed.terms, weighed.beliefs, strict=True)):
-        differs = tuple(names[k] for k in weighed.differing(place))
+        differs = tuple(names[k] for k in weighed.differences(place))
         yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
 
 

@@ -41,32 +41,32 @@ class Repairs:
         self._found: dict[Correction, Repair] = {}
 
     @property
-    def found(self) -> tuple[Repair, ...]:
+    def repairs(self) -> tuple[Repair, ...]:
         return tuple(repair for _, repair in sorted(self._found.items()))
 
     @property
-    def spent(self) -> Mapping[str, int]:
+    def counts(self) -> Mapping[str, int]:
         """How many corrections there are on each mesh, those included that a person confirmed before."""
         return Counter(correction.asset for correction in [*self._found, *self._task.confirmed])
 
     @cached_property
     def trust(self) -> Mapping[str, float]:
         """How much each mesh tells of the rules rather than of its labels, in 0..1: less for each that may be wrong."""
-        errors = self._labels.errors  # of none that is demonstrated under another name
+        errors = self._beliefs.errors  # of none that is demonstrated under another name
         return {name: exp(-DISTRUST * errors.get(name, 0.0)) for name in self._meshes}
 
-    def explaining(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
+    def find_corrections(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[Correction, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
         task = self._task
         explanation = task.options.repair and explain(
             examples,
             task.frame.labels,
-            self._labels,
+            self._beliefs,
             task.options,
             self._watch,
             task.extremity,
             found.extractor if isinstance(found, Hit) else None,
-            self.spent,
+            self.counts,
             task.rejected,
         )
         if not explanation:
@@ -75,7 +75,7 @@ class Repairs:
         self._found.update({correction: Repair(correction, rule, belief, why) for correction, belief, why in rows})
         return explanation.corrections
 
-    def inferred(self, rule: int, explained: Explained) -> tuple[Correction, ...]:
+    def record_inferred(self, rule: int, explained: Explained) -> tuple[Correction, ...]:
         """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
         alone = len(explained.corrections) == 1
         why = f"with {'it' if alone else 'all corrections'}, {show(explained.extractor)} selects what was shown"
@@ -83,7 +83,7 @@ class Repairs:
         return explained.corrections
 
     @cached_property
-    def _labels(self) -> Labels:
+    def _beliefs(self) -> Labels:
         said = {answer.asset for answer in self._task.answers}
         known = said.union(name for name, _ in named(self._task.demos))
         return Labels(

@@ -46,7 +46,7 @@ def _differing(learned: Sequence[Known], names: Sequence[str], trust: Mapping[st
     for weighed, called in learned:
         table = np.zeros((len(weighed.compared), len(names)))
         for row, reading in enumerate(weighed.compared):
-            others = [place[called[k]] for k in weighed.differing(reading) if called[k] in place]
+            others = [place[called[k]] for k in weighed.differences(reading) if called[k] in place]
             table[row, others] = weighed.beliefs[reading]
         tables.append(table)
     at_stake = np.concatenate(tables)

@@ -20,7 +20,7 @@ def learned_vocabulary(
 
     Raises DemonstrationError for a demonstration with a label that a given vocabulary lacks.
     """
-    landmarks = Program(orient=orient).used_labels
+    landmarks = Program(orient=orient).labels_in_use
     if given is None:
         meshes = [*(demo.mesh for demo in demos), *batch]
         on_hulls = {hull.label for mesh in meshes for hull in mesh.hulls if hull.label}

@@ -30,7 +30,7 @@ class Watch:
             raise OutOfTime
 
     @contextmanager
-    def paused(self) -> Iterator[None]:
+    def pause(self) -> Iterator[None]:
         """While a person thinks, no time passes."""
         began = self._clock()
         try:

@@ -61,37 +61,37 @@ class Camera:
     scale: float
     size: tuple[int, int]
 
-    def plane(self, points: Floats) -> Floats:
+    def project(self, points: Floats) -> Floats:
         """Points (n, 3) on the image plane: right and up (n, 2)."""
         if self.eye is None:
             return points @ self.axes[:2].T
         local = (points - self.eye) @ self.axes.T
         return local[:, :2] / -local[:, 2:]
 
-    def pixels(self, points: Floats) -> Floats:
+    def to_pixels(self, points: Floats) -> Floats:
         """Points (n, 3) in the picture: column and row (n, 2), the first pixel's centre at (0, 0)."""
-        offset = (self.plane(points) - self.middle) / self.scale
+        offset = (self.project(points) - self.middle) / self.scale
         half = (np.array(self.size) - 1) / 2
         return half + offset * [1, -1]
 
-    def finer(self, factor: int) -> Camera:
+    def supersample(self, factor: int) -> Camera:
         """The same camera with `factor` times as many pixels along each side."""
         width, height = self.size
         return Camera(self.axes, self.eye, self.middle, self.scale / factor, (width * factor, height * factor))
 
-    def sight(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
+    def pixel_rays(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
         """Origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through n pixels."""
-        right, up = self.on_plane(columns, rows)
+        right, up = self.plane_coordinates(columns, rows)
         aside = right[:, None] * self.axes[0] + up[:, None] * self.axes[1]
         if self.eye is None:
             return aside, -self.axes[2:]
         return np.broadcast_to(self.eye, aside.shape), aside - self.axes[2]
 
-    def towards(self, points: Floats) -> Floats:
+    def directions_to_eye(self, points: Floats) -> Floats:
         """Directions (n, 3) from points to the eye, not of unit length."""
         return np.broadcast_to(self.axes[2], points.shape) if self.eye is None else self.eye - points
 
-    def on_plane(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
+    def plane_coordinates(self, columns: Places, rows: Places) -> tuple[Floats, Floats]:
         """Right and up of pixel columns and rows on the image plane."""
         width, height = self.size
         right = self.middle[0] + (columns - (width - 1) / 2) * self.scale
@@ -108,7 +108,7 @@ def look(view: View, up: Up, size: tuple[int, int], points: Floats, margin: floa
     axes = axes_of(view, up)
     eye = axes[2] * _DISTANCE if view.startswith("iso") else None
     loose = Camera(axes, eye, np.zeros(2), 1.0, size)
-    plane = loose.plane(points)
+    plane = loose.project(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
     room = np.array(size) * (1 - 2 * margin)
     scale = float(np.max((high - low) / room)) or 1.0 / min(size)

@@ -40,7 +40,7 @@ class Canvas:
         self.room = (0, top, size[0], size[1] - foot)
         draw_legend(self._draw, size, coloring)
 
-    def lay(self, pixels: Singles, at: tuple[int, int]) -> None:
+    def paste_drawing(self, pixels: Singles, at: tuple[int, int]) -> None:
         """Lays a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
         from PIL import Image
 
@@ -54,18 +54,18 @@ class Canvas:
         levels = np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8)
         self.image.paste(Image.fromarray(levels, self.image.mode), at)
 
-    def mark(self, items: Ints, marks: Mapping[int, str], at: tuple[int, int]) -> None:
+    def write_marks(self, items: Ints, marks: Mapping[int, str], at: tuple[int, int]) -> None:
         """Writes texts on items seen at (left, top)."""
         if marks:
             draw_marks(self._draw, items, marks, at, self.size)
 
-    def say(self, text: str, box: tuple[int, int, int, int]) -> None:
+    def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
         """Writes a text into the middle of a box."""
         left, top, right, bottom = box
         size = round(20 * unit(self.size))
         self._draw.text(((left + right) / 2, (top + bottom) / 2), text, fill=FAINT, font=font(size), anchor="mm")
 
-    def name(self, text: str, at: tuple[int, int]) -> None:
+    def write_view_name(self, text: str, at: tuple[int, int]) -> None:
         """Writes the name of a view into the corner at (left, top)."""
         u = unit(self.size)
         self._draw.text((at[0] + 16 * u, at[1] + 8 * u), text, fill=FAINT, font=font(round(13 * u)), anchor="lt")

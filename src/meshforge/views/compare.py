@@ -84,9 +84,9 @@ def difference(
     what = _with_removed(subject(after, coloring, up=up), gone, fresh)
     left, top, right, bottom = canvas.room
     painted = draw(what, joint_bounds(before, after), view, (right - left, bottom - top))
-    canvas.lay(painted.pixels, (left, top))
+    canvas.paste_drawing(painted.pixels, (left, top))
     if not before.hulls and not after.hulls:
-        canvas.say("no hulls", canvas.room)
+        canvas.write_message("no hulls", canvas.room)
     return canvas.image
 
 
@@ -106,7 +106,7 @@ def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) ->
 
 def _bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int], background: str | None) -> Image:
     canvas = Canvas(size, background, None, None, Coloring(what.layers[0].colors))
-    canvas.lay(draw(what, bounds, view, size).pixels, (0, 0))
+    canvas.paste_drawing(draw(what, bounds, view, size).pixels, (0, 0))
     if not what.layers[0].skins:
-        canvas.say("no hulls", canvas.room)
+        canvas.write_message("no hulls", canvas.room)
     return canvas.image

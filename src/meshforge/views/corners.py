@@ -20,7 +20,7 @@ def sky(hits: Hits, camera: Camera, rows: Ints, columns: Ints) -> Singles:
     r, c = np.nonzero(coarse >= 0)
     points = hits.points(camera, r * _STEP + half, c * _STEP + half)
     normals = hits.scene.normals[coarse[r, c]]
-    away = np.einsum("ij,ij->i", normals, camera.towards(points)) < 0
+    away = np.einsum("ij,ij->i", normals, camera.directions_to_eye(points)) < 0
     normals = np.where(away[:, None], -normals, normals)
     grid = np.zeros(coarse.shape, np.float32)
     grid[r, c] = open_sky(hits.scene, points, normals, turns(r, c))

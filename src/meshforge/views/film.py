@@ -27,7 +27,7 @@ class Film:
         self._rgb = np.zeros((alpha.size, 3), np.float32)
         self._alpha = np.ascontiguousarray(alpha, np.float32).ravel()
 
-    def over(self, rows: Ints, columns: Ints, color: Singles, share: Singles | None = None) -> None:
+    def blend(self, rows: Ints, columns: Ints, color: Singles, share: Singles | None = None) -> None:
         """Lays colours (n, 3) over pixels (n,), as much of them as `share` (n,) in 0..1 says, wholly by default."""
         at = rows * self._shape[1] + columns
         if share is None:
@@ -37,7 +37,7 @@ class Film:
         self._rgb[at] = self._rgb[at] * keep[:, None] + color * share[:, None]
         self._alpha[at] = self._alpha[at] * keep + share
 
-    def reduced(self, fine: int) -> Singles:
+    def downsample(self, fine: int) -> Singles:
         """The mean (h, w, 4) of each block of `fine` times `fine` pixels."""
         height, width = self._shape
         out = np.empty((height // fine, width // fine, 4), np.float32)

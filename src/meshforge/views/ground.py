@@ -28,7 +28,7 @@ def ground_shadow(scene: Scene, stage: Stage, camera: Camera) -> Singles:
         return np.zeros((height, width), np.float32)
     shadow, low, cell = _on_ground(scene, stage)
     rows, columns = np.mgrid[0 : -(-height // _STEP), 0 : -(-width // _STEP)] * _STEP + (_STEP - 1) / 2
-    places = (_ground_points(stage, camera, rows.ravel(), columns.ravel())[:, stage.level] - low) / cell - 0.5
+    places = (_ground_points(stage, camera, rows.ravel(), columns.ravel())[:, stage.ground_axes] - low) / cell - 0.5
     seen = map_coordinates(shadow, places.T, order=1).reshape(rows.shape)
     box = (0, 0, width / _STEP, height / _STEP)
     large = np.asarray(Image.fromarray(seen).resize(camera.size, Image.Resampling.BICUBIC, box=box))
@@ -44,9 +44,9 @@ def _fade(count: int) -> Singles:
 
 def _ground_points(stage: Stage, camera: Camera, rows: Floats, columns: Floats) -> Floats:
     """Where the rays through pixels meet the ground (n, 3); those that never do, far away."""
-    origins, directions = camera.sight(columns, rows)
+    origins, directions = camera.pixel_rays(columns, rows)
     fall = directions @ stage.upright
-    depth = (stage.ground - origins @ stage.upright) / np.where(fall < -1e-3, fall, 1e-3)
+    depth = (stage.ground_height - origins @ stage.upright) / np.where(fall < -1e-3, fall, 1e-3)
     points: Floats = origins + directions * depth[:, None]
     return points
 
@@ -55,13 +55,13 @@ def _on_ground(scene: Scene, stage: Stage) -> tuple[Singles, Floats, float]:
     """The shadow as seen from above (a, b), the lower corner (2,) of that picture, and the side of a cell."""
     from scipy.ndimage import gaussian_filter
 
-    corners = scene.corners.reshape(-1, 3)[:, stage.level]
+    corners = scene.corners.reshape(-1, 3)[:, stage.ground_axes]
     low, high = corners.min(axis=0) - GROUND_REACH, corners.max(axis=0) + GROUND_REACH
     cell = float((high - low).max()) / _CELLS
     count = np.ceil((high - low) / cell).astype(int)
     first, second = np.mgrid[0 : count[0], 0 : count[1]]
-    points = np.zeros((first.size, 3)) + stage.upright * stage.ground
-    points[:, stage.level] = low + (np.column_stack([first.ravel(), second.ravel()]) + 0.5) * cell
+    points = np.zeros((first.size, 3)) + stage.upright * stage.ground_height
+    points[:, stage.ground_axes] = low + (np.column_stack([first.ravel(), second.ravel()]) + 0.5) * cell
     free = open_ground(scene, points, stage.upright, turns(first.ravel(), second.ravel()))
     softened: Any = gaussian_filter((1 - free).reshape(first.shape), _SOFTNESS)
     return softened, low, cell

@@ -60,7 +60,7 @@ def heat(
     what = Subject(tuple(layers), framed(skins, shells), up_axis(mesh, up))
     canvas = Canvas(size, background, title, caption, Coloring(colors, _legend(edges)))
     left, top, right, bottom = canvas.room
-    canvas.lay(draw(what, None, view, (right - left, bottom - top)).pixels, (left, top))
+    canvas.paste_drawing(draw(what, None, view, (right - left, bottom - top)).pixels, (left, top))
     return canvas.image
 
 

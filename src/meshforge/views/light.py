@@ -64,7 +64,7 @@ def _share(scene: Scene, points: Floats, normals: Floats, turn: Floats, count: i
         angle = (2 * np.pi * (k * 0.6180339887498949 + turn)).astype(np.float32)
         x, y = radius * np.cos(angle), radius * np.sin(angle)
         directions = aside * x[:, None] + across * y[:, None] + above * np.sqrt(1 - radius * radius)
-        free += ~scene.blocked(origins, directions, reach)
+        free += ~scene.is_blocked(origins, directions, reach)
     return free / np.float32(count)
 
 

@@ -29,7 +29,7 @@ def paint(layers: Sequence[Layer], stage: Stage, camera: Camera, fine: int) -> P
 
     layers: a solid one, then shells.
     """
-    close = camera.finer(fine)
+    close = camera.supersample(fine)
     solid = cast(layers[0], stage, close)
     film = Film(ground_shadow(solid.scene, stage, close) * np.float32(_SHADE))
     width = max(2, round(1.1 * fine * min(unit(camera.size), 2.0)))
@@ -40,7 +40,7 @@ def paint(layers: Sequence[Layer], stage: Stage, camera: Camera, fine: int) -> P
         share = _shares(layer, hits, solid, close)
         _draw_shell(film, layer, hits, share, stage, close)
         _ink_shell(film, layer, hits, np.where(_beyond(layer, solid), 0.7, 1.6 * share).clip(0, 1), width)
-    return Painted(film.reduced(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
+    return Painted(film.downsample(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
 
 
 def _draw_solid(film: Film, layer: Layer, hits: Hits, stage: Stage, camera: Camera) -> None:
@@ -49,7 +49,7 @@ def _draw_solid(film: Film, layer: Layer, hits: Hits, stage: Stage, camera: Came
     openness = sky(hits, camera, rows, columns)
     color *= (1 - _CORNER * (1 - openness))[:, None]
     color += (1 - color) * (0.55 * _hatching(layer, hits)[rows, columns])[:, None]
-    film.over(rows, columns, color)
+    film.blend(rows, columns, color)
 
 
 def _surface(layer: Layer, hits: Hits, stage: Stage, camera: Camera, rows: Ints, columns: Ints) -> Singles:
@@ -60,10 +60,10 @@ def _surface(layer: Layer, hits: Hits, stage: Stage, camera: Camera, rows: Ints,
     base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     triangle = hits.triangle[rows, columns]
     color = lit(base, scene.normals, camera, stage.upright)[triangle]
-    bent = np.nonzero(scene.round[triangle])[0]
+    bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
         points = hits.points(camera, rows[bent], columns[bent])
-        normals = scene.bent_normals(triangle[bent], points)
+        normals = scene.smooth_normals(triangle[bent], points)
         color[bent] = lit(base[triangle[bent]], normals, camera, stage.upright)
     return color
 
@@ -73,7 +73,7 @@ def _tinted(
 ) -> Singles:
     """The lit colours (n, 3) of pixels whose colours depend on the place that they show."""
     triangle = hits.triangle[rows, columns]
-    points = stage.unplaced(hits.points(camera, rows, columns))
+    points = stage.from_unit(hits.points(camera, rows, columns))
     return lit(tint(points, hits.scene.item[triangle]), hits.scene.normals[triangle], camera, stage.upright)
 
 
@@ -107,13 +107,13 @@ def _hatching(layer: Layer, hits: Hits) -> Any:
 def _draw_shell(film: Film, layer: Layer, hits: Hits, share: Singles, stage: Stage, camera: Camera) -> None:
     rows, columns = spots(share > 0)
     color = _surface(layer, hits, stage, camera, rows, columns)
-    film.over(rows, columns, color, share[rows, columns])
+    film.blend(rows, columns, color, share[rows, columns])
 
 
 def _ink(film: Film, drawn: Lines) -> None:
     """Lays dark lines over the picture."""
     rows, columns = spots(drawn)
-    film.over(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
+    film.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
 
 
 def _ink_shell(film: Film, layer: Layer, hits: Hits, share: Singles, width: int) -> None:
@@ -121,4 +121,4 @@ def _ink_shell(film: Film, layer: Layer, hits: Hits, share: Singles, width: int)
     drawn = lines(hits, width)
     rows, columns = spots((drawn > 0) & (hits.item >= 0))
     color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
-    film.over(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])
+    film.blend(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])

@@ -78,12 +78,12 @@ def _place(
 ) -> None:
     left, top, right, bottom = box
     painted = draw(what, bounds, view, (right - left, bottom - top))
-    canvas.lay(painted.pixels, (left, top))
+    canvas.paste_drawing(painted.pixels, (left, top))
     if len(what.layers[0].skins) == 0:
-        canvas.say("no hulls", box)
-    canvas.mark(painted.items, marks, (left, top))
+        canvas.write_message("no hulls", box)
+    canvas.write_marks(painted.items, marks, (left, top))
     if named:
-        canvas.name(view, (left, top))
+        canvas.write_view_name(view, (left, top))
 
 
 def _check(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:

@@ -47,7 +47,7 @@ def _met(scene: Scene, camera: Camera, stepping: bool) -> tuple[Hits, Any]:
     between = _finer(_spread(uneven), x, y)
     between[::2, ::2] = False
     r, c = np.nonzero(between)
-    aside, directions = camera.sight(c + x.start, r + y.start)
+    aside, directions = camera.pixel_rays(c + x.start, r + y.start)
     origins = (aside + camera.axes[2] * start).astype(np.float32)
     fine[r, c] = scene.embree.run(origins, directions.astype(np.float32), query="INTERSECT")
     triangle[y, x], item[y, x] = fine, np.append(scene.item, -1)[fine]
@@ -85,7 +85,7 @@ def _depths(scene: Scene, camera: Camera, seen: Ints, x: slice, y: slice) -> Flo
     """How far along its ray each hit (h, w) lies."""
     rows, columns = np.nonzero(seen >= 0)
     depth = np.zeros(seen.shape)
-    depth[rows, columns] = scene.depth(seen[rows, columns], *camera.sight(2 * columns + x.start, 2 * rows + y.start))
+    depth[rows, columns] = scene.depth(seen[rows, columns], *camera.pixel_rays(2 * columns + x.start, 2 * rows + y.start))
     return depth
 
 

@@ -33,11 +33,11 @@ class Scene:
     embree: Any
 
     @property
-    def round(self) -> Any:
+    def is_round(self) -> Any:
         """Which triangles (m,) belong to a round surface."""
         return np.isfinite(self.bent[:, 0, 0])
 
-    def bent_normals(self, triangles: Ints, points: Floats) -> Floats:
+    def smooth_normals(self, triangles: Ints, points: Floats) -> Floats:
         """The smooth normals at points (n, 3) of round triangles (n,)."""
         a, b, c = (self.corners[triangles, k] for k in range(3))
         normal = np.cross(b - a, c - a)
@@ -49,7 +49,7 @@ class Scene:
         smooth: Floats = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
         return smooth
 
-    def blocked(self, origins: Singles, directions: Singles, reach: float) -> Any:
+    def is_blocked(self, origins: Singles, directions: Singles, reach: float) -> Any:
         """Which rays (n,) meet something within `reach`."""
         reaches = np.full(len(origins), reach, np.float32)
         return self.embree.run(origins, directions, dists=reaches, query="OCCLUDED") >= 0
@@ -130,7 +130,7 @@ def rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[S
     columns (w,) and rows (h,) give the n = h * w pixels of a window, row by row; start: how far towards the eye
     parallel rays begin.
     """
-    right, up = camera.on_plane(columns, rows)
+    right, up = camera.plane_coordinates(columns, rows)
     spread = (right[:, None] * camera.axes[0]).astype(np.float32)[None]
     lift = (up[:, None] * camera.axes[1]).astype(np.float32)[:, None]
     if camera.eye is None:

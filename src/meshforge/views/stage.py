@@ -45,21 +45,21 @@ class Stage:
     def unit(self) -> float:
         return self.bounds.diagonal or 1.0
 
-    def placed(self, points: Floats) -> Floats:
+    def to_unit(self, points: Floats) -> Floats:
         return (points - self.bounds.center) / self.unit
 
-    def unplaced(self, points: Floats) -> Floats:
+    def from_unit(self, points: Floats) -> Floats:
         return points * self.unit + self.bounds.center
 
     @property
-    def level(self) -> list[int]:
+    def ground_axes(self) -> list[int]:
         """The two axes along the ground."""
         return [k for k in range(3) if not self.upright[k]]
 
     @property
-    def ground(self) -> float:
+    def ground_height(self) -> float:
         """The height of the lowest point."""
-        return float((self.placed(self.bounds.corners) @ self.upright).min())
+        return float((self.to_unit(self.bounds.corners) @ self.upright).min())
 
 
 def upright(up: Up) -> Floats:
@@ -78,13 +78,13 @@ class Hits:
 
     def points(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
         """Where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
-        origins, directions = camera.sight(columns, rows)
+        origins, directions = camera.pixel_rays(columns, rows)
         depth = self.scene.depth(self.triangle[rows, columns], origins, directions)
         return origins + directions * depth[:, None]
 
     def depth(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
         """How far along their rays (n,) those places are."""
-        return self.scene.depth(self.triangle[rows, columns], *camera.sight(columns, rows))
+        return self.scene.depth(self.triangle[rows, columns], *camera.pixel_rays(columns, rows))
 
 
 def cast(layer: Layer, stage: Stage, camera: Camera) -> Hits:
@@ -112,7 +112,7 @@ def met(whole: Scene, camera: Camera, window: tuple[slice, slice] | None = None)
 
 def window_of(scene: Scene, camera: Camera) -> tuple[slice, slice]:
     """The columns and rows that the scene can be seen in."""
-    places = np.ascontiguousarray(camera.pixels(scene.corners.reshape(-1, 3)).T)  # extremes of rows are found quickly
+    places = np.ascontiguousarray(camera.to_pixels(scene.corners.reshape(-1, 3)).T)  # extremes of rows are found quickly
     low = np.clip(np.floor(places.min(axis=1)).astype(int) - _BORDER, 0, camera.size)
     high = np.clip(np.ceil(places.max(axis=1)).astype(int) + 1 + _BORDER, low, camera.size)
     return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))

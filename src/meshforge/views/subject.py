@@ -83,6 +83,6 @@ def draw(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int]) 
         width, height = size
         return Painted(np.zeros((height, width, 4), np.float32), np.full((height, width), -1))
     stage = Stage(held, upright(what.up))
-    points = stage.placed(what.points if bounds is None else bounds.corners)
+    points = stage.to_unit(what.points if bounds is None else bounds.corners)
     fine = 2 if size[0] * size[1] > 250_000 else 3
     return paint(what.layers, stage, look(view, what.up, size, points), fine)

@@ -41,7 +41,7 @@ def thumbnail(
         return np.zeros((size[1], size[0], 4), np.uint8)
     stage = Stage(Aabb.of_points(points), upright("Z"))
     fine = 2 if size[0] * size[1] > _LARGE else 3
-    close = look(view, "Z", size, stage.placed(points)).finer(fine)
+    close = look(view, "Z", size, stage.to_unit(points)).supersample(fine)
     hits = cast(Layer([*hulls, *others], np.zeros((0, 3))), stage, close)
     return _encoded(_blocks(hits.item, fine), _blocks(_light(hits, stage, close), fine), len(hulls))
 
@@ -58,10 +58,10 @@ def _light(hits: Hits, stage: Stage, camera: Camera) -> Singles:
     rows, columns = np.nonzero(hits.item >= 0)
     triangle = hits.triangle[rows, columns]
     light[rows, columns] = _bright(scene.normals, stage, camera)[triangle]
-    bent = np.nonzero(scene.round[triangle])[0]
+    bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
         points = hits.points(camera, rows[bent], columns[bent])
-        light[rows[bent], columns[bent]] = _bright(scene.bent_normals(triangle[bent], points), stage, camera)
+        light[rows[bent], columns[bent]] = _bright(scene.smooth_normals(triangle[bent], points), stage, camera)
     keep = np.ones(max(_DARKER) + 1, np.float32)
     for strength, share in _DARKER.items():
         keep[strength] = 1 - share

@@ -31,7 +31,7 @@ def id_buffer(
     axis = up_axis(mesh, up)
     stage = Stage(held, upright(axis))
     points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.skins])
-    return cast(layer, stage, look(view, axis, size, stage.placed(points))).item
+    return cast(layer, stage, look(view, axis, size, stage.to_unit(points))).item
 
 
 def visible_hulls(

@@ -44,5 +44,5 @@ def volumes(
     what = Subject((Layer(parts, colors), pale), framed(parts, shells), up_axis(mesh, up))
     canvas = Canvas(size, background, title, caption, Coloring(colors, legend))
     left, top, right, bottom = canvas.room
-    canvas.lay(draw(what, None, view, (right - left, bottom - top)).pixels, (left, top))
+    canvas.paste_drawing(draw(what, None, view, (right - left, bottom - top)).pixels, (left, top))
     return canvas.image

@@ -87,8 +87,8 @@ def test_a_summary_counts_all_and_keeps_few() -> None:
     for k in range(1000):
         summary.add(Failed(f"bad{k}", "no", 0.0) if k % 10 == 0 else Unchanged(f"a{k}", "o", (), 2, 1, 0.0))
     assert (summary.total, summary.counts["failed"], summary.before, summary.after) == (1000, 100, 1800, 900)
-    assert len(summary.shown) == SHOWN
-    assert all(isinstance(outcome, Failed) for outcome in summary.shown[:100])
+    assert len(summary.outcomes_to_show) == SHOWN
+    assert all(isinstance(outcome, Failed) for outcome in summary.outcomes_to_show[:100])
     told = str(summary).splitlines()
     assert told[0] == "1,000 assets: 100 failed, 900 unchanged; hulls 1,800 -> 900"
     assert told[1].startswith("failed: bad0, bad10,") and told[1].endswith(" and 80 more")

@@ -50,12 +50,12 @@ def test_a_lid_closes_what_no_hull_fills() -> None:
 
 def test_a_handle_s_eye_that_is_filled_is_found() -> None:
     frame = [
-        Box.filling(Aabb([0, 0, 0], [0.1, 0.01, 0.01])),
-        Box.filling(Aabb([0, 0, 0.05], [0.1, 0.01, 0.06])),
-        Box.filling(Aabb([0, 0, 0.01], [0.01, 0.01, 0.05])),
-        Box.filling(Aabb([0.09, 0, 0.01], [0.1, 0.01, 0.05])),
+        Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.01, 0.01])),
+        Box.of_bounds(Aabb([0, 0, 0.05], [0.1, 0.01, 0.06])),
+        Box.of_bounds(Aabb([0, 0, 0.01], [0.01, 0.01, 0.05])),
+        Box.of_bounds(Aabb([0.09, 0, 0.01], [0.1, 0.01, 0.05])),
     ]
-    filled = Box.filling(Aabb([0, 0, 0], [0.1, 0.01, 0.06]))
+    filled = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.01, 0.06]))
     found = clearance(cup(filled, shown=frame))
     assert found is not None
     assert found.closed == pytest.approx(0.08 * 0.01 * 0.04 * 1000, rel=0.2)

@@ -43,17 +43,17 @@ def test_all_that_is_asked_for_comes_with_its_findings() -> None:
     assert {f.rule for f in found.findings} == {"fit-out", "clearance-closed"}
     assert found.fit and found.clearance and found.changed and found.physics and found.earlier
     assert sorted(found.to_json()) == ["clearance", "clearance_of_edit", "fit", "physics", "physics_before"]
-    assert len(found.told) == 5
+    assert len(found.descriptions) == 5
 
 
 def test_what_is_not_asked_for_is_not_measured() -> None:
     found = examine_mesh(cup(WHOLE), Measures())
-    assert found.to_json() == {} and found.told == () and found.findings == ()
+    assert found.to_json() == {} and found.descriptions == () and found.findings == ()
 
 
 def test_an_asset_that_shows_nothing_says_so() -> None:
     found = examine_mesh(cup(WHOLE, shown=()), Measures(fit=True, clearance=True))
-    assert found.told == (f"note: {found.notes[0]}",) and "nothing is shown" in found.notes[0]
+    assert found.descriptions == (f"note: {found.notes[0]}",) and "nothing is shown" in found.notes[0]
     assert list(pictures(cup(WHOLE, shown=()), found)) == []
 
 

@@ -10,7 +10,7 @@ from tests.cups import BOTTOM, WALLS, WHOLE, cup
 
 
 def box(low: list[float], high: list[float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def test_hulls_that_fit_stick_out_nowhere_and_leave_nothing_bare() -> None:
@@ -51,7 +51,7 @@ def test_a_hull_is_held_against_its_own_body() -> None:
 
 def test_nothing_shown_is_told_not_an_error() -> None:
     found = fit(cup(WHOLE, shown=()))
-    assert found.hulls == () and "nothing is shown" in found.told and found.findings == ()
+    assert found.hulls == () and "nothing is shown" in found.description and found.findings == ()
     assert fit_pictures(cup(WHOLE, shown=()), found) is None
 
 

@@ -25,7 +25,7 @@ from tests.cups import BOTTOM, WALLS, WHOLE, cup
 
 
 def box(low: list[float], high: list[float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def solid(mass: float, *shapes: Shape, body: str = "cup") -> Inertial:
@@ -40,7 +40,7 @@ def test_a_cup_rests() -> None:
 
 
 def test_what_hangs_in_the_air_is_put_on_the_plane() -> None:
-    high = [shape.moved(Pose.of_translation([3, 2, 5])) for shape in (BOTTOM, *WALLS)]
+    high = [shape.move(Pose.of_translation([3, 2, 5])) for shape in (BOTTOM, *WALLS)]
     found = physics(cup(*high, shown=()))
     assert found.rest is not None and found.rest.moved < 1e-3 and found.findings == ()
 
@@ -132,7 +132,7 @@ def test_hulls_that_are_none_are_left_out() -> None:
 
 
 def test_a_hull_that_mujoco_refuses_is_an_error_with_its_message() -> None:
-    tiny = box([0, 0, 0], [1e-6, 1e-6, 1e-6]).tessellated()
+    tiny = box([0, 0, 0], [1e-6, 1e-6, 1e-6]).tessellate()
     found = physics(cup(tiny, shown=()))
     assert found.rest is None and [f.rule for f in found.findings] == ["physics-refused"]
     assert found.refused and found.refused.startswith("MuJoCo refuses it: ")

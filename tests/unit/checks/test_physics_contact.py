@@ -35,7 +35,7 @@ def rules(found: Physics) -> set[str]:
 def test_bodies_that_the_file_lets_touch_are_found_to_overlap(tmp_path: Path) -> None:
     found = physics(mesh(tmp_path, BOXES.format("", "")))
     assert [overlap.excluded for overlap in found.overlaps] == [False]
-    assert "physics-overlap" in rules(found) and "excluded" not in found.told
+    assert "physics-overlap" in rules(found) and "excluded" not in found.description
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_an_overlap_that_the_file_excludes_is_told_and_does_no_harm(
     (overlap,) = found.overlaps
     assert overlap.excluded and overlap.depth == pytest.approx(0.4, rel=0.05)
     assert rules(found) == set() and found.rest is not None and found.rest.moved < 1e-3
-    assert found.told.endswith("1 overlap of bodies, 1 excluded by the file")
+    assert found.description.endswith("1 overlap of bodies, 1 excluded by the file")
 
 
 def test_a_pair_touches_whatever_bits_and_exclusions_say(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_a_leaning_plank_slides_where_it_is_slippery(tmp_path: Path, friction: f
 def test_a_made_hull_collides_as_its_parent(tmp_path: Path) -> None:
     before = mesh(tmp_path, BOXES.format('friction=".3" contype="2" conaffinity="0"', ""))
     a, b = before.hulls
-    made = Hull("made", a.body, a.shape.moved(Pose.of_translation([0, 0, 0.1])), parent=a.name)
+    made = Hull("made", a.body, a.shape.move(Pose.of_translation([0, 0, 0.1])), parent=a.name)
     touching = Touching(before.with_hulls([made, b, replace(b, name="new", parent=None)]))
     assert touching.contacts[0].friction[0] == 0.3 and touching.contacts[0].contype == 2
-    assert not touching.may(0, 1) and touching.may(1, 2)
+    assert not touching.may_touch(0, 1) and touching.may_touch(1, 2)

@@ -83,7 +83,7 @@ def test_neither_leads_to_the_labels(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     outcome, seen, _ = talk(project, "n", "shelf=lek", "shelf", "shelf=leg", "1")
     assert isinstance(outcome, Found)
-    assert project.mesh(SHELVED).named("shelf").label == "leg"
+    assert project.mesh(SHELVED).hull_of("shelf").label == "leg"
     assert project.answers().ids == ("1:rack3.obj",)
     assert (
         """
@@ -155,7 +155,7 @@ def test_a_confirmed_repair_is_made_and_learned_from(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     outcome, seen, pictures = talk(project, "y")
     assert isinstance(outcome, Found)
-    assert project.mesh(PLAIN).named("knob").source == "repair"
+    assert project.mesh(PLAIN).hull_of("knob").source == "repair"
     assert pictures == ["label-rack0"]
     lines = seen.splitlines()
     assert lines[:2] == ["A label may be wrong.", "  knob of rack0.obj: leg -> knob"]
@@ -173,7 +173,7 @@ def test_a_refused_repair_is_not_asked_about_again(tmp_path: Path) -> None:
     outcome, seen, _ = talk(project, "n")
     assert not isinstance(outcome, NeedsRepair)
     assert seen.count("Mend it?") == 1
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_a_repair_can_be_left_open(tmp_path: Path) -> None:

@@ -143,7 +143,7 @@ def test_repairs_are_proposed_with_the_program_they_lead_to(run: Run, tmp_path: 
         "to mend all: meshforge synthesize racks --accept-repairs",
         "To keep the labels as they are: meshforge synthesize racks --reject-repairs",
     ]
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_repairs_are_accepted_listed_and_taken_back(run: Run, tmp_path: Path) -> None:
@@ -164,7 +164,7 @@ Next: meshforge apply racks
     assert listed.err == "To take one back: meshforge synthesize racks --forget 'rack0.obj#knob=knob'\n"
     assert run("synthesize", "racks", "--list-answers", "--json").json["confirmed"][0]["from"] == "leg"
     assert run("synthesize", "racks", "--forget", "rack0.obj#knob=knob").out == "taken back: rack0.obj#knob=knob\n"
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
     assert run("synthesize", "racks", "--list-answers").err == "nothing was answered, mended or refused yet\n"
 
 
@@ -176,7 +176,7 @@ def test_repairs_are_rejected_until_all_is_forgotten(run: Run, tmp_path: Path) -
     assert run("synthesize", "racks", "--forget", "all").out == "taken back: 1 answer or repair\n"
     assert run("synthesize", "racks", "--json").json["status"] == "repair"
     assert run("synthesize", "racks", "--json", "--no-repair").json["status"] != "repair"
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_repairs_are_either_accepted_or_rejected(run: Run, tmp_path: Path) -> None:

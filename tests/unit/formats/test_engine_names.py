@@ -159,7 +159,7 @@ def test_where_nothing_is_seen_unreal_gets_what_collides_to_show_and_others_noth
     saved = save(asset, tmp_path / "a.glb", names="unreal")
     assert "Unreal needs a mesh to be seen: what collides stands for it in left, right, base" in saved.notes
     shown = trimesh.load_scene(saved.path).geometry
-    hulls = [geom.shape.tessellated() for geom in asset.geoms if geom.body == "left"]
+    hulls = [geom.shape.tessellate() for geom in asset.geoms if geom.body == "left"]
     assert shown["left"].volume == pytest.approx(sum(hull.volume for hull in hulls))
     for other in ("godot", "unity"):
         assert not read(save(asset, tmp_path / other / "a.glb", names=other).path).visuals

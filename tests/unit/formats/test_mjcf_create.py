@@ -111,7 +111,7 @@ def test_each_hull_is_a_file_of_its_own_and_a_mesh_of_its_own(tmp_path: Path) ->
 
 
 def test_a_hull_far_from_its_body_keeps_its_digits(tmp_path: Path) -> None:
-    box = Box.filling(Aabb((1000, 2000, -500), (1000.001, 2000.002, -499.997))).tessellated()
+    box = Box.of_bounds(Aabb((1000, 2000, -500), (1000.001, 2000.002, -499.997))).tessellate()
     shape = convex_hull(box.vertices)
     after, _, _ = made(foreign({"a": Pose.identity()}, [("a/far", "a", shape)]), tmp_path)
     np.testing.assert_allclose(after.geoms[0].shape.aabb.size, shape.aabb.size, rtol=1e-5)
@@ -119,7 +119,7 @@ def test_a_hull_far_from_its_body_keeps_its_digits(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("side", [1e-3, 1e-4, 1e-5])
 def test_tiny_hulls_compile_alone_or_on_a_body_that_moves(side: float, tmp_path: Path) -> None:
-    tiny = convex_hull(Box.filling(Aabb((0, 0, 0), (side, side, side))).tessellated().vertices)
+    tiny = convex_hull(Box.of_bounds(Aabb((0, 0, 0), (side, side, side))).tessellate().vertices)
     asset = foreign({"a": Pose.identity(), "b": Pose.identity()}, [("a/x", "a", tiny), ("b/x", "b", tiny)])
     joint = Joint("j", "revolute", "a", "b", ORIGIN, UP)
     after, model, _ = made(replace(asset, mechanism=Mechanism((joint,))), tmp_path)

@@ -156,7 +156,7 @@ def said(source: str, folder: Path) -> str:
     parts = []
     for suffix in SUFFIXES:
         saved = save(asset, folder / "out" / suffix.removeprefix(".") / f"thing{suffix}")
-        held = ", ".join(counted(f.count, f.what.one, f.what.many) for f in saved.report.held)
+        held = ", ".join(counted(f.count, f.kind.one, f.kind.many) for f in saved.report.held)
         parts.append("\n".join([f"== to {suffix or 'a folder'}, which holds: {held or 'hulls'}", *saved.notes]))
     return "\n\n".join(parts) + "\n"
 
@@ -176,7 +176,7 @@ def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) ->
 def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -> None:
     told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
     assert {loss.what for loss in told.lost} >= {What.MATERIALS, What.SENSORS, What.CONTACT}
-    assert not {feature.what for feature in told.held} & {loss.what for loss in told.lost}
+    assert not {feature.kind for feature in told.held} & {loss.what for loss in told.lost}
 
 
 def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
@@ -190,7 +190,7 @@ def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     asset, urdf = SAMPLES["opaque"](), next(known for known in FORMATS if known.name == "urdf")
     lost = tuple(Loss(What.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
     told = report(asset, None, urdf, Output(b"", lost=lost))
-    assert What.OPAQUE not in {feature.what for feature in told.held}
+    assert What.OPAQUE not in {feature.kind for feature in told.held}
     assert [str(loss) for loss in told.lost if loss.what is What.OPAQUE] == [
         "2 opaque pieces (room/walls, room/other) are left out: flat"
     ]
@@ -198,7 +198,7 @@ def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
 
 def test_names_count_where_an_author_gave_them_only() -> None:
     obj = next(known for known in FORMATS if known.name == "obj")
-    held = {feature.what: feature.names for feature in report(crowd(), None, obj, Output(b"")).held}
+    held = {feature.kind: feature.names for feature in report(crowd(), None, obj, Output(b"")).held}
     assert held[What.NAMES] == ("left/part", "right/part")
 
 

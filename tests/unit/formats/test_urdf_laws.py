@@ -52,7 +52,7 @@ def shape(draw: st.DrawFn) -> Shape:
     sizes = np.array(draw(st.tuples(NUMBER, NUMBER, NUMBER)))
     a, b = float(sizes[0]), float(sizes[1])
     kinds = [Box(pose, sizes), Sphere(pose, a), Cylinder(pose, a, b), Capsule(pose, a, b), Ellipsoid(pose, sizes)]
-    return draw(st.sampled_from([*kinds, kinds[0].tessellated()]))
+    return draw(st.sampled_from([*kinds, kinds[0].tessellate()]))
 
 
 @st.composite
@@ -93,7 +93,7 @@ def test_an_edit_reads_back_as_it_was_meant_and_changes_only_collisions(data: st
 
 def _same(wanted: Geom, found: Geom) -> None:
     plain = isinstance(wanted.shape, Box | Sphere | Cylinder | Polytope)
-    shape = wanted.shape if plain else wanted.shape.tessellated()
+    shape = wanted.shape if plain else wanted.shape.tessellate()
     assert found.body == wanted.body and found.shape.kind == shape.kind
     np.testing.assert_allclose(found.shape.aabb.min, shape.aabb.min, atol=1e-9)
     np.testing.assert_allclose(found.shape.aabb.max, shape.aabb.max, atol=1e-9)

@@ -101,7 +101,7 @@ def test_a_native_shape_is_written_as_itself_and_inherits_from_its_parent(
 
 @pytest.mark.parametrize(
     "shape",
-    [Capsule(TURNED, 0.1, 0.2), Ellipsoid(TURNED, np.array(HALF)), Box(TURNED, np.array(HALF)).tessellated()],
+    [Capsule(TURNED, 0.1, 0.2), Ellipsoid(TURNED, np.array(HALF)), Box(TURNED, np.array(HALF)).tessellate()],
     ids=lambda s: s.kind,
 )
 def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_hulls(
@@ -119,14 +119,14 @@ def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_h
     assert output.notes == expected
     for geom in rewritten(edited, tmp_path).geoms:
         if "~" in geom.name:
-            np.testing.assert_allclose(geom.shape.aabb.min, shape.tessellated().aabb.min, atol=1e-12)
-            assert geom.shape.volume == pytest.approx(shape.tessellated().volume)
+            np.testing.assert_allclose(geom.shape.aabb.min, shape.tessellate().aabb.min, atol=1e-12)
+            assert geom.shape.volume == pytest.approx(shape.tessellate().volume)
 
 
 def test_a_made_hull_of_a_mesh_is_in_metres_and_keeps_what_the_mesh_element_says(tmp_path: Path) -> None:
     mesh = '<mesh scale="2 2 2" filename="meshes/three.obj"><drake:declare_convex/></mesh>'
     asset = read(sample(tmp_path, robot(link(mesh))))
-    hull = Box.filling(Aabb((0, 0, 0), (1, 1, 1))).tessellated()
+    hull = Box.of_bounds(Aabb((0, 0, 0), (1, 1, 1))).tessellate()
     text = write(asset.with_geoms([made(asset, "a/geom0#1", hull)])).main.decode()
     assert (
         '<collision name="geom0#1~1"><origin xyz="0 0 0" rpy="0 0 0"/><geometry>'

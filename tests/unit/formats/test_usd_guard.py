@@ -84,7 +84,7 @@ def test_all_kinds_of_values_that_the_library_writes_pass(tmp_path: Path, versio
 @given(st.lists(st.integers(-(2**31), 2**31 - 1) | st.integers(-300, 300), max_size=70))
 def test_integers_are_those_that_were_coded(numbers: list[int]) -> None:
     coded = crates.integers(numbers)
-    assert Bytes(coded, 0, Allowance(len(coded))).integers(len(numbers)).tolist() == numbers
+    assert Bytes(coded, 0, Allowance(len(coded))).read_integers(len(numbers)).tolist() == numbers
 
 
 def test_a_layer_made_by_hand_is_one_that_the_library_reads(tmp_path: Path) -> None:

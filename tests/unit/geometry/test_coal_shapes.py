@@ -77,7 +77,7 @@ def test_vessels_come_back_when_a_shape_has_no_place() -> None:
     distance(*shapes)
     kept = len(coal_shapes._idle[32])
     with pytest.raises(TypeError, match="no distance for shapes of kind odd"):
-        Frame.around(np.zeros(3), np.ones(3)).placed([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
+        Frame.of_bounds(np.zeros(3), np.ones(3)).place([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
     assert len(coal_shapes._idle[32]) == kept
 
 
@@ -140,7 +140,7 @@ def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
 def test_a_frame_makes_what_lies_in_it_about_one_long() -> None:
     for scale in (1e-6, 1.0, 3e5):
         low, high = np.array([3.0, -1, 2]) * scale, np.array([5.0, 7, 2]) * scale
-        frame = Frame.around(low, high)
+        frame = Frame.of_bounds(low, high)
         assert 0.5 <= np.linalg.norm(high - low) / frame.unit < 1
         assert np.abs((np.array([low, high]) - frame.origin) / frame.unit).max() <= 1
 

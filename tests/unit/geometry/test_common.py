@@ -10,7 +10,7 @@ from tests.examples import examples
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def test_two_boxes_have_a_box_in_common() -> None:

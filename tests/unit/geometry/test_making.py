@@ -29,7 +29,7 @@ from meshforge.geometry import (
 )
 from meshforge.geometry.fit.circle import smallest_circle
 
-CUBE = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
+CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 
 
 @pytest.mark.parametrize(
@@ -171,19 +171,19 @@ def test_a_plane_may_be_anywhere() -> None:
 
 
 def test_boxes_that_touch_have_no_overlap_and_no_distance() -> None:
-    beside = CUBE.moved(Pose.of_translation([1, 0, 0]))
+    beside = CUBE.move(Pose.of_translation([1, 0, 0]))
     assert overlap_volume(CUBE, beside) == 0
     assert distance(CUBE, beside) == pytest.approx(0, abs=1e-9)
     assert volume_of_union([CUBE, beside]) == pytest.approx(2)
 
 
 def test_a_shape_overlaps_itself_whole() -> None:
-    assert overlap_volume(CUBE, CUBE.tessellated()) == pytest.approx(1)
-    assert volume_of_union([CUBE, CUBE, CUBE.tessellated()]) == pytest.approx(1)
+    assert overlap_volume(CUBE, CUBE.tessellate()) == pytest.approx(1)
+    assert volume_of_union([CUBE, CUBE, CUBE.tessellate()]) == pytest.approx(1)
     assert volume_of_union([]) == 0
 
 
 def test_far_from_the_origin_an_overlap_is_the_same() -> None:
-    a, b = CUBE, CUBE.moved(Pose.of_translation([0.5, 0.5, 0.5]))
+    a, b = CUBE, CUBE.move(Pose.of_translation([0.5, 0.5, 0.5]))
     away = Pose.of_translation([1e6, 1e6, 1e6])
-    assert overlap_volume(a.moved(away), b.moved(away)) == pytest.approx(0.125, rel=1e-6)
+    assert overlap_volume(a.move(away), b.move(away)) == pytest.approx(0.125, rel=1e-6)

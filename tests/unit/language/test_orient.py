@@ -22,7 +22,7 @@ def about_z(degrees: float) -> Floats:
 
 def moved(scene: SymbolicMesh, rotation: Floats) -> SymbolicMesh:
     pose = Pose(rotation, np.zeros(3))
-    return scene.with_hulls(h.moved(pose) for h in scene.hulls)
+    return scene.with_hulls(h.move(pose) for h in scene.hulls)
 
 
 def size(scene: SymbolicMesh) -> list[float]:

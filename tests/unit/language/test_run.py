@@ -28,7 +28,7 @@ def lying() -> SymbolicMesh:
     """The table on its side, turned by 30 degrees as well."""
     c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
     side = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
-    return table().with_hulls(h.moved(Pose(side, np.array([1.0, 2, 3]))) for h in table().hulls)
+    return table().with_hulls(h.move(Pose(side, np.array([1.0, 2, 3]))) for h in table().hulls)
 
 
 def test_the_rules_run_in_order_and_the_trace_tells_what_each_did() -> None:
@@ -55,9 +55,9 @@ def test_the_edited_mesh_lies_where_the_mesh_lay() -> None:
     result = Program.parse(TABLES).run(scene)
     for before, after in zip(scene.hulls[1::2], result.mesh.hulls[1:], strict=False):
         assert np.linalg.norm(before.shape.centroid - after.shape.centroid) < 0.5
-    top = result.mesh.named("top~1").shape
+    top = result.mesh.hull_of("top~1").shape
     assert isinstance(top, Box) and np.allclose(sorted(top.half), [0.05, 0.5, 1.0])
-    assert np.allclose(top.centroid, scene.named("top").shape.centroid)
+    assert np.allclose(top.centroid, scene.hull_of("top").shape.centroid)
 
 
 def test_a_program_that_changes_nothing_gives_back_the_very_mesh() -> None:
@@ -69,8 +69,8 @@ def test_a_program_that_changes_nothing_gives_back_the_very_mesh() -> None:
 def test_hulls_of_an_edited_mesh_are_kept_in_a_second_run() -> None:
     first = Program.parse(TABLES).run(table()).mesh
     second = Program.parse("Is(panel) => Scale(all, 2)").run(first).mesh
-    assert second.named("leg0_high~1") is first.named("leg0_high~1")
-    assert second.named("top~2").parent == "top"
+    assert second.hull_of("leg0_high~1") is first.hull_of("leg0_high~1")
+    assert second.hull_of("top~2").parent == "top"
 
 
 def test_contact_is_measured_by_the_mesh_before_the_first_rule() -> None:
@@ -162,7 +162,7 @@ def test_names_of_the_file_are_not_given_again_though_their_hulls_are_gone() -> 
 
 
 def test_an_edited_mesh_lowers_to_an_asset_whose_made_geoms_name_their_parent() -> None:
-    geoms = Program.parse(TABLES).run(in_file(table())).mesh.lowered().geoms
+    geoms = Program.parse(TABLES).run(in_file(table())).mesh.to_asset().geoms
     assert [(g.name, g.parent) for g in geoms][:2] == [("top~1", "top"), ("leg0_high~1", "leg0_high")]
 
 
@@ -181,10 +181,10 @@ def test_replaying_rule_by_rule_gives_what_the_run_gives() -> None:
 
 
 def test_a_label_set_by_the_program_is_sure_and_one_taken_over_is_as_sure_as_before() -> None:
-    scene = table().labelled({"top": Label("panel", 0.3, "vlm")})
+    scene = table().with_labels({"top": Label("panel", 0.3, "vlm")})
     made = Program.parse("Is(panel) => Scale(X, 2)\nIs(leg) => Merge as foot").run(scene).mesh
-    assert made.named("top~1").annotation == Label("panel", 0.3, "edit")
-    assert made.named("leg0_high~1").annotation == Label("foot", 1.0, "edit")
+    assert made.hull_of("top~1").annotation == Label("panel", 0.3, "edit")
+    assert made.hull_of("leg0_high~1").annotation == Label("foot", 1.0, "edit")
 
 
 def test_a_program_is_a_value() -> None:

@@ -25,7 +25,7 @@ def main() -> None:
             for place, mesh in enumerate(meshes)
             for hull in mesh.hulls
         ]
-        found = relatives.propagated(told)
+        found = relatives.propagate(told)
         labels += [[(label.name, label.confidence) for label in found.labels(k) if label] for k in range(len(meshes))]
         advised += found.next_to_label()
     print(json.dumps({"shapes": shapes, "advised": advised, "labels": labels}))

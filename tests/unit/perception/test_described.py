@@ -22,7 +22,7 @@ CHAIR = samples("chair", calibration=True)[0].mesh
 
 
 def described(mesh: SymbolicMesh) -> Floats:
-    return Sketcher(mesh).sketch().rows
+    return Sketcher(mesh).describe().rows
 
 
 def test_every_hull_has_a_row_of_finite_numbers_as_wide_as_the_metric() -> None:
@@ -59,7 +59,7 @@ def test_very_many_hulls_are_described_in_bounded_memory() -> None:
         Hull(
             f"h{k}",
             "body",
-            Box.filling(Aabb(np.array([k % 50, k // 50, 0.0]), np.array([k % 50 + 0.5, k // 50 + 1.0, 1.0]))),
+            Box.of_bounds(Aabb(np.array([k % 50, k // 50, 0.0]), np.array([k % 50 + 0.5, k // 50 + 1.0, 1.0]))),
         )
         for k in range(1500)
     ]

@@ -19,7 +19,7 @@ from tests.synthesis_boxes import boxes
 def asking(rows: Sequence[Sample], told: Sequence[int]) -> list[SymbolicMesh]:
     """The meshes, of which only some are labelled, by a person."""
     return [
-        row.mesh.labelled({hull.name: Label(hull.label or "") if k in told else None for hull in row.mesh.hulls})
+        row.mesh.with_labels({hull.name: Label(hull.label or "") if k in told else None for hull in row.mesh.hulls})
         for k, row in enumerate(rows)
     ]
 
@@ -58,7 +58,7 @@ def test_meshes_that_lie_on_another_side_get_the_labels_they_get_upright(turn: t
     meshes = asking(samples("table", calibration=True)[::3], [0, 1])
     pose = Pose.from_rpy((0.0, 0.0, 0.0), turn)
     fallen = [
-        SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls)) if k % 3 == 2 else mesh
+        SymbolicMesh(tuple(hull.move(pose) for hull in mesh.hulls)) if k % 3 == 2 else mesh
         for k, mesh in enumerate(meshes)
     ]
     upright, lying = propagate(meshes), propagate(fallen)
@@ -95,7 +95,7 @@ def test_chances_are_chances() -> None:
 def test_a_label_that_nobody_told_is_not_found_and_a_single_one_is_everywhere() -> None:
     rows = samples("cup", calibration=True)[:3]
     mesh = rows[0].mesh
-    only = mesh.labelled({hull.name: None for hull in mesh.hulls[1:]}).labelled({mesh.hulls[0].name: Label("wall")})
+    only = mesh.with_labels({hull.name: None for hull in mesh.hulls[1:]}).with_labels({mesh.hulls[0].name: Label("wall")})
     found = propagate([only, *asking(rows[1:], [])])
     assert found.family.labels == ("wall",)
     assert {label.name for k in range(3) for label in found.labels(k) if label} == {"wall"}
@@ -103,7 +103,7 @@ def test_a_label_that_nobody_told_is_not_found_and_a_single_one_is_everywhere() 
 
 def test_what_machines_said_teaches_nothing() -> None:
     mesh = samples("cup", calibration=True)[0].mesh
-    said = mesh.labelled({hull.name: Label("wall", 0.9, "name") for hull in mesh.hulls})
+    said = mesh.with_labels({hull.name: Label("wall", 0.9, "name") for hull in mesh.hulls})
     found = propagate([said])
     assert found.labels(0) == [None] * len(mesh.hulls)
     assert found.next_to_label() == [0]
@@ -135,7 +135,7 @@ def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
     count, rare = 7_000, 7
     rows = np.linspace(0.0, 1.0, count)[:, None]
     family = Family(rows, Scale.of(rows), np.arange(count), np.full(count, -1), (), np.zeros((0, 2), np.int64))
-    told = family.taught(["rare" if k < rare else "common" for k in range(count - 10)] + [None] * 10)
+    told = family.with_labels(["rare" if k < rare else "common" for k in range(count - 10)] + [None] * 10)
     chances = by_likeness(told, np.ones(1))
     assert chances.argmax(axis=1)[-10:].tolist() == [0] * 10
     assert told.labels == ("common", "rare")

@@ -13,7 +13,7 @@ from tests.synthesis_boxes import boxes, table
 def tilted(mesh: SymbolicMesh, roll: float, pitch: float, yaw: float) -> tuple[SymbolicMesh, Floats]:
     """The mesh turned, and where its own upright axis points then."""
     pose = Pose.from_rpy((0.0, 0.0, 0.0), (roll, pitch, yaw))
-    return SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls)), pose.rotation[:, 2]
+    return SymbolicMesh(tuple(hull.move(pose) for hull in mesh.hulls)), pose.rotation[:, 2]
 
 
 @pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.4, 0.0, 1.0), (-0.3, 0.35, 2.0), (0.0, -0.5, -1.0)])

@@ -25,7 +25,7 @@ from tests.unit.preparation.samples import VOXELS, stand, write_boxes
 def hulls(preparation: Preparation | None) -> dict[str, bytes]:
     """Every hull to the last bit."""
     found = preparation or Preparation()
-    return {name: found.hulls[known].vertices.tobytes() for name, known in found.made.items()}
+    return {name: found.hulls[known].vertices.tobytes() for name, known in found.hull_digests.items()}
 
 
 def test_a_preparation_comes_back_to_the_last_bit(tmp_path: Path) -> None:
@@ -48,7 +48,7 @@ def test_the_record_tells_what_was_done_and_the_hulls_can_be_opened(tmp_path: Pa
     assert set(step["software"]) == {"meshforge", "coacd"}
     assert [entry["what"] for entry in step["replaced"]] == ["frame/body", "cover"]
     opened = read(tmp_path / "p/hulls.obj")
-    assert [geom.name for geom in opened.geoms] == list(preparation.made)
+    assert [geom.name for geom in opened.geoms] == list(preparation.hull_digests)
 
 
 def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) -> None:
@@ -114,7 +114,7 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
     second = decompose_asset(asset, first, VOXELS, again=True).preparation
     assert hulls(first).keys() & hulls(second).keys() and hulls(first) != hulls(second)
     folder = tmp_path / "p"
-    for before, after in ((Preparation(), first), (first, second), (second, first.of(()))):
+    for before, after in ((Preparation(), first), (first, second), (second, first.with_only(()))):
         died = 0
         for _ in deaths(lambda: write_preparation(folder, after)):  # noqa: B023  called at once
             died += 1

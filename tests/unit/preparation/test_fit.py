@@ -9,7 +9,7 @@ from meshforge.preparation.fit import told_fit, uncovered
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Polytope:
-    return Box.filling(Aabb(low, high)).tessellated()
+    return Box.of_bounds(Aabb(low, high)).tessellate()
 
 
 WHOLE = box((0, 0, 0), (4, 1, 1))

@@ -36,7 +36,7 @@ def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: 
     twice = cut_hull(asset, once, "geom0#1#1", (0, 0.5, 0), (0, 1, 0))
     names = {geom.name: geom.parent for geom in prepared(asset, twice).geoms if geom.parent}
     assert names == {f"geom0#1#{k}": "geom0#1" for k in ("0", "1#0", "1#1")}
-    assert [geom.name for geom in prepared(asset, twice.of(twice.steps[:1])).geoms if geom.parent] == [
+    assert [geom.name for geom in prepared(asset, twice.with_only(twice.steps[:1])).geoms if geom.parent] == [
         "geom0#1#0",
         "geom0#1#1",
     ]
@@ -108,7 +108,7 @@ def _as_one_hull(folder: Path) -> Preparation:
 
     coarse = CoacdSettings(threshold=1, resolution=200, mcts_iterations=20, mcts_nodes=8)
     done = decompose_asset(read(folder / "corner.obj"), Preparation(), coarse)
-    assert len(done.preparation.made) == 1
+    assert len(done.preparation.hull_digests) == 1
     return done.preparation
 
 

@@ -19,7 +19,7 @@ MACHINE = Label("leg", 0.75, "vlm")
 
 
 def knob(project: Project) -> Label | None:
-    return project.mesh(PLAIN).named("knob").annotation
+    return project.mesh(PLAIN).hull_of("knob").annotation
 
 
 def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
@@ -39,7 +39,7 @@ def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.answer(QUESTION, None)
     (line,) = project.answers().answers
-    assert line.answer == QUESTION.answered(None)
+    assert line.answer == QUESTION.answer_with(None)
     assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
 
 

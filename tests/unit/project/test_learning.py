@@ -96,7 +96,7 @@ def test_a_confirmed_repair_is_kept_before_the_program_is(tmp_path: Path) -> Non
 
     outcome = project.synthesize(confirm=yes)
     assert isinstance(outcome, Found) and len(asked) == 1
-    assert project.mesh(PLAIN).named("knob").annotation == Label("knob", 1.0, "repair")
+    assert project.mesh(PLAIN).hull_of("knob").annotation == Label("knob", 1.0, "repair")
     assert not project.status(workers=0).outdated
     again = project.synthesize(confirm=yes)
     assert again.program == outcome.program and len(asked) == 1
@@ -116,7 +116,7 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
 def test_a_trial_keeps_no_repair(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     assert project.synthesize(accept=False, confirm=lambda _: True).program
-    assert project.mesh(PLAIN).named("knob").label == "leg" and not project.answers().ids
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg" and not project.answers().ids
 
 
 def test_learning_can_be_stopped(tmp_path: Path) -> None:
@@ -149,6 +149,6 @@ def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
 def test_an_asset_is_shown_as_the_rule_meets_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     program = Program.parse("labels board, leg, knob\nIs(leg) => Merge\nIs(board) => Delete\n")
-    assert {hull.name for hull in project.met(SHELVED, 2, program).hulls} == {"top", "shelf", "knob", "left~1"}
-    assert project.met(SHELVED, 1, program).index == project.mesh(SHELVED).index
-    assert "left" in project.met(PLAIN, 2, program).index  # there it was shown that the rule does not take it
+    assert {hull.name for hull in project.mesh_before_rule(SHELVED, 2, program).hulls} == {"top", "shelf", "knob", "left~1"}
+    assert project.mesh_before_rule(SHELVED, 1, program).index == project.mesh(SHELVED).index
+    assert "left" in project.mesh_before_rule(PLAIN, 2, program).index  # there it was shown that the rule does not take it

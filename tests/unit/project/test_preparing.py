@@ -195,7 +195,7 @@ def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) ->
     assert done.hulls == ("top#0", "top#1")
     assert done.notes == ("labels of top went to top#0, top#1",)
     mesh = project.mesh(FIRST)
-    assert [(mesh.named(n).label, mesh.named(n).source) for n in done.hulls] == [("top", "file")] * 2
+    assert [(mesh.hull_of(n).label, mesh.hull_of(n).source) for n in done.hulls] == [("top", "file")] * 2
     found = project.status(workers=0).assets[0]
     assert (found.hulls, found.labelled, found.doubtful) == (7, 7, ())
     project.unprepare(FIRST)
@@ -224,7 +224,7 @@ def test_labels_of_a_prepared_hull_that_is_split_come_back(tmp_path: Path) -> No
 
 def across(project: Project, hull: str) -> tuple[list[float], tuple[float, float, float]]:
     """A plane through the middle of a hull."""
-    return project.mesh(HIGH).named(hull).aabb.center.tolist(), (1, 0, 0)
+    return project.mesh(HIGH).hull_of(hull).aabb.center.tolist(), (1, 0, 0)
 
 
 def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(tmp_path: Path) -> None:
@@ -243,7 +243,7 @@ def test_labels_of_a_split_go_back_to_the_hull_though_the_asset_changed(tmp_path
     path = tmp_path / "assets" / HIGH
     path.write_text(path.read_text().replace("4 1 1", "4 1 1.2"))
     project.unprepare(HIGH)
-    assert project.mesh(HIGH).named("frame/foot").label == "foot"
+    assert project.mesh(HIGH).hull_of("frame/foot").label == "foot"
 
 
 def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
@@ -251,9 +251,9 @@ def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path
     label_all(project, HIGH)
     (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, workers=0)
     mesh = project.mesh(HIGH)
-    made = [mesh.named(name) for name in done.hulls]
+    made = [mesh.hull_of(name) for name in done.hulls]
     assert {hull.label for hull in made} == {"body"}
-    assert mesh.named("frame/foot").label == "foot"
+    assert mesh.hull_of("frame/foot").label == "foot"
     assert project.status(workers=0).assets[0].doubtful == ()
 
 
@@ -263,7 +263,7 @@ def test_a_hull_between_two_labels_takes_that_of_its_greater_part_with_less_conf
     project.cut("row.obj", "geom0#1", (2.5, 0, 0), (1, 0, 0))
     project.set_labels("row.obj", {"geom0#1#0": "a", "geom0#1#1": "b"})
     done = project.unprepare("row.obj")
-    whole = project.mesh("row.obj").named("geom0#1")
+    whole = project.mesh("row.obj").hull_of("geom0#1")
     assert (whole.label, whole.source) == ("a", "propagated")
     assert whole.confidence == pytest.approx(0.75)
     assert done.undone == ("geom0#1 cut into 2 hulls",)

@@ -102,7 +102,7 @@ def test_labels_are_kept_by_id_and_come_back_with_the_mesh(tmp_path: Path) -> No
     mesh = project.mesh(SECOND)
     assert {h.name: h.source for h in mesh.hulls if h.label} == {"top": "user", "left_low": "user"}
     project.set_labels(SECOND, {"top": None})
-    assert project.mesh(SECOND).named("top").label is None
+    assert project.mesh(SECOND).hull_of("top").label is None
 
 
 def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
@@ -113,8 +113,8 @@ def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
     reports = {report.asset: report for report in project.label_from_files()}
     assert (reports[FIRST].taken, reports[FIRST].kept) == (5, 1)
     mesh = project.mesh(FIRST)
-    assert (mesh.named("crumb").label, mesh.named("crumb").source) == ("leg", "user")
-    assert (mesh.named("top").label, mesh.named("top").source) == ("top", "file")
+    assert (mesh.hull_of("crumb").label, mesh.hull_of("crumb").source) == ("leg", "user")
+    assert (mesh.hull_of("top").label, mesh.hull_of("top").source) == ("top", "file")
     again = {report.asset: report for report in project.label_from_files()}
     assert (again[FIRST].taken, again[FIRST].same, again[FIRST].kept) == (0, 5, 1)
 
@@ -311,7 +311,7 @@ def test_an_edit_by_hand_in_a_turned_frame_leaves_the_other_hulls_alone(tmp_path
     after = load(project.folder / "edited" / FIRST)
     assert [h.name for h in after.hulls] == ["left_low~1", "right_low~1"]
     for hull in after.hulls:
-        assert hull.vertices.tobytes() == before.named(hull.name).vertices.tobytes()
+        assert hull.vertices.tobytes() == before.hull_of(hull.name).vertices.tobytes()
 
 
 def test_an_edit_by_hand_on_a_hull_that_is_not_there_is_refused(tmp_path: Path) -> None:

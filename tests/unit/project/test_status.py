@@ -264,18 +264,18 @@ def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
 
 
 def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
-    assert demonstrated(tmp_path / "a").standing() == Standing()
+    assert demonstrated(tmp_path / "a").program_state() == Standing()
     project = learned(tmp_path / "b")
-    assert project.standing() == Standing()
+    assert project.program_state() == Standing()
     project.demonstrate(SECOND, STEPS[:1])
-    assert project.standing() == Standing(outdated=True)
+    assert project.program_state() == Standing(outdated=True)
     for text in ("labels top\nAll => Merge\n", "nonsense"):
         (project.folder / "program.mf").write_text(text)
-        assert project.standing() == Standing(by_hand=True)
+        assert project.program_state() == Standing(by_hand=True)
     project.synthesize()
-    assert project.standing() == Standing()
+    assert project.program_state() == Standing()
     (project.folder / ".meshforge/learned.json").unlink()
-    assert project.standing() == Standing(by_hand=True)
+    assert project.program_state() == Standing(by_hand=True)
 
 
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:

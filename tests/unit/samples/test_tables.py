@@ -117,7 +117,7 @@ def test_it_comes_to_stand_upright_and_square(name: str) -> None:
 def test_the_edited_top_is_as_high_and_as_wide_as_the_top_was(name: str) -> None:
     back = recipe(name).pose.inverse()
     (box,) = (hull for hull in result(name).mesh.hulls if hull.name in result(name).trace[1].made)
-    made = box.moved(back).aabb
+    made = box.move(back).aabb
     parts = [part for part in recipe(name).parts if part.label == "panel"]
     bounds = np.array([part.solid.bounding_box() for part in parts])
     top = bounds[bounds[:, 5] > bounds[:, 5].max() - 0.1]

@@ -111,7 +111,7 @@ def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Proje
     program, extractor = Program.parse(BUNDLED), parse_extractor("Geo(All, +Z)")
     before = Program(program.labels, program.orient, program.rules[:2])
     for asset, own in found.items():
-        mesh, met = project.mesh(asset), project.met(asset, 3, program)
+        mesh, met = project.mesh(asset), project.mesh_before_rule(asset, 3, program)
         made = {n: s for line in before.run(mesh).trace for n, s in zip(line.made, line.sources, strict=True)}
         names = [name for k in select(extractor, met) for name in made.get(met.hulls[k].name, (met.hulls[k].name,))]
         assert own == tuple(sorted(mesh.index[name] for name in names))
@@ -128,8 +128,8 @@ def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in
 ) -> None:
     monkeypatch.setattr("meshforge.project.family.MOST", 4)
     bell = Bell()
-    rows = work.reach(project.folder, bell.ticket("reach"), BUNDLED)
-    found = work.generalise(project.folder, bell.ticket("generalise"), "Is(leg)", 1, None)
+    rows = work.reach(project.folder, bell.make_token("reach"), BUNDLED)
+    found = work.generalise(project.folder, bell.make_token("generalise"), "Is(leg)", 1, None)
     bell.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
@@ -239,12 +239,12 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
 def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
     bell = Bell()
     try:
-        lesson, reach = bell.ticket("lesson"), bell.ticket("reach")
+        lesson, reach = bell.make_token("lesson"), bell.make_token("reach")
         assert not lesson.stop()
-        bell.ring("lesson")
+        bell.cancel("lesson")
         assert lesson.stop()
         assert not reach.stop()
-        assert not bell.ticket("lesson").stop()
+        assert not bell.make_token("lesson").stop()
     finally:
         bell.close()
     assert not bell.path.exists()
@@ -252,27 +252,27 @@ def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
     project, shelf = demo_project(tmp_path), Shelf()
-    before = dict(shelf.meshes(project, project.assets(), go_on))
+    before = dict(shelf.read_meshes(project, project.assets(), go_on))
     project.set_labels(OTHER, {"convex_00": "misc"})
     project.cut("table_03.obj", "convex_00", before["table_03.obj"].hulls[0].shape.centroid.tolist(), (1, 0, 0))
     project.path("table_04.obj").write_text("nonsense\n")
-    after = dict(shelf.meshes(project, project.assets(), go_on))
+    after = dict(shelf.read_meshes(project, project.assets(), go_on))
     assert after["table_01.obj"] is before["table_01.obj"]
-    assert after[OTHER].named("convex_00").label == "misc"
+    assert after[OTHER].hull_of("convex_00").label == "misc"
     assert after[OTHER].hulls[1].shape is before[OTHER].hulls[1].shape
     assert len(after["table_03.obj"].hulls) == len(before["table_03.obj"].hulls) + 1
     assert set(before) - set(after) == {"table_04.obj"}
     with pytest.raises(Stopped):
-        list(shelf.meshes(project, project.assets(), lambda: True))
+        list(shelf.read_meshes(project, project.assets(), lambda: True))
 
 
 def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
     project, shelf = demo_project(tmp_path), Shelf()
-    before = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+    before = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     known = dict(before.graph)
     for _ in range(LIFE):
-        shelf.grow_older()
-    after = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+        shelf.count_run()
+    after = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     assert after is not before
     assert after.hulls == before.hulls
     assert dict(after.graph) == known
@@ -285,7 +285,7 @@ def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner])
     assert lesson.status == "ambiguous"
     assert lesson.question
     asked, program = lesson.question, Program.parse(lesson.program or "")
-    met = project.met(asked.asset, asked.rule, program)
+    met = project.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
         found = select(parse_extractor(choice.extractor), met)
         assert [met.hulls[k].name for k in sorted(found)] == list(choice.select)
@@ -302,6 +302,6 @@ def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Proje
     assert (lesson.status, lesson.program) == ("none", None)
     assert lesson.why
     assert lesson.nearest
-    mesh = project.met("table_03.obj", 1, Program(orient=project.orientation))
+    mesh = project.mesh_before_rule("table_03.obj", 1, Program(orient=project.orientation))
     chosen = {mesh.hulls[k].name for k in select(parse_extractor(lesson.nearest.extractor), mesh)}
     assert (chosen - odd, odd - chosen) == (set(lesson.nearest.extra), set(lesson.nearest.missing))

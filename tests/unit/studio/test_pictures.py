@@ -44,7 +44,7 @@ def test_a_picture_for_a_question_shows_the_asset_as_the_rule_meets_it(project: 
     assert program
     packet = pictures.met(project, TABLE, mesh, rule, program)
     length = int.from_bytes(packet[:4], "little")
-    seen = project.met(TABLE, rule, program)
+    seen = project.mesh_before_rule(TABLE, rule, program)
     names = json.loads(packet[4 : 4 + length])["names"]
     assert names == [hull.name for hull in seen.hulls]
     pixels = of_png(packet[4 + length :])

@@ -106,7 +106,7 @@ def test_a_step_that_cannot_be_done_says_why_and_the_next_ones_go_on(tmp_path: P
 
 def test_an_asset_that_the_orientation_cannot_turn_says_so_at_every_step(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    bare = mesh.labelled(dict.fromkeys(mesh.index))
+    bare = mesh.with_labels(dict.fromkeys(mesh.index))
     view = asset_view(project, TABLE, bare)
     assert view.unturned is not None
     assert "the landmark Is(leg) selects nothing. Label the hulls that it should select" in view.unturned

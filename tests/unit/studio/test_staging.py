@@ -235,6 +235,6 @@ def test_the_output_is_what_was_written(tmp_path: Path) -> None:
 
 def test_steps_on_an_asset_that_cannot_be_turned_have_one_clear_message(project: Project) -> None:
     mesh = project.mesh(SHOWN)
-    bare = mesh.labelled(dict.fromkeys(mesh.index))
+    bare = mesh.with_labels(dict.fromkeys(mesh.index))
     with pytest.raises(MeshForgeError, match=r"the landmark Is\(leg\) selects nothing"):
         staging.staged(project, SHOWN, bare, 1)

@@ -13,17 +13,17 @@ ONE = frozenset({FIRST})
 @pytest.mark.parametrize(
     ("name", "means"),
     [
-        (f"labels/{FIRST}.json", Changes(assets=ONE, lesson=True)),
-        (f"demonstrations/{FIRST}.json", Changes(assets=ONE, lesson=True)),
+        (f"labels/{FIRST}.json", Changes(assets=ONE, learning=True)),
+        (f"demonstrations/{FIRST}.json", Changes(assets=ONE, learning=True)),
         (f"corrections/{FIRST}.json", Changes(assets=ONE)),
         (f"edited/.meshforge/stamps/{FIRST}.json", Changes(assets=ONE)),
-        (f"prepared/{FIRST}/preparation.json", Changes(assets=ONE, shapes=ONE, lesson=True)),
-        (f"../assets/{FIRST}", Changes(assets=ONE, shapes=ONE, lesson=True)),
-        ("answers.json", Changes(lesson=True)),
-        ("review.json", Changes(reviews=True, lesson=True)),
-        ("program.mf", Changes(program=True, lesson=True)),
+        (f"prepared/{FIRST}/preparation.json", Changes(assets=ONE, shapes=ONE, learning=True)),
+        (f"../assets/{FIRST}", Changes(assets=ONE, shapes=ONE, learning=True)),
+        ("answers.json", Changes(learning=True)),
+        ("review.json", Changes(reviews=True, learning=True)),
+        ("program.mf", Changes(program=True, learning=True)),
         (".meshforge/learned.json", Changes(program=True)),
-        ("labels/gone.obj.json", Changes(lesson=True)),
+        ("labels/gone.obj.json", Changes(learning=True)),
         ("notes.txt", Changes()),
     ],
 )
@@ -34,5 +34,5 @@ def test_a_file_that_changed_means_what_depends_on_it(tmp_path: Path, name: str,
 def test_settings_concern_every_asset(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     found = changes_of(project, ["meshforge.toml"])
-    assert found.assets == set(project.assets()) and found.settings and found.lesson
+    assert found.assets == set(project.assets()) and found.settings and found.learning
     assert SECOND in found.assets and not found.shapes

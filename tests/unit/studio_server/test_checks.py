@@ -59,23 +59,23 @@ def told(project: Project, of: Literal["asset", "output"], measures: Measures) -
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: Checks) -> None:
     everything = Measures(fit=True, clearance=True, physics=True)
     was, now = told(project, "asset", everything), told(project, "output", everything)
-    fit = figures(checks.part(project, CUP, "fit").result(60))
+    fit = figures(checks.check_part(project, CUP, "fit").result(60))
     assert fit["Hulls stick out, at most"] == (was["fit"]["out"], now["fit"]["out"])
     assert fit["Visual surface uncovered"] == (100 * was["fit"]["bare_share"], 100 * now["fit"]["bare_share"])
-    space = figures(checks.part(project, CUP, "clearance").result(60))
+    space = figures(checks.check_part(project, CUP, "clearance").result(60))
     assert space["Closed, against the visual"] == (was["clearance"]["closed"], now["clearance"]["closed"])
     assert space["Closed by the edit"] == (None, now["clearance_of_edit"]["closed"])
-    rest = figures(checks.part(project, CUP, "physics").result(60))
+    rest = figures(checks.check_part(project, CUP, "physics").result(60))
     assert rest["Turned"] == (now["physics_before"]["rest"]["tilt"], now["physics"]["rest"]["tilt"])
     assert rest["Mass"] == pytest.approx((0.424, 1.0))
-    parts = [checks.part(project, CUP, part).result(60) for part in PARTS]
+    parts = [checks.check_part(project, CUP, part).result(60) for part in PARTS]
     found = [(f.rule, list(f.hulls), f.text) for part in parts for f in part.findings]
     assert sorted(found) == sorted((f["rule"], f["hulls"], f["message"]) for f in now["findings"])
     assert {name for _, hulls, _ in found for name in hulls} == {FILLED}
 
 
 def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks: Checks) -> None:
-    limits = checks.part(project, CUP, "engines").result(60)
+    limits = checks.check_part(project, CUP, "engines").result(60)
     assert {f.engine for f in limits.findings} <= {None, *ENGINES}
     for engine in ENGINES:
         wanted = {f["message"] for f in told(project, "output", Measures(engine))["findings"]}
@@ -83,28 +83,28 @@ def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks:
 
 
 def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: Project, checks: Checks) -> None:
-    fit = checks.part(project, BARE, "fit").result(60)
+    fit = checks.check_part(project, BARE, "fit").result(60)
     assert fit.figures == () and not fit.pictured and "nothing is shown" in fit.notes[0]
-    space = checks.part(project, BARE, "clearance").result(60)
+    space = checks.check_part(project, BARE, "clearance").result(60)
     assert set(figures(space)) == {"Closed by the edit", "Opened by the edit"} and space.pictured
-    assert [picture.name for picture in checks.pictures(project, BARE, "clearance").result(60)] == ["clearance-of-edit"]
-    drawn = checks.picture(BARE, key_of(project, BARE), "clearance-of-edit")
+    assert [picture.name for picture in checks.draw_pictures(project, BARE, "clearance").result(60)] == ["clearance-of-edit"]
+    drawn = checks.read_picture(BARE, key_of(project, BARE), "clearance-of-edit")
     assert drawn.startswith(b"\x89PNG")
     with pytest.raises(ProjectError, match="no such picture"):
-        checks.picture(BARE, key_of(project, BARE), "fit-out")
+        checks.read_picture(BARE, key_of(project, BARE), "fit-out")
 
 
 def test_all_results_are_checked_once_and_known_after_a_restart(project: Project, checks: Checks) -> None:
     over: list[None] = []
-    first = dict(checks.every(project, (CUP, BARE), lambda: over.append(None), lambda: False))
+    first = dict(checks.check_all(project, (CUP, BARE), lambda: over.append(None), lambda: False))
     assert len(over) == 2
     assert all(isinstance(found, tuple) and found for found in first.values())
     workers_never = Workers(1)
     workers_never.close()
     again = Checks(project.folder / ".meshforge" / "studio" / "checks", workers_never)
-    assert dict(again.every(project, (CUP, BARE), lambda: None, lambda: True)) == first
-    assert again.faults(key_of(project, CUP)) == first[CUP]
-    assert again.part(project, CUP, "fit").result(0).part == "fit"
+    assert dict(again.check_all(project, (CUP, BARE), lambda: None, lambda: True)) == first
+    assert again.faults_of(key_of(project, CUP)) == first[CUP]
+    assert again.check_part(project, CUP, "fit").result(0).part == "fit"
 
 
 def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path: Path, workers: Workers) -> None:
@@ -114,27 +114,27 @@ def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path:
     text = output.read_text()
     output.write_text(text + " ")
     with pytest.raises(ProjectError, match="files of its output are gone or changed"):
-        checks.part(project, BARE, "engines").result(60)
+        checks.check_part(project, BARE, "engines").result(60)
     output.write_text(text)
     source = project.path(BARE)
     source.write_text(source.read_text() + " ")
     with pytest.raises(ProjectError, match="the asset changed since its output was made"):
-        checks.part(project, BARE, "engines").result(60)
+        checks.check_part(project, BARE, "engines").result(60)
     list(project.apply([BARE], workers=0))
     assert key_of(project, BARE) != before
-    assert checks.faults(key_of(project, BARE)) is None
-    assert checks.part(project, BARE, "engines").result(60).findings == ()
+    assert checks.faults_of(key_of(project, BARE)) is None
+    assert checks.check_part(project, BARE, "engines").result(60).findings == ()
     gone = Work(alone(project, BARE), BARE, before)
     assert "another by now" in (_measure_all((gone, Shelf(tmp_path / "other"))) or "")
 
 
 def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project, checks: Checks) -> None:
-    found = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+    found = dict(checks.check_all(project, (CUP, BARE), lambda: None, lambda: False))
     stamp = stamp_path(project.layout.edited, CUP)
     kept = stamp.read_bytes()
     stamp.unlink()
     try:
-        later = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+        later = dict(checks.check_all(project, (CUP, BARE), lambda: None, lambda: False))
     finally:
         stamp.write_bytes(kept)
     assert "no output" in str(later[CUP]) and later[BARE] == found[BARE]
@@ -143,11 +143,11 @@ def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project
 def test_what_nobody_waits_for_any_more_ends(project: Project, tmp_path: Path) -> None:
     workers = Workers(1)
     try:
-        running = Checks(tmp_path, workers).part(project, CUP, "fit")
+        running = Checks(tmp_path, workers).check_part(project, CUP, "fit")
         assert running.cancel()
         with pytest.raises(CancelledError):
             running.result(60)
-        assert Checks(tmp_path, workers).part(project, BARE, "fit").result(60).part == "fit"
+        assert Checks(tmp_path, workers).check_part(project, BARE, "fit").result(60).part == "fit"
     finally:
         workers.close()
 
@@ -155,10 +155,10 @@ def test_what_nobody_waits_for_any_more_ends(project: Project, tmp_path: Path) -
 def test_a_file_that_cannot_be_read_counts_as_not_measured(tmp_path: Path) -> None:
     shelf = Shelf(tmp_path)
     for part in PARTS:
-        shelf.put("k", Checked(part=part))
-    assert shelf.missing("k") == () and shelf.faults("k") == ()
+        shelf.write("k", Checked(part=part))
+    assert shelf.missing_parts("k") == () and shelf.read_faults("k") == ()
     (tmp_path / "k.fit.json").write_text("{")
-    assert shelf.checked("k", "fit") is None and shelf.faults("k") is None and shelf.missing("k") == ("fit",)
+    assert shelf.read("k", "fit") is None and shelf.read_faults("k") is None and shelf.missing_parts("k") == ("fit",)
 
 
 def test_a_line_tells_what_does_not_hold_or_why_that_is_not_known() -> None:

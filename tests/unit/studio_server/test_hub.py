@@ -42,7 +42,7 @@ def test_a_page_that_left_is_told_nothing() -> None:
         page = Page(asyncio.get_running_loop())
         hub.join(page, PROJECT)
         hub.leave(page)
-        hub.tell(PROJECT)
+        hub.broadcast(PROJECT)
         await asyncio.sleep(0)
         return page.events.qsize()
 

@@ -27,7 +27,7 @@ def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, worke
     assert project.mesh(FIRST) is first
     project.set_labels(FIRST, {"crumb": "leg"})
     second = project.mesh(FIRST)
-    assert second.named("crumb").label == bare.mesh(FIRST).named("crumb").label == "leg"
+    assert second.hull_of("crumb").label == bare.mesh(FIRST).hull_of("crumb").label == "leg"
     assert all(a.shape is b.shape for a, b in zip(first.hulls, second.hulls, strict=True))
 
 

@@ -41,7 +41,7 @@ def labelled(folder: Path) -> tuple[Project, History]:
 
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
     """Carry labels over, as the job does."""
-    with history.recorded(project, Propagate(used=history.view.undoable, next=best)):
+    with history.record(project, Propagate(used=history.view.undoable, next=best)):
         project.propagate_labels()
 
 
@@ -56,7 +56,7 @@ def cards(project: Project) -> list[Card]:
 
 
 def carried(project: Project, history: History) -> CarriedOver | None:
-    return Relabelling(history).carried(project, cards(project))
+    return Relabelling(history).propagation_state(project, cards(project))
 
 
 def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
@@ -74,22 +74,22 @@ def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
 def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     relabelling = Relabelling(history)
-    assert relabelling.relabelled(HULLS) is None
+    assert relabelling.last_change(HULLS) is None
     carry(project, history)
-    found = relabelling.relabelled(HULLS)
+    found = relabelling.last_change(HULLS)
     assert found and (found.entry, found.way, found.settled) == (1, "propagate", 0)
     assert [(one.asset, one.new, one.changed) for one in found.assets] == [
         (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
     ]
     history.do(project, label("t1.obj", "crumb", "leg"))
-    assert relabelling.relabelled(HULLS) is None
+    assert relabelling.last_change(HULLS) is None
     history.undo(project)
-    assert relabelling.relabelled(HULLS) == found
-    assert Relabelling(History(project)).relabelled(HULLS) == found, "a studio that is opened anew knows it, too"
+    assert relabelling.last_change(HULLS) == found
+    assert Relabelling(History(project)).last_change(HULLS) == found, "a studio that is opened anew knows it, too"
     history.undo(project)
-    assert relabelling.relabelled(HULLS) is None
+    assert relabelling.last_change(HULLS) is None
     history.redo(project)
-    assert relabelling.relabelled(HULLS) == found
+    assert relabelling.last_change(HULLS) == found
 
 
 def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) -> None:
@@ -97,7 +97,7 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
     carry(project, history)
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history)
-    found = Relabelling(history).relabelled(HULLS)
+    found = Relabelling(history).last_change(HULLS)
     assert found and found.settled == 1
     assert [one.model_dump() for one in found.assets] == [
         {"asset": "t2.obj", "new": (), "changed": (NAMES.index("top"),), "was": ("misc",)}
@@ -108,9 +108,9 @@ def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     carry(project, history)
     relabelling = Relabelling(history)
-    first = relabelling.relabelled({"t2.obj": NAMES})
+    first = relabelling.last_change({"t2.obj": NAMES})
     assert first and [one.asset for one in first.assets] == ["t2.obj"]
-    both = relabelling.relabelled(HULLS)
+    both = relabelling.last_change(HULLS)
     assert both and [one.asset for one in both.assets] == ["t1.obj", "t2.obj"]
 
 
@@ -118,7 +118,7 @@ def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
     project = family(tmp_path)
     history = History(project)
     history.do(project, LabelFromNames())
-    found = Relabelling(history).relabelled(HULLS)
+    found = Relabelling(history).last_change(HULLS)
     assert found and found.way == "label-names"
     assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
 
@@ -154,18 +154,18 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     relabelling = Relabelling(history)
-    relabelling.stayed(0, "t2.obj")
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    relabelling.note_no_change(0, "t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
     carry(project, history)
     history.do(project, label("t1.obj", "top", "top"))
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
-    relabelling.stayed(2, "t2.obj")
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
+    relabelling.note_no_change(2, "t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
     history.do(project, label("t2.obj", "top", "top"))
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
     history.undo(project)
     history.undo(project)
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), "before it was said"
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), "before it was said"
 
 
 def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path: Path) -> None:
@@ -174,7 +174,7 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
     @contextmanager
     def keeping(best: str | None) -> Iterator[None]:
         history.do(project, label("t1.obj", "crumb", "leg"))
-        with history.recorded(project, Propagate(used=0, next=best)):
+        with history.record(project, Propagate(used=0, next=best)):
             yield
 
     project.propagate_labels(keeping=keeping)
@@ -207,7 +207,7 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     history.do(project, label("t1.obj", "crumb", "misc"))
     known = cards(project)
     project.layout.labels("t1.obj").write_text("{")
-    assert Relabelling(history).carried(project, known) == CarriedOver(unused=0, next="t1.obj")
+    assert Relabelling(history).propagation_state(project, known) == CarriedOver(unused=0, next="t1.obj")
 
 
 MOVES = st.lists(

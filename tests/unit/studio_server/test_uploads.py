@@ -46,9 +46,9 @@ def test_a_file_in_the_place_of_a_folder_is_one_message(tmp_path: Path) -> None:
     asyncio.run(uploads.put("a", chunks(b"1")))
     with pytest.raises(UsageError, match="same name"):
         asyncio.run(uploads.put("a/b", chunks(b"1")))
-    assert uploads.staged()[1] == ("a",)
+    assert uploads.list_files()[1] == ("a",)
 
 
 def test_what_was_sent_to_an_earlier_studio_is_gone(tmp_path: Path) -> None:
     asyncio.run(Uploads(tmp_path / "uploads").put("a", chunks(b"1")))
-    assert Uploads(tmp_path / "uploads").staged()[1] == ()
+    assert Uploads(tmp_path / "uploads").list_files()[1] == ()

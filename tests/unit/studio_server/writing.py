@@ -28,10 +28,10 @@ class Write(Edit):
             else:
                 write_atomically(path, content)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.folder / "data",)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"wrote {', '.join(self.files)}"
 
 

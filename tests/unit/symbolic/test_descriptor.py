@@ -9,7 +9,7 @@ from tests.synthesis_boxes import boxes, table
 
 
 def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
-    return SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls))
+    return SymbolicMesh(tuple(hull.move(pose) for hull in mesh.hulls))
 
 
 def test_every_hull_has_a_row_of_finite_numbers() -> None:
@@ -26,7 +26,7 @@ def test_no_meshes_have_no_rows() -> None:
 def test_a_larger_copy_elsewhere_is_described_alike() -> None:
     mesh = table()
     large = [
-        Hull(hull.name, hull.body, Box.filling(Aabb(hull.aabb.min * 7 + 3, hull.aabb.max * 7 + 3)))
+        Hull(hull.name, hull.body, Box.of_bounds(Aabb(hull.aabb.min * 7 + 3, hull.aabb.max * 7 + 3)))
         for hull in mesh.hulls
     ]
     assert descriptors([SymbolicMesh(tuple(large))]) == pytest.approx(descriptors([mesh]), abs=1e-6)

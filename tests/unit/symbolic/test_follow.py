@@ -8,12 +8,12 @@ from meshforge.symbolic import Hull, Label, LabelFile, SymbolicMesh, follow_labe
 
 def mesh(**places: float) -> SymbolicMesh:
     """Unit boxes by name, each at its place along X."""
-    return SymbolicMesh(tuple(Hull(n, "body", Box.filling(Aabb([x, 0, 0], [x + 1, 1, 1]))) for n, x in places.items()))
+    return SymbolicMesh(tuple(Hull(n, "body", Box.of_bounds(Aabb([x, 0, 0], [x + 1, 1, 1]))) for n, x in places.items()))
 
 
 def labelled(folder: Path, before: SymbolicMesh) -> LabelFile:
     """The labels file of a mesh, each hull labelled by its own name."""
-    named = before.labelled({h.name: Label(f"was_{h.name}") for h in before.hulls})
+    named = before.with_labels({h.name: Label(f"was_{h.name}") for h in before.hulls})
     write_labels(folder / "labels.json", named, ())
     return read_labels(folder / "labels.json")
 

@@ -12,7 +12,7 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh, read_labels, write_lab
 
 
 def box(x: float) -> Box:
-    return Box.filling(Aabb([x, 0, 0], [x + 1, 1, 1]))
+    return Box.of_bounds(Aabb([x, 0, 0], [x + 1, 1, 1]))
 
 
 def mesh() -> SymbolicMesh:

@@ -133,7 +133,7 @@ def test_a_mesh_without_hulls_is_no_obstacle_and_never_asked_about() -> None:
 
 
 def test_labels_of_the_batch_are_part_of_the_vocabulary_unless_it_is_given() -> None:
-    odd = cupboard().labelled({"case": Label("carcass")})
+    odd = cupboard().with_labels({"case": Label("carcass")})
     assert "carcass" in synthesize_program(synthesize(DEMOS, {"odd": odd})).labels
     given = ("body", "drawer", "handle")
     assert synthesize_program(synthesize(DEMOS, {"odd": odd}, vocabulary=given)).labels == given
@@ -176,11 +176,11 @@ def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
     assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
-    course.take(1, program.rules[0], last=True)
+    course.advance(1, program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
     before_another = Course(DEMOS, named_batch(MESHES, DEMOS), program, dict[str, Template](), ())
-    before_another.take(1, program.rules[0], last=False)
+    before_another.advance(1, program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)
 
@@ -189,6 +189,6 @@ def test_corrections_of_other_meshes_and_of_hulls_that_are_gone_change_nothing()
     mesh = MESHES["c1"]
     assert corrected(mesh, "c1", [Correction("c2", "pull", "handle", "door")]) is mesh
     after = corrected(mesh, "c1", [Correction("c1", "pull", "handle", "door"), Correction("c1", "gone", None, "door")])
-    assert (after.named("pull").label, after.named("pull").source) == ("door", "repair")
-    assert mesh.named("pull").label == "handle"
+    assert (after.hull_of("pull").label, after.hull_of("pull").source) == ("door", "repair")
+    assert mesh.hull_of("pull").label == "handle"
     assert {hull.name for hull in after.hulls} == {hull.name for hull in mesh.hulls}

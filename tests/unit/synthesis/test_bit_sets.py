@@ -22,7 +22,7 @@ batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size
 @given(st.lists(masks, max_size=30), masks, masks)
 def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list[int], need: int, avoid: int) -> None:
     columns = Columns(rows, 12)
-    found = columns.avoiding(avoid, columns.holding(need, columns.every))
+    found = columns.rows_without(avoid, columns.rows_with(need, columns.every))
     assert list(positions(found)) == [k for k, row in enumerate(rows) if row & need == need and not row & avoid]
 
 
@@ -61,8 +61,8 @@ def test_groups_of_the_first_meshes_come_first() -> None:
 
 def test_two_like_hulls_of_which_one_is_selected_are_named() -> None:
     mesh = boxes(*((f"leg{k}", "a", (2.0 * k, 0, 0), (1, 1, 1)) for k in range(4)))
-    assert Field([mesh], LABELS).unlike([0b0010]) == ((0, 1), (0, 2))
-    assert Field([mesh], LABELS).unlike([0b0110]) is None
+    assert Field([mesh], LABELS).find_conflict([0b0010]) == ((0, 1), (0, 2))
+    assert Field([mesh], LABELS).find_conflict([0b0110]) is None
 
 
 def test_a_field_without_meshes_has_no_groups() -> None:

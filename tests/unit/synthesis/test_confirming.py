@@ -42,7 +42,7 @@ WRONG = {"leg0_low": "drawer"}
 def labelled(mesh: SymbolicMesh, wrong: Mapping[str, str | None]) -> SymbolicMesh:
     labels: dict[str, Label | None] = {hull.name: Label(hull.label, 0.95, "vlm") for hull in mesh.hulls if hull.label}
     labels.update({name: Label(label, 0.6, "vlm") if label else None for name, label in wrong.items()})
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
 def planted(wrong: Mapping[str, str | None], program: str = "Is(leg) => Delete") -> list[Demonstration]:
@@ -158,7 +158,7 @@ def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
 def test_a_person_is_asked_only_so_often_about_a_mesh_over_all_rules_and_rounds() -> None:
     program = "Is(leg) => Delete\nIs(misc) => Delete\nIs(handle) => Delete"
     wrong = {"leg0_low": "drawer", "leg3_high": "panel", "handle0": "drawer", "residue_0": "panel"}
-    right = [Correction("one", hull, was, TRUE["one"].named(hull).label or "") for hull, was in wrong.items()]
+    right = [Correction("one", hull, was, TRUE["one"].hull_of(hull).label or "") for hull, was in wrong.items()]
     person = Person(*right)
     learned(planted(wrong, program), person, Options(max_size=9, eta=2))
     agreed = [correction for correction in person.corrections if correction in right]

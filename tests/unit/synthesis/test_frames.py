@@ -86,7 +86,7 @@ def rack(off: float = 0.0, tops: int = 1, extra: Sequence[Piece] = ()) -> Symbol
 def posed(mesh: SymbolicMesh, x: Sequence[float], y: Sequence[float]) -> SymbolicMesh:
     """The mesh turned so that its X and Y axes come to lie along two unit vectors."""
     pose = Pose(np.column_stack([x, y, np.cross(x, y)]), np.zeros(3))
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def fronted(tops: int, height: float, depth: float) -> SymbolicMesh:
@@ -252,7 +252,7 @@ def test_a_mesh_is_turned_as_a_run_does_it(text: str, contact: float | None) -> 
     orient = parse_orient(text)
     for mesh in (table(drawers=2), turned(table(), "YZX")):
         staged, _ = stage(mesh, orient, contact)
-        mine, _ = Turning(mesh, contact).turned(orient)
+        mine, _ = Turning(mesh, contact).turn(orient)
         assert mine.contacts == staged.contacts and mine.contacts
         assert mine.graph.keys() == staged.graph.keys()
         assert mine.contact_distance == staged.contact_distance

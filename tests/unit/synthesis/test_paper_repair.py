@@ -23,7 +23,7 @@ WRONG_LEG = Correction("table", "leg2_low", "panel", "leg")
 def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **labels: str | None) -> Example:
     """A mesh with some labels wrong, and what an extractor selects on it as it should be."""
     right.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
-    wrong = right.labelled({hull: Label(label) if label else None for hull, label in labels.items()})
+    wrong = right.with_labels({hull: Label(label) if label else None for hull, label in labels.items()})
     return Example(name, wrong, select_mask(wanted, right))
 
 
@@ -44,7 +44,7 @@ def one_leg_wrong() -> Example:
 def test_relabelling_keeps_the_contact_graph() -> None:
     mesh = table()
     before = mesh.contacts
-    other = mesh.labelled({"leg0_low": Label("panel")})
+    other = mesh.with_labels({"leg0_low": Label("panel")})
     assert "graph" in vars(other)
     assert other.contacts == before
 

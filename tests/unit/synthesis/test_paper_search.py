@@ -61,7 +61,7 @@ def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_the
     while popped := worklist.pop():
         partial = popped[1]
         if isinstance(partial, Open):
-            for candidate in grammar.filled(partial):
+            for candidate in grammar.fill(partial):
                 worklist.put(candidate)
         else:
             first.append(partial)
@@ -82,7 +82,7 @@ def test_a_layer_left_out_is_not_used(layers: Layers, barred: set[type]) -> None
     while popped := worklist.pop():
         partial = popped[1]
         if isinstance(partial, Open):
-            for candidate in grammar.filled(partial):
+            for candidate in grammar.fill(partial):
                 worklist.put(candidate)
         else:
             seen |= parts(partial)

@@ -36,7 +36,7 @@ def labelled(mesh: SymbolicMesh, wrong: Wrong, confidence: float = 0.6, source: 
     labels: dict[str, Label | None] = {hull.name: Label(hull.label, 0.95, "vlm") for hull in mesh.hulls if hull.label}
     for name, label in wrong.items():
         labels[name] = Label(label, confidence, source) if label else None
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
 def examples_of(rule: str, *wrongs: Wrong, confidence: float = 0.6, source: Source = "vlm") -> list[Example]:

@@ -19,12 +19,12 @@ def said(name: str, label: Label | None) -> SymbolicMesh:
     """A table whose labels come from a model, one hull's label given."""
     mesh = table()
     labels: dict[str, Label | None] = {hull.name: Label(hull.label or "", 0.9, "vlm") for hull in mesh.hulls}
-    return mesh.labelled({**labels, name: label})
+    return mesh.with_labels({**labels, name: label})
 
 
 def cost(label: Label | None, to: str, name: str = "leg0_low") -> float:
     mesh = said(name, label)
-    return Labels({"table": mesh}, {"a": table(), "b": table(legs=3)}, VOCABULARY).cost("table", mesh.named(name), to)
+    return Labels({"table": mesh}, {"a": table(), "b": table(legs=3)}, VOCABULARY).cost("table", mesh.hull_of(name), to)
 
 
 def test_a_label_that_similar_hulls_have_costs_less() -> None:
@@ -55,10 +55,10 @@ def test_every_correction_costs_something() -> None:
 def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
     mesh = table()
     labels, hull = Labels({"table": mesh}, {}, VOCABULARY), mesh.hulls[0]
-    made = Hull("leg0_low~1", "body", Box.filling(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low")
+    made = Hull("leg0_low~1", "body", Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low")
     assert labels.cost("table", hull, "leg") < math.inf
     assert labels.cost("table", made, "panel") == math.inf
-    assert labels.cost("table", hull.labelled(Label("leg")), "panel") == math.inf
+    assert labels.cost("table", hull.with_label(Label("leg")), "panel") == math.inf
     assert labels.cost("table", hull, "unheard of") == math.inf
     assert labels.cost("another", hull, "leg") == math.inf
 
@@ -85,7 +85,7 @@ def test_wrong_and_missing_labels_are_expected_where_look_alikes_disagree() -> N
     assert set(errors) == {"shown", "wrong", "missing", *others}
     assert errors["shown"] < 0.5 < errors["wrong"] < 1.5
     assert 1 < errors["missing"] < 1.5
-    persons = {name: mesh.labelled({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
+    persons = {name: mesh.with_labels({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
                for name, mesh in others.items()}  # fmt: skip
     assert max(Labels({}, persons, VOCABULARY).errors.values()) < 0.05
 

@@ -57,7 +57,7 @@ def test_of_meshes_that_tell_as_much_the_one_with_sure_labels_comes_first() -> N
     meshes = with_rare_doors()
     unsure: dict[str, Label | None] = {hull.name: Label(str(hull.label), 0.6, "vlm") for hull in meshes["c1"].hulls}
     for doubted, first in (("c1", "c16"), ("c16", "c1")):
-        batch = {**meshes, doubted: meshes[doubted].labelled(unsure)}
+        batch = {**meshes, doubted: meshes[doubted].with_labels(unsure)}
         assert synthesize(shown(meshes, ["c0"], HANDLES), batch).sample[0] == first
 
 

@@ -26,14 +26,14 @@ def test_more_hulls_that_tell_nothing_more_count_against_a_mesh_and_of_equals_th
 def test_labels_that_may_be_wrong_or_are_missing_count_against_a_mesh() -> None:
     sure, door = cupboard(), cupboard(door=True)
     assert most_telling({"sure": sure, "door": door}, WORDS) == "door"
-    doubted = door.labelled({hull.name: Label(str(hull.label), 0.5, "vlm") for hull in door.hulls})
+    doubted = door.with_labels({hull.name: Label(str(hull.label), 0.5, "vlm") for hull in door.hulls})
     assert most_telling({"sure": sure, "door": doubted}, WORDS) == "sure"
-    assert most_telling({"sure": sure, "door": door.labelled({"knob": None, "door": None})}, WORDS) == "sure"
+    assert most_telling({"sure": sure, "door": door.with_labels({"knob": None, "door": None})}, WORDS) == "sure"
 
 
 def test_labels_are_judged_by_all_meshes_and_only_those_in_question_are_named() -> None:
     meshes = {f"c{k}": cupboard(door=True) for k in range(6)}
-    meshes["wrong"] = meshes["c0"].labelled({"knob": Label("drawer", 1.0, "vlm")})
+    meshes["wrong"] = meshes["c0"].with_labels({"knob": Label("drawer", 1.0, "vlm")})
     assert most_telling(meshes, WORDS, among={"wrong", "c3"}) == "c3"
     assert most_telling(meshes, WORDS, among={"wrong"}) == "wrong"
     assert most_telling(meshes, WORDS, among=()) is None

@@ -120,7 +120,7 @@ def test_no_hulls_within_a_ghost_show_the_ghost() -> None:
 def test_size_and_place_of_the_coordinates_do_not_matter(scale: float, offset: float) -> None:
     mesh = table()
     moved = SymbolicMesh(
-        tuple(hull(h.name, h.shape.mapped(np.eye(3) * scale, np.full(3, offset)), h.label) for h in mesh.hulls)
+        tuple(hull(h.name, h.shape.transform(np.eye(3) * scale, np.full(3, offset)), h.label) for h in mesh.hulls)
     )
     for view in ("iso", "front"):
         usual, found = id_buffer(mesh, view=view, size=SMALL), id_buffer(moved, view=view, size=SMALL)
@@ -180,7 +180,7 @@ def test_two_faces_in_one_plane_never_speckle() -> None:
 def test_up_can_be_y() -> None:
     mesh = table()
     turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up
-    lying = SymbolicMesh(tuple(h.moved(turn) for h in mesh.hulls))
+    lying = SymbolicMesh(tuple(h.move(turn) for h in mesh.hulls))
     for view in VIEWS:
         upright, turned = id_buffer(mesh, view=view, size=SMALL), id_buffer(lying, view=view, size=SMALL, up="Y")
         assert (upright != turned).mean() < 0.01

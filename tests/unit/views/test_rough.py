@@ -19,7 +19,7 @@ SIZE = (201, 150)
 def staged(skins: list[Skin], view: View) -> tuple[Scene, Camera]:
     points = np.concatenate([s.vertices for s in skins])
     stage = Stage(Aabb.of_points(points), upright("Z"))
-    return assembled(skins, stage.bounds.center, stage.unit), look(view, "Z", SIZE, stage.placed(points))
+    return assembled(skins, stage.bounds.center, stage.unit), look(view, "Z", SIZE, stage.to_unit(points))
 
 
 ORTHOGRAPHIC = [view for view in VIEWS if not view.startswith("iso")]

@@ -66,10 +66,10 @@ def in_place(taken: tuple[Shot, ...]) -> list[Shot]:
 def assert_all_shown(mesh: SymbolicMesh, wanted: set[str], taken: tuple[Shot, ...], unmet: int = 0) -> None:
     """Each wanted hull is numbered, and seen there but for `unmet` that no ray can meet; nothing else is numbered."""
     assert set().union(*(shot.numbered for shot in taken)) == wanted
-    best = {name: max(shot.seen[name] for shot in taken if name in shot.numbered) for name in wanted}
+    best = {name: max(shot.visible_pixels[name] for shot in taken if name in shot.numbered) for name in wanted}
     assert sum(count < LEAST for count in best.values()) <= unmet
     assert len({shot.name for shot in taken}) == len(taken)
-    assert all(list(shot.seen) == [h.name for h in mesh.hulls] for shot in taken)
+    assert all(list(shot.visible_pixels) == [h.name for h in mesh.hulls] for shot in taken)
 
 
 PLACES = st.tuples(*[st.integers(-2, 2)] * 3)
@@ -127,7 +127,7 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
     """What the middle of each pixel (h, w) shows of boxes along the axes, by arithmetic: -1 for nothing."""
     width, height = camera.size
     rows, columns = (part.ravel() for part in np.mgrid[0:height, 0:width])
-    aside, ahead = camera.sight(columns, rows)
+    aside, ahead = camera.pixel_rays(columns, rows)
     ahead = np.where(np.abs(ahead) < 1e-12, 1e-12, ahead)
     nearest, found = np.full(len(aside), np.inf), np.full(len(aside), -1)
     for k, one in enumerate(mesh.hulls):
@@ -143,21 +143,21 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
 def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
     mesh = scattered(12, seed)
     sitter = Sitter(mesh, tuple(range(12)), "Z")
-    easel, whole = Easel(sitter, 256), Arrangement.whole(sitter)
+    easel, whole = Easel(sitter, 256), Arrangement.in_place(sitter)
     for view in LIKED:
-        camera = whole.camera(view, easel.room)
-        told = slabs(mesh, camera, whole.stage.bounds.center, whole.stage.unit)
+        camera = whole.camera(view, easel.drawing_size)
+        told = slabs(mesh, camera, whole.view_frame.bounds.center, whole.view_frame.unit)
         counts = np.bincount(told[told >= 0], minlength=12)
-        seen = np.array(list(easel.drawn(whole, view).seen.values()))
+        seen = np.array(list(easel.draw(whole, view).visible_pixels.values()))
         assert np.abs(seen - counts).max() <= 2, f"{view}: rays along an edge may go either way"
 
 
 def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
     easel = Easel(Sitter(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512)
-    shot = easel.drawn(Arrangement.whole(easel.sitter), "front")
-    side = 0.88 * min(easel.room)
-    assert shot.seen["h0"] == pytest.approx(side**2, abs=4 * side)
-    assert shot.seen["h1"] == 0
+    shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
+    side = 0.88 * min(easel.drawing_size)
+    assert shot.visible_pixels["h0"] == pytest.approx(side**2, abs=4 * side)
+    assert shot.visible_pixels["h1"] == 0
 
 
 def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for() -> None:
@@ -167,7 +167,7 @@ def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for(
         for name, color in zip(mesh.index, Sitter(mesh, (0, 1), "Z").colors, strict=True):
             ratio = picture / np.maximum(picture.max(axis=2, keepdims=True), 1e-9)
             alike = (np.abs(ratio - color / color.max()).max(axis=2) < 0.15).sum()
-            assert alike == pytest.approx(shot.seen[name], rel=0.12), "but for lines and words"
+            assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
 
 
 def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
@@ -186,17 +186,17 @@ def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
     taken = shots(mesh)
     (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
-    assert close.seen["h1"] > 10 * max(shot.seen["h1"] for shot in taken if shot is not close)
+    assert close.visible_pixels["h1"] > 10 * max(shot.visible_pixels["h1"] for shot in taken if shot is not close)
 
 
 def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
     easel = Easel(Sitter(mesh, (0, 1), "Z"), 512)
     (near, _), *_ = arrangements(easel.sitter, [1])
-    shot = easel.drawn(near, "top")
-    width, height = easel.room
+    shot = easel.draw(near, "top")
+    width, height = easel.drawing_size
     side = round(0.24 * 512)
-    assert sum(shot.seen.values()) == width * height - side**2, "the large cube is everywhere behind"
+    assert sum(shot.visible_pixels.values()) == width * height - side**2, "the large cube is everywhere behind"
     assert shot.numbered == {"h0", "h1"}
     corner = pixels(shot.marked)[head_height(512) : head_height(512) + side, -side:]
     assert corner.min() < 0.2, "a frame marks the place"
@@ -222,8 +222,8 @@ def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
     assert set().union(*(shot.numbered for shot in taken)) == {"h3"}
     picture = pixels(taken[0].marked)[60:-60]
     strong = (np.ptp(picture, axis=2) > 0.25).sum()
-    assert 0 < strong <= taken[0].seen["h3"]
-    assert sum(count > 0 for count in taken[0].seen.values()) > 1, "the others are there"
+    assert 0 < strong <= taken[0].visible_pixels["h3"]
+    assert sum(count > 0 for count in taken[0].visible_pixels.values()) > 1, "the others are there"
 
 
 def test_pictures_have_the_size_asked_for_and_the_same_bytes_every_time() -> None:
@@ -232,7 +232,7 @@ def test_pictures_have_the_size_asked_for_and_the_same_bytes_every_time() -> Non
         assert one.marked.size == one.plain.size == (SMALL, SMALL)
         assert png(one.marked) == png(other.marked)
         assert png(one.plain) == png(other.plain)
-        assert (one.name, one.seen, one.numbered) == (other.name, other.seen, other.numbered)
+        assert (one.name, one.visible_pixels, one.numbered) == (other.name, other.visible_pixels, other.numbered)
 
 
 def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_camera() -> None:
@@ -242,7 +242,7 @@ def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_ca
     (shot, *_) = shots(mesh)
     plain = pixels(shot.plain)
     red = (plain[..., 0] - plain[..., 1]) > 0.2
-    assert red.sum() == pytest.approx(shot.seen["h0"], rel=0.02)
+    assert red.sum() == pytest.approx(shot.visible_pixels["h0"], rel=0.02)
     assert not ((plain[..., 2] - plain[..., 0]) > 0.2).any(), "what is clear is not drawn"
 
 
@@ -252,7 +252,7 @@ def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material
     assert np.ptp(plain, axis=2).max() < 0.12
     assert np.ptp(marked, axis=2).max() > 0.3
     drawn = (plain.min(axis=2) < 0.85).sum()
-    assert drawn == pytest.approx(sum(shot.seen.values()), rel=0.1), "outlines are drawn around what is seen"
+    assert drawn == pytest.approx(sum(shot.visible_pixels.values()), rel=0.1), "outlines are drawn around what is seen"
 
 
 def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain_picture() -> None:
@@ -260,26 +260,26 @@ def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain
     beside = Opaque("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
     (alone, *_), (shot, *_) = shots(mesh_of(shape)), shots(with_asset(mesh_of(shape), opaque=(beside,)))
     assert shot.numbered == {"h0"}
-    assert 0 < shot.seen["h0"] < alone.seen["h0"], "it is framed as well"
+    assert 0 < shot.visible_pixels["h0"] < alone.visible_pixels["h0"], "it is framed as well"
     drawn = (pixels(shot.plain).min(axis=2) < 0.97).sum()
-    assert drawn > 1.7 * shot.seen["h0"]
-    assert (pixels(shot.marked)[50:-40].min(axis=2) < 0.9).sum() > 1.02 * shot.seen["h0"]
+    assert drawn > 1.7 * shot.visible_pixels["h0"]
+    assert (pixels(shot.marked)[50:-40].min(axis=2) < 0.9).sum() > 1.02 * shot.visible_pixels["h0"]
 
 
 def test_up_may_be_y() -> None:
     turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up
-    lying = SymbolicMesh(tuple(h.moved(turn) for h in table().hulls))
+    lying = SymbolicMesh(tuple(h.move(turn) for h in table().hulls))
     for one, other in zip(shots(table(), size=SMALL), shots(lying, size=SMALL, up="Y"), strict=True):
         assert one.name == other.name
-        assert all(abs(count - other.seen[name]) <= 4 for name, count in one.seen.items())
+        assert all(abs(count - other.visible_pixels[name]) <= 4 for name, count in one.visible_pixels.items())
 
 
 def test_many_round_hulls_are_round_enough() -> None:
     mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
     easel = Easel(Sitter(mesh, tuple(range(12)), "Z"), 1024)
-    shot = easel.drawn(Arrangement.whole(easel.sitter), "front")
+    shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
     radius = 0.88 * 1024 / 35
-    assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.seen.values())
+    assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())
 
 
 @pytest.mark.parametrize(

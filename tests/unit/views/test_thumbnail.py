@@ -54,7 +54,7 @@ def test_hulls_are_framed_and_lit_with_lines_between_them() -> None:
 
 
 def test_round_hulls_are_shaded_smoothly() -> None:
-    ball = SymbolicMesh((table().named("knob"),))
+    ball = SymbolicMesh((table().hull_of("knob"),))
     light = thumbnail(ball)[..., 2][60:120, 80:160].astype(int)
     assert len(np.unique(light)) > 30
     assert np.abs(np.diff(light, axis=1)).max() < 12
@@ -76,7 +76,7 @@ def test_a_mesh_with_nothing_to_show_is_an_empty_picture() -> None:
 
 def test_a_pose_turns_what_is_shown() -> None:
     turn = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], (0, 0, 0))
-    lying = SymbolicMesh(tuple(h.moved(turn.inverse()) for h in table().hulls))
+    lying = SymbolicMesh(tuple(h.move(turn.inverse()) for h in table().hulls))
     assert not np.array_equal(thumbnail(lying), thumbnail(table()))
     differing = np.mean(thumbnail(lying, turn) != thumbnail(table()))
     assert differing < 0.01

@@ -47,28 +47,28 @@ class Examined:
 
     path: Path
     error: str | None = None
-    found: Examination | None = None
-    fixed: Fixed | None = None
-    written: Path | None = None
+    examination: Examination | None = None
+    fix_result: Fixed | None = None
+    output: Path | None = None
     pictures: tuple[Path, ...] = ()
-    seen: Seen | None = None
+    inputs: Seen | None = None
 
     @property
-    def failed(self) -> bool:
+    def has_failed(self) -> bool:
         """Whether there is an error."""
-        return self.found is None or any(f.severity == "error" for f in self.found.findings)
+        return self.examination is None or any(f.severity == "error" for f in self.examination.findings)
 
     def to_json(self) -> dict[str, Any]:
         """The examination as JSON-able data; in SI units, volumes in litres."""
         rows = [
             {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
-            for f in (self.found.findings if self.found else ())
+            for f in (self.examination.findings if self.examination else ())
         ]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
-        if self.fixed:
-            line["fixed"] = {"out": str(self.written)} | self.fixed.to_json()
-        if self.found:
-            line |= self.found.to_json()
+        if self.fix_result:
+            line["fixed"] = {"out": str(self.output)} | self.fix_result.to_json()
+        if self.examination:
+            line |= self.examination.to_json()
         if self.pictures:
             line["pictures"] = [str(path) for path in self.pictures]
         return line
@@ -112,7 +112,7 @@ def examine_all(
     depended on, by id; None for an asset of which that is as it was.
     """
     items = [(job, known.get(job.id)) for job in work]
-    results = spread.over(partial(_examine, wanted), items, done)
+    results = spread.run(partial(_examine, wanted), items, done)
     for job, result in zip(work, results, strict=True):
         yield Examined(job.path, f"{job.path}: {result.why}") if isinstance(result, Lost) else result
 
@@ -124,7 +124,7 @@ def _asked(wanted: Wanted) -> str:
 def _examine(wanted: Wanted, item: tuple[AssetJob, Seen | None]) -> Examined | None:
     job, seen = item
     try:
-        if seen and seen.holds(job, _asked(wanted)):
+        if seen and seen.is_current(job, _asked(wanted)):
             return None
         return examine(job.path, job.base, job.labels, wanted)
     except UsageError:

@@ -26,17 +26,17 @@ class Seen:
     """
 
     files: dict[str, str]
-    asked: str
+    request: str
 
     @staticmethod
     def of(files: Iterable[Path], asked: str) -> Seen:
         """What there is by now."""
         return Seen({str(path): file_digest(path) for path in files}, text_digest(asked))
 
-    def holds(self, job: AssetJob, asked: str) -> bool:
+    def is_current(self, job: AssetJob, asked: str) -> bool:
         """Whether all is as it was, without reading the asset."""
         own = [*source_files(job.path), *([job.labels] if job.labels else [])]
-        if self.asked != text_digest(asked) or not all(str(path) in self.files for path in own):
+        if self.request != text_digest(asked) or not all(str(path) in self.files for path in own):
             return False
         return all(Path(path).is_file() and file_digest(Path(path)) == known for path, known in self.files.items())
 
@@ -48,14 +48,14 @@ class Journal:
         """Read what there is; a line that a killed run could not end is cut off. Raises MeshForgeError: no journal."""
         self._stream = stream
         self._places: dict[str, int] = {}
-        self.seen: dict[str, Seen] = {}
+        self.inputs: dict[str, Seen] = {}
         end = 0
         for number, line in enumerate(self._stream, 1):
             if not line.endswith(b"\n") and line[: len(_START)] == _START[: len(line)]:
                 break  # a run was killed while it wrote this
             try:
                 row = json.loads(line)
-                self.seen[row["asset"]] = Seen(row["files"], row["asked"])
+                self.inputs[row["asset"]] = Seen(row["files"], row["asked"])
             except (ValueError, TypeError, KeyError, RecursionError) as error:
                 remedy = "Give the file of an earlier run, or a new one."
                 at = f"{path}:{number}"
@@ -63,7 +63,7 @@ class Journal:
             self._places[row["asset"]], end = end, end + len(line)
         self._stream.truncate(end)
 
-    def row(self, asset: str) -> dict[str, Any]:
+    def read_row(self, asset: str) -> dict[str, Any]:
         """What is kept of an asset."""
         self._stream.seek(self._places[asset])
         found: dict[str, Any] = json.loads(self._stream.readline())
@@ -71,7 +71,7 @@ class Journal:
 
     def add(self, asset: str, seen: Seen, row: dict[str, Any]) -> None:
         """Keep what was found."""
-        line = json.dumps({"asset": asset, "files": seen.files, "asked": seen.asked, **row}) + "\n"
+        line = json.dumps({"asset": asset, "files": seen.files, "asked": seen.request, **row}) + "\n"
         self._places[asset] = self._stream.seek(0, os.SEEK_END)
         self._stream.write(line.encode())
         self._stream.flush()

@@ -34,7 +34,7 @@ class Draft:
     labels: tuple[str | None, ...] = ()
 
     @property
-    def whole(self) -> Path:
+    def root(self) -> Path:
         """The folder of the files' folder and the stamp: what is put in place."""
         return self.folder.parent
 
@@ -75,7 +75,7 @@ def written(
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
-    labels = tuple(written.named(name).label for name in order)
+    labels = tuple(written.hull_of(name).label for name in order)
     return Draft(plan.folder, plan.main, digests, saved.notes, labels)
 
 

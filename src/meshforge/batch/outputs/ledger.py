@@ -33,15 +33,15 @@ class Ledger:
         self._pending = set(pending)
         self._files: dict[str, dict[str, str]] = {}  # digests by file name, of each asset
         self._writers: dict[str, dict[str, None]] = {}  # the assets that wrote each file
-        with self._hopeful():
+        with self._io_errors_end_run():
             for draft in (out / STATE).rglob("*.tmp"):  # of a killed run; the caller holds the lock: nobody writes it
                 draft.unlink()
             for stamp in all_stamps(out):
                 self._record(stamp.asset, stamp.outputs)
             if self._placing.exists():
-                self._finish()
+                self._finish_interrupted()
 
-    def settle(self, worked: Worked) -> Outcome:
+    def commit(self, worked: Worked) -> Outcome:
         """Put the files of one asset in place, or away where it failed; its final outcome.
 
         Raises MeshForgeError where nothing can be written any more: a full disk fails all assets alike.
@@ -49,39 +49,39 @@ class Ledger:
         asset = worked.outcome.asset
         self._pending.discard(asset)
         if worked.disk:
-            raise self._ended(worked.disk)
-        with self._hopeful():
-            outcome = self._settled(worked)
+            raise self._end_of_run(worked.disk)
+        with self._io_errors_end_run():
+            outcome = self._commit_draft(worked)
             if isinstance(outcome, Failed):
-                self._forget(asset, list(self._files.get(asset, {})))
+                self._remove_outputs(asset, list(self._files.get(asset, {})))
                 Stamp.of_failure(outcome, worked.inputs).write(stamp_path(self._out, asset))
         return outcome
 
     @contextmanager
-    def _hopeful(self) -> Iterator[None]:
+    def _io_errors_end_run(self) -> Iterator[None]:
         try:
             yield
         except OSError as error:
-            raise self._ended(error.strerror) from error
+            raise self._end_of_run(error.strerror) from error
 
-    def _ended(self, why: str | None) -> MeshForgeError:
+    def _end_of_run(self, why: str | None) -> MeshForgeError:
         return MeshForgeError(
             f"nothing can be written here any more: {why}",
             where=str(self._out),
             remedy="What is in place stays. Mend that, then run the same command again: it goes on where it was.",
         )
 
-    def _settled(self, worked: Worked) -> Outcome:
+    def _commit_draft(self, worked: Worked) -> Outcome:
         outcome, draft = worked.outcome, worked.draft
         if isinstance(outcome, Failed):
             return outcome
         outputs = draft.files if draft else self._files.get(outcome.asset, {})
-        problem = self._clash(outcome.asset, outputs) or self._in_the_way(outputs)
+        problem = self._find_conflict(outcome.asset, outputs) or self._find_obstacle(outputs)
         if problem:
             return Failed(outcome.asset, problem, outcome.seconds)
         if draft:
             try:
-                self._put(outcome.asset, draft)
+                self._place_draft(outcome.asset, draft)
             except OSError as error:
                 if error.errno in (*NO_ROOM, errno.EIO):
                     raise
@@ -89,7 +89,7 @@ class Ledger:
                 return Failed(outcome.asset, f"{error.filename or self._out}: {error.strerror}", outcome.seconds)
         return outcome
 
-    def _clash(self, asset: str, outputs: Mapping[str, str]) -> str | None:
+    def _find_conflict(self, asset: str, outputs: Mapping[str, str]) -> str | None:
         for name, digest in outputs.items():
             bound = (other for other in self._writers.get(name, {}) if other != asset and other not in self._pending)
             other = next(bound, None)  # the others agree with it
@@ -100,7 +100,7 @@ class Ledger:
                 )
         return None
 
-    def _in_the_way(self, outputs: Mapping[str, str]) -> str | None:
+    def _find_obstacle(self, outputs: Mapping[str, str]) -> str | None:
         for name, digest in outputs.items():
             target = self._out / name
             if (
@@ -111,26 +111,26 @@ class Ledger:
                 return f"{target}: this is there, and no earlier run wrote it\n  Move it away, or choose another --out."
         return None
 
-    def _put(self, asset: str, draft: Draft) -> None:
+    def _place_draft(self, asset: str, draft: Draft) -> None:
         """Put the files of a draft in place.
 
         First the draft becomes the one that is on its way, by one rename. Killed after that, the next run finds it,
         with the stamp that says what it is, and goes on: nothing else has to be written down.
         """
         self._record(asset, {**self._files.get(asset, {}), **draft.files})
-        draft.whole.replace(self._placing)
-        self._place(asset, draft.files, draft.main)
+        draft.root.replace(self._placing)
+        self._rename_into_place(asset, draft.files, draft.main)
 
-    def _finish(self) -> None:
+    def _finish_interrupted(self) -> None:
         """Put the files in place that a killed run had not."""
         stamp = stamp_in(self._placing / STAMP)  # not there any more: everything was in place
-        if stamp and not self._in_the_way(stamp.outputs):
+        if stamp and not self._find_obstacle(stamp.outputs):
             self._record(stamp.asset, {**self._files.get(stamp.asset, {}), **stamp.outputs})
-            self._place(stamp.asset, stamp.outputs, stamp.out)
+            self._rename_into_place(stamp.asset, stamp.outputs, stamp.out)
         else:
             shutil.rmtree(self._placing)
 
-    def _place(self, asset: str, files: Mapping[str, str], main: str) -> None:
+    def _rename_into_place(self, asset: str, files: Mapping[str, str], main: str) -> None:
         """Rename the files into place, the main one last, put away those of before, and vouch for all.
 
         A file that is not there has been put in place before, or is missed when its digest is asked for.
@@ -140,13 +140,13 @@ class Ledger:
             target.parent.mkdir(parents=True, exist_ok=True)
             if source.exists():
                 source.replace(target)
-        self._forget(asset, [name for name in self._files[asset] if name not in files])
+        self._remove_outputs(asset, [name for name in self._files[asset] if name not in files])
         stamp = stamp_path(self._out, asset)
         stamp.parent.mkdir(parents=True, exist_ok=True)
         (self._placing / STAMP).replace(stamp)
         shutil.rmtree(self._placing)
 
-    def _forget(self, asset: str, names: Iterable[str]) -> None:
+    def _remove_outputs(self, asset: str, names: Iterable[str]) -> None:
         """Remove files that were written for this asset and for nobody else, unless someone changed them since."""
         for name in names:
             digest = self._files[asset].pop(name)

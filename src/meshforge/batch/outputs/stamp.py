@@ -80,7 +80,7 @@ class Stamp(BaseModel):
         """The stamp of an asset that was not written; inputs: as far as they are known."""
         return Stamp(asset=outcome.asset, status="failed", inputs=inputs, error=outcome.error)
 
-    def skipped(self, folder: Path) -> Skipped:
+    def to_skipped(self, folder: Path) -> Skipped:
         """The outcome of finding this output up to date."""
         out = str(folder / self.out)
         return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags)

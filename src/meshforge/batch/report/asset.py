@@ -27,7 +27,7 @@ class Kept:
     """What is kept of an earlier examination: findings, and sentences about what was measured."""
 
     findings: tuple[Finding, ...]
-    told: tuple[str, ...]
+    descriptions: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,18 +57,18 @@ class ReportAsset:
         return (len(self.before.hulls), len(self.after.hulls)) if self.before and self.after else None
 
     @property
-    def doubtful(self) -> bool:
+    def has_findings(self) -> bool:
         """Whether anything was found when it was checked."""
         return bool(self.checked and self.checked.findings)
 
     @property
-    def broken(self) -> bool:
+    def is_broken(self) -> bool:
         """Whether it failed, or an error was found when it was checked."""
         errors = self.checked and any(finding.severity == "error" for finding in self.checked.findings)
         return self.status in BROKEN or bool(errors)
 
     @property
-    def blamed(self) -> frozenset[str]:
+    def hulls_to_blame(self) -> frozenset[str]:
         """The hulls that findings name: those of errors, where there are any."""
         found = self.checked.findings if self.checked else ()
         errors = [finding for finding in found if finding.severity == "error"]

@@ -19,7 +19,7 @@ _SAID = 6  # notes that are shown at once
 
 def card(asset: ReportAsset, program: Program | None, pictures: Pictures | None, colors: Mapping[str, str]) -> Node:
     """The article about one asset; colors: of the labels."""
-    marks = [word for word, holds in (("demonstrated", asset.demonstrated), ("doubtful", asset.doubtful)) if holds]
+    marks = [word for word, holds in (("demonstrated", asset.demonstrated), ("doubtful", asset.has_findings)) if holds]
     return tag(
         "article",
         tag("h3", tag("span", tag("bdi", asset.name), title=asset.name), *_badges(asset)),

@@ -26,7 +26,7 @@ def checked(asset: ReportAsset, pictured: bool) -> Child:
     return tag(
         "details",
         tag("summary", f"checks: {counts}" if found.findings else "checks: all is well"),
-        *(tag("p", line, class_="note") for line in found.told),
+        *(tag("p", line, class_="note") for line in found.descriptions),
         tag("ul", *rows, class_="findings") if rows else None,
         *(_pictures(asset) if pictured else ()),
         class_="checks",

@@ -48,7 +48,7 @@ def write_report(
     asset. The page refers to no other file.
     """
     if any(asset.checked for asset in assets):
-        assets = sorted(assets, key=lambda asset: (not asset.broken, not asset.doubtful))
+        assets = sorted(assets, key=lambda asset: (not asset.is_broken, not asset.has_findings))
     meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
     labelled = bool(vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
     words = _words(vocabulary or (program.labels if program else ()), meshes)
@@ -68,7 +68,7 @@ def write_report(
         tag(
             "section",
             tag("h2", "Assets"),
-            legend(assets, colors if labelled else {}, UNLABELLED, blamed=any(shown.blamed for shown in drawn))
+            legend(assets, colors if labelled else {}, UNLABELLED, blamed=any(shown.has_blame for shown in drawn))
             if meshes
             else None,
             legend_of_changes(assets) if any(shown.changes for shown in drawn) else None,
@@ -101,5 +101,5 @@ def _words(known: Sequence[str], meshes: Sequence[SymbolicMesh]) -> list[str]:
 
 
 def _pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].broken))
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
     return frozenset(order[:count])

@@ -39,7 +39,7 @@ class Pictures:
     before: str
     after: str | None = None
     changes: str | None = None
-    blamed: bool = False
+    has_blame: bool = False
 
 
 def pictures(asset: ReportAsset, manner: Manner) -> Pictures | None:
@@ -59,7 +59,7 @@ def pictures(asset: ReportAsset, manner: Manner) -> Pictures | None:
             background=None,
             legend=False,
         )
-        return Pictures(address(image), blamed=blamed is not None)
+        return Pictures(address(image), has_blame=blamed is not None)
     pair = compare(before, after, color_by=color_by, size=SIZE, vocabulary=manner.vocabulary, background=None)
     changes = difference(before, after, size=SIZE, background=None, legend=False) if manner.changes else None
     return Pictures(address(pair[0]), address(pair[1]), address(changes) if changes else None)
@@ -67,7 +67,7 @@ def pictures(asset: ReportAsset, manner: Manner) -> Pictures | None:
 
 def _blamed(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[str] | None:
     """The hulls that findings name, None where they name none that is there, or all: then none would stand out."""
-    named = asset.blamed & mesh.index.keys()
+    named = asset.hulls_to_blame & mesh.index.keys()
     return named if 0 < len(named) < len(mesh.hulls) else None
 
 

@@ -22,7 +22,7 @@ def read_again(readers: Sequence[Reader | None]) -> list[SymbolicMesh | None]:
     None for what cannot be read any more, or has no reader.
     """
     wanted = [reader for reader in readers if reader]
-    found = iter(Spread(timeout=PATIENCE).over(_read, wanted) if wanted else ())
+    found = iter(Spread(timeout=PATIENCE).run(_read, wanted) if wanted else ())
     meshes = [next(found) if reader else None for reader in readers]
     return [None if isinstance(mesh, Lost) else mesh for mesh in meshes]
 

@@ -33,7 +33,7 @@ def _kinds(assets: Sequence[ReportAsset]) -> list[Node]:
     kinds: list[str] = [s for s in STATUSES if any(a.status == s for a in assets)]
     if any(a.demonstrated for a in assets):
         kinds.append("demonstrated")
-    if any(a.doubtful and a.status not in _CHECKED for a in assets):
+    if any(a.has_findings and a.status not in _CHECKED for a in assets):
         kinds.append("doubtful")
     rest = [tag("button", kind, type="button", data_kind=kind, aria_pressed="false") for kind in kinds]
     return [tag("button", "all", type="button", data_kind="", aria_pressed="true"), *rest]

@@ -28,7 +28,7 @@ class Spread:
     stop: Callable[[], bool] | None = None
     backend: Backend = "local"
 
-    def over(
+    def run(
         self, function: Callable[[Item], Result], items: Sequence[Item], done: Callable[[], None] | None = None
     ) -> Generator[Result | Lost, None, None]:
         """The results of `function` on the items, in their order. Raises as `isolated` and `on_cluster`."""

@@ -58,7 +58,7 @@ class Clearance:
         return tuple(_finding(region, self) for region in self.regions if region.litres >= MATTERS * self.box)
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The clearance in a sentence."""
         space = f"the space about the {self.reference}"
         rough = f"with cells twice as long {self.doubled[0]:.3g} l and {self.doubled[1]:.3g} l"

@@ -22,7 +22,7 @@ def limits_of(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> tup
 
 def _beyond(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | None:
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
-    over = {name: value for name, value in values.items() if limit.broken(value)}
+    over = {name: value for name, value in values.items() if limit.is_broken(value)}
     if not over:
         return None
     told = listed([f"{name} ({value:.4g})" for name, value in over.items()])

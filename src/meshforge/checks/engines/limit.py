@@ -29,7 +29,7 @@ class Limit:
     source: str
     bound: Bound = "most"
 
-    def broken(self, value: float) -> bool:
+    def is_broken(self, value: float) -> bool:
         return value > self.number if self.bound == "most" else value < self.number
 
 

@@ -47,25 +47,25 @@ class Group:
     """
 
     hulls: tuple[Hull, ...]
-    seen: Skins
-    skin: Skins
+    visual_surface: Skins
+    hull_surface: Skins
     owner: Ints
     grid: Grid
     outside: Mask
 
-    def out(self, points: Floats) -> Floats:
+    def measure_out(self, points: Floats) -> Floats:
         """How far [m] each point (n, 3) of a hull sticks out of the visual mesh, 0 where it is inside of it."""
         x, y, z = self.grid.cells_of(points).T
         free = np.flatnonzero(self.outside[x, y, z])
         found = np.zeros(len(points))
-        found[free] = self.seen.distances(points[free])[0]
+        found[free] = self.visual_surface.distances(points[free])[0]
         return found
 
-    def bare(self, points: Floats) -> tuple[Floats, Ints]:
+    def measure_bare(self, points: Floats) -> tuple[Floats, Ints]:
         """How far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if off."""
         gaps, nearest = np.zeros(len(points)), np.zeros(len(points), np.int64)
         off = np.flatnonzero(~_inside(points, self.hulls))
-        gaps[off], triangle = self.skin.distances(points[off])
+        gaps[off], triangle = self.hull_surface.distances(points[off])
         nearest[off] = self.owner[triangle]
         return gaps, nearest
 
@@ -100,7 +100,7 @@ class Fit:
         return sum(h.bare_area for h in self.hulls) / self.seen_area if self.seen_area else 0.0
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The fit in a sentence."""
         if not self.hulls:
             return "nothing is shown that hulls could be held against"
@@ -150,7 +150,7 @@ def fit(mesh: SymbolicMesh, *, cell: float | None = None) -> Fit:
     rows = [row for group in groups for row in _rows(group)]
     order = {hull.name: k for k, hull in enumerate(mesh.hulls)}
     widest = max((group.grid.cell for group in groups), default=0.0)
-    area = float(sum(group.seen.area.sum() for group in groups))
+    area = float(sum(group.visual_surface.area.sum() for group in groups))
     rows.sort(key=lambda row: order[row.hull])
     return Fit(widest, mesh.diagonal, tuple(rows), silent, area, groups)
 
@@ -188,12 +188,12 @@ def _group(hulls: tuple[Hull, ...], corners: Floats, cell: float | None) -> Grou
 
 
 def _rows(group: Group) -> list[HullFit]:
-    out = group.out(group.skin.points)
-    of_hull = group.owner[group.skin.triangle]
-    bare, nearest = group.bare(group.seen.points)
+    out = group.measure_out(group.hull_surface.points)
+    of_hull = group.owner[group.hull_surface.triangle]
+    bare, nearest = group.measure_bare(group.visual_surface.points)
     count, cell = len(group.hulls), group.grid.cell
-    far, far_area = _by_hull(of_hull, out, group.skin.area, count, cell)
-    off, off_area = _by_hull(nearest, bare, group.seen.area, count, cell)
+    far, far_area = _by_hull(of_hull, out, group.hull_surface.area, count, cell)
+    off, off_area = _by_hull(nearest, bare, group.visual_surface.area, count, cell)
     return [
         HullFit(hull.name, float(far[k]), float(far_area[k]), float(off[k]), float(off_area[k]))
         for k, hull in enumerate(group.hulls)

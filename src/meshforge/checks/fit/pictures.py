@@ -28,16 +28,16 @@ def fit_pictures(
     if not found.groups:
         return None
     most = max(2 * MATTERS * found.diagonal, 4 * found.cell)
-    hulls = [hull.shape.tessellated() for group in found.groups for hull in group.hulls]
-    seen = [_surface(group.seen.corners) for group in found.groups]
+    hulls = [hull.shape.tessellate() for group in found.groups for hull in group.hulls]
+    seen = [_surface(group.visual_surface.corners) for group in found.groups]
 
     group_of = np.array([k for k, group in enumerate(found.groups) for _ in group.hulls])
 
     def out(points: Floats, items: Ints) -> Floats:
-        return _by_group(found.groups, points, group_of[items], Group.out)
+        return _by_group(found.groups, points, group_of[items], Group.measure_out)
 
     def bare(points: Floats, items: Ints) -> Floats:
-        return _by_group(found.groups, points, items, lambda group, some: group.bare(some)[0])
+        return _by_group(found.groups, points, items, lambda group, some: group.measure_bare(some)[0])
 
     titles = "hulls: how far they stick out", "visual mesh: how far off all hulls"
     return (

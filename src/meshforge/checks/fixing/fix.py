@@ -31,7 +31,7 @@ class Change:
     polygons: tuple[int, int]
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The change in a sentence."""
         before, after = (f"{self.vertices[k]} vertices on {self.polygons[k]} flat faces" for k in (0, 1))
         return f"{self.hull}: {before}; now {self.made}: {after}, which sticks out by {_length(self.error)} at most"
@@ -91,7 +91,7 @@ def fix(mesh: SymbolicMesh, engine: Engine, tolerance: float | None = None) -> F
 def _change(old: Hull, new: Hull, broken: list[Limit], error: float) -> Change:
     rules = tuple(limit.rule for limit in broken)
     vertices = len(old.vertices), len(new.vertices)
-    polygons = len(polygon_sizes(old.shape.tessellated())), len(polygon_sizes(new.shape.tessellated()))
+    polygons = len(polygon_sizes(old.shape.tessellate())), len(polygon_sizes(new.shape.tessellate()))
     return Change(old.name, new.name, rules, error, vertices, polygons)
 
 
@@ -101,12 +101,12 @@ def _broken(engine: Engine, hull: Hull) -> list[Limit]:
     if not isinstance(shape, Polytope):
         return []
     mendable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
-    return [limit for limit in mendable if limit.broken(limit.measure(shape))]
+    return [limit for limit in mendable if limit.is_broken(limit.measure(shape))]
 
 
 def _mended(hull: Hull, engine: Engine, broken: list[Limit]) -> Enclosure | None:
     """A hull around another that keeps to the limits, all of them; None where there is none."""
-    made = Enclosure(hull.shape.tessellated(), 0.0)
+    made = Enclosure(hull.shape.tessellate(), 0.0)
     for limit in broken:
         if limit.rule == "thin":
             made = thickened(made.hull, limit.number)
@@ -123,7 +123,7 @@ def _unsafe(made: Enclosure | None, hull: Hull, engine: Engine, allowed: float, 
         return "no simpler hull around it was found"
     if made.error > allowed:
         return f"a hull within the limits would stick out by {_length(made.error)}, more than {_length(allowed)}"
-    if any(limit.broken(limit.measure(made.hull)) for limit in _broken(engine, Hull("", "", made.hull))):
+    if any(limit.is_broken(limit.measure(made.hull)) for limit in _broken(engine, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:
         meets = other.body != hull.body and _near(made.hull, other) and distance(made.hull, other.shape) == 0.0

@@ -40,7 +40,7 @@ def compiled(mesh: SymbolicMesh, tree: Tree, *, everything: bool = False) -> Any
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
     shown = _standing(mesh)
-    tops = tree.tops({hull.body for hull in mesh.hulls})
+    tops = tree.roots_of({hull.body for hull in mesh.hulls})
     for root in tree.bodies:
         if root in tops:
             _add(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
@@ -92,7 +92,7 @@ def _add(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tre
     _weigh(body, given, pose.inverse() @ shown, bool(hulls), name in tree.joints)
     for k, hull in hulls:
         _shape(spec, body, f"hull {k}", hull, pose.inverse() @ shown)
-    for child in tree.below(name):
+    for child in tree.children_of(name):
         _add(spec, body, child, pose, mesh, tree, shown)
 
 
@@ -133,7 +133,7 @@ def _reach(joint: Joint, mesh: SymbolicMesh, tree: Tree) -> tuple[float, float]:
     """What hangs on a joint: about how heavy [kg] that is, and how far [m] it reaches from the anchor."""
     names = [joint.child]
     for body in names:
-        names += tree.below(body)
+        names += tree.children_of(body)
     hulls = [hull for hull in mesh.hulls if hull.body in names]
     inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
     told = {i.body: i.mass for i in inertials if broken(i) is None}
@@ -148,7 +148,7 @@ def _shape(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
     import mujoco
 
     geoms = mujoco.mjtGeom
-    shape: Shape = hull.shape.moved(local)
+    shape: Shape = hull.shape.move(local)
     match shape:
         case Box():
             kind, size = geoms.mjGEOM_BOX, list(shape.half)

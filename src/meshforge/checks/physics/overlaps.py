@@ -35,14 +35,14 @@ def overlapping(mesh: SymbolicMesh, tree: Tree) -> tuple[Overlap, ...]:
     model = compiled(mesh, tree, everything=True)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    rigid, numbers, touching = tree.rigid(), _numbers(model), Touching(mesh)
+    rigid, numbers, touching = tree.rigid_roots(), _numbers(model), Touching(mesh)
     found: dict[tuple[str, str, bool], Overlap] = {}
     for contact in data.contact[: data.ncon]:
         first, second = sorted(numbers[int(g)] for g in contact.geom)
         if first < 0 or contact.dist >= 0:
             continue
         a, b = mesh.hulls[first], mesh.hulls[second]
-        excluded = not touching.may(first, second)
+        excluded = not touching.may_touch(first, second)
         key = a.body, b.body, excluded
         if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
             continue

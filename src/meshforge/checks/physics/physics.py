@@ -63,7 +63,7 @@ class Physics:
     doubts: tuple[Finding, ...]
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The behaviour in a sentence."""
         if self.rest is None:
             return f"not simulated: {self.refused}"

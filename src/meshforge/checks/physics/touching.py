@@ -19,7 +19,7 @@ class Contact:
     priority: int = 0
     friction: tuple[float, ...] = (1.0, 0.005, 0.0001)
 
-    def meets(self, other: Contact) -> bool:
+    def can_meet(self, other: Contact) -> bool:
         """Whether the bits let the two collide."""
         return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
 
@@ -40,12 +40,12 @@ class Touching:
         self.apart = {frozenset(pair) for pair in mechanism.apart} if mechanism else set()
         self.paired = set(_numbered(mechanism.paired, sources)) if mechanism else set()
 
-    def may(self, first: int, second: int) -> bool:
+    def may_touch(self, first: int, second: int) -> bool:
         """Whether two hulls may touch, by their numbers; joints say nothing here."""
         if frozenset((first, second)) in self.paired:
             return True
         bodies = frozenset((self.hulls[first].body, self.hulls[second].body))
-        return bodies not in self.apart and self.contacts[first].meets(self.contacts[second])
+        return bodies not in self.apart and self.contacts[first].can_meet(self.contacts[second])
 
 
 def _contact(told: dict[str, str]) -> Contact:

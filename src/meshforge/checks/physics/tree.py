@@ -46,7 +46,7 @@ class Tree:
             at = self.above.get(at)
         return at is not None
 
-    def tops(self, bodies: Iterable[str]) -> set[str]:
+    def roots_of(self, bodies: Iterable[str]) -> set[str]:
         """The roots, which nothing holds, that some bodies hang on."""
         found = set()
         for body in bodies:
@@ -55,11 +55,11 @@ class Tree:
             found.add(body)
         return found
 
-    def below(self, body: str) -> list[str]:
+    def children_of(self, body: str) -> list[str]:
         """The bodies joined to one directly."""
         return [child for child, parent in self.above.items() if parent == body]
 
-    def rigid(self) -> dict[str, str]:
+    def rigid_roots(self) -> dict[str, str]:
         """For each body the highest one that it is welded to."""
         found: dict[str, str] = {}
         for name in self.bodies:

@@ -32,7 +32,7 @@ class Grid:
         steps = np.floor((points - self.origin) / self.cell)
         return np.clip(steps, 0, np.array(self.shape) - 1).astype(np.int64)
 
-    def centres(self, axis: int) -> Floats:
+    def cell_centers(self, axis: int) -> Floats:
         """The coordinates (k,) of the middles of the cells along an axis [m]."""
         middles: Floats = self.origin[axis] + (np.arange(self.shape[axis]) + 0.5) * self.cell
         return middles
@@ -41,7 +41,7 @@ class Grid:
         """The volume of some cells [l]."""
         return float(np.count_nonzero(mask)) * self.cell**3 * 1000
 
-    def empty(self) -> Mask:
+    def empty_mask(self) -> Mask:
         return np.zeros(self.shape, dtype=bool)
 
 

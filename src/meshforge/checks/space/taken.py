@@ -18,7 +18,7 @@ _LEVEL = 1e-12
 
 def crossed(grid: Grid, corners: Floats) -> Mask:
     """The cells that triangles, corners (m, 3, 3), cross; no path through faces of other cells leads past them."""
-    mask = grid.empty()
+    mask = grid.empty_mask()
     for samples in samples_of(corners, _SPACING * grid.cell):
         x, y, z = grid.cells_of(samples.points).T
         mask[x, y, z] = True
@@ -27,7 +27,7 @@ def crossed(grid: Grid, corners: Floats) -> Mask:
 
 def filled(grid: Grid, shapes: Iterable[Shape]) -> Mask:
     """The cells whose middles are inside of any of some shapes; round ones count as their tessellations."""
-    mask = grid.empty()
+    mask = grid.empty_mask()
     for shape in shapes:
         _fill(grid, shape, mask)
     return mask
@@ -35,11 +35,11 @@ def filled(grid: Grid, shapes: Iterable[Shape]) -> Mask:
 
 def _fill(grid: Grid, shape: Shape, mask: Mask) -> None:
     """Column by column: the planes of a hull leave an interval of heights of each."""
-    hull = shape.tessellated()
+    hull = shape.tessellate()
     planes = planes_of(hull.vertices, hull.faces)
     low, high = grid.cells_of(np.array([hull.aabb.min, hull.aabb.max]))
-    xs, ys = grid.centres(0)[low[0] : high[0] + 1], grid.centres(1)[low[1] : high[1] + 1]
-    heights = grid.centres(2)[low[2] : high[2] + 1]
+    xs, ys = grid.cell_centers(0)[low[0] : high[0] + 1], grid.cell_centers(1)[low[1] : high[1] + 1]
+    heights = grid.cell_centers(2)[low[2] : high[2] + 1]
     flat = np.array([(x, y) for x in xs for y in ys]) - planes.middle[:2]
     rows = max(1, _AT_ONCE // max(len(planes.offsets), 1))
     parts = [_interval(flat[k : k + rows], planes.normals, planes.offsets) for k in range(0, len(flat), rows)]

@@ -101,8 +101,8 @@ def label(
     if labels and source != "file":
         raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
     options = VlmOptions(model, base_url, mode, max_cost)
-    if source != "vlm" and options.given:
-        raise UsageError(f"{options.given} is for --with vlm", remedy="Leave it out.")
+    if source != "vlm" and options.first_option:
+        raise UsageError(f"{options.first_option} is for --with vlm", remedy="Leave it out.")
     spread = spread_of(workers, timeout, memory, backend)
     given = GivenOptions(pattern or (), classes, align, points_up)
     given.refuse_for(source)

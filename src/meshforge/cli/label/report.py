@@ -69,7 +69,7 @@ class LabelReport:
                     (),
                     status[asset],
                     self._error(asset),
-                    notes=self._said(asset, doubtful) if mesh else (),
+                    notes=self._notes_on(asset, doubtful) if mesh else (),
                 )
                 for asset, mesh in zip(order, read_again(project.readers(order)), strict=True)
             ],
@@ -105,7 +105,7 @@ class LabelReport:
         lines = [*problems[:_PROBLEMS], *([f"and {more:,} more"] if more > 0 else [])]
         return "\n".join(lines) or None
 
-    def _said(self, asset: str, doubtful: Mapping[str, int]) -> tuple[str, ...]:
+    def _notes_on(self, asset: str, doubtful: Mapping[str, int]) -> tuple[str, ...]:
         from meshforge.cli.label.given import told
         from meshforge.words import counted
 

@@ -44,7 +44,7 @@ class VlmOptions:
             raise UsageError(complaint(error)) from error
 
     @property
-    def given(self) -> str | None:
+    def first_option(self) -> str | None:
         """The first option that was given, as it is typed."""
         names = (name for name, value in asdict(self).items() if value is not None)
         return next((f"--{name.replace('_', '-')}" for name in names), None)
@@ -140,10 +140,10 @@ def _close(project: Project, found: VlmLabelled, *, json: bool) -> None:
     pages = project.layout.vlm / "pages"
     if json:
         ending = {"ended": found.ended, "unasked": list(found.unasked), "blind": found.blind}
-        print_json({"bill": asdict(found.bill)} | ending, compact=True)
+        print_json({"bill": asdict(found.usage)} | ending, compact=True)
         return
-    typer.echo(_bill(found.bill))
-    if any(found.open.values()) or found.bill.answered + found.bill.cached:
+    typer.echo(_bill(found.usage))
+    if any(found.open.values()) or found.usage.answered + found.usage.cached:
         typer.echo(f"what was sent and what came back: {pages}")
     if found.blind:
         remark("The model took a red picture for another one: it may not see pictures at all.")

@@ -55,7 +55,7 @@ class NamedGltf(GltfFormat):
     engine: ClassVar[EngineNames]
     could: ClassVar[frozenset[What]] = COULD_NAMED
 
-    def takes_back(self, asset: Asset) -> bool:
+    def can_write_back(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
 
     def create(self, asset: Asset, name: str) -> Output:

@@ -59,7 +59,7 @@ def parse_ply(data: bytes, where: str) -> PlyText:
         try:
             rows.append((_binary if header.order else _ascii)(data, at, element, header.order))
         except _OddRowError as odd:
-            raise odd.told(element, data, where) from None
+            raise odd.describe(element, data, where) from None
         except (ValueError, IndexError):
             raise _cut_short(element, where) from None
         at = int(rows[-1].spans[-1, 1]) if element.rows else at
@@ -75,7 +75,7 @@ class _OddRowError(Exception):
         super().__init__(row)
         self.row, self.at, self.text = row, at, text
 
-    def told(self, element: Element, data: bytes, where: str) -> AssetError:
+    def describe(self, element: Element, data: bytes, where: str) -> AssetError:
         if not self.text.strip():
             return _cut_short(element, where)
         place = f"{where}:{data.count(NEWLINE, 0, self.at) + 1}"

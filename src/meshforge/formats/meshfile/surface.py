@@ -89,7 +89,7 @@ class Soup:
     faces: Ints
     group: Ints
     names: tuple[str | None, ...]
-    spoken: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
+    mentions: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
     marked: bool = False
 
 

@@ -46,7 +46,7 @@ def parse_nodes(text: str, where: str) -> list[Node]:
     if not text.startswith("#VRML V2.0"):
         raise AssetError("this is no VRML 2.0 file", where=where, remedy=_OTHER)
     parser = _Parser([t for t in _TOKEN.findall(text) if t[0] != "#"], where)
-    return list(parser.top())
+    return list(parser.parse_all())
 
 
 class _Parser:
@@ -57,12 +57,12 @@ class _Parser:
         self.depth = 0
         self.known: dict[str, Node] = {}
 
-    def top(self) -> Iterator[Node]:
+    def parse_all(self) -> Iterator[Node]:
         while self.at < len(self.tokens):
             if self.peek() == "ROUTE":
                 self.at += 4
             else:
-                yield self.node()
+                yield self.parse_node()
 
     def peek(self) -> str:
         if self.at >= len(self.tokens):
@@ -74,12 +74,12 @@ class _Parser:
         self.at += 1
         return token
 
-    def node(self) -> Node:
+    def parse_node(self) -> Node:
         word, name = self.take(), None
         if word in ("PROTO", "EXTERNPROTO"):
             raise AssetError("prototypes are not read", where=self.where, remedy=_OTHER)
         if word == "USE":
-            return self.used(self.take())
+            return self.look_up(self.take())
         if word == "DEF":
             name, word = self.take(), self.take()
         if self.depth > _DEPTH:
@@ -92,36 +92,36 @@ class _Parser:
         self.depth += 1
         while self.peek() != "}":
             key = self.take()
-            made.fields[key] = self.value()
+            made.fields[key] = self.parse_value()
         self.at += 1
         self.depth -= 1
         if name:
             self.known[name] = made
         return made
 
-    def used(self, name: str) -> Node:
+    def look_up(self, name: str) -> Node:
         if name not in self.known:
             raise AssetError(f"USE {name}: no node of this name comes ahead of it", where=self.where, remedy=_OTHER)
         return self.known[name]
 
-    def value(self) -> list[Any]:
+    def parse_value(self) -> list[Any]:
         if self.peek() == "[":
             self.at += 1
             out = []
             while self.peek() != "]":
-                out.append(self.item())
+                out.append(self.parse_item())
             self.at += 1
             return out
-        out = [self.item()]
+        out = [self.parse_item()]
         while isinstance(out[-1], float) and _NUMBER.fullmatch(self.peek()):
-            out.append(self.item())
+            out.append(self.parse_item())
         return out
 
-    def item(self) -> Any:
+    def parse_item(self) -> Any:
         token = self.peek()
         if _NUMBER.fullmatch(token):
             self.at += 1
             return float(int(token, 16)) if token[:2] in ("0x", "0X") else float(token)
         if token in ("TRUE", "FALSE", "NULL", "IS") or token[0] == '"':
             return self.take()
-        return self.node()
+        return self.parse_node()

@@ -33,7 +33,7 @@ class MjcfFormat(Format):
     could: ClassVar[frozenset[What]] = COULD
     instead: ClassVar[Mapping[What, str]] = {What.OPAQUE: "written as surfaces that do not collide"}
 
-    def sniffs(self, head: bytes) -> bool:
+    def matches_head(self, head: bytes) -> bool:
         root = _ROOT.match(head.decode("utf-8", "replace").replace("\0", ""))
         return root is None or root[1].lower() == "mujoco"
 

@@ -48,7 +48,7 @@ def families(asset: Asset, engine: EngineNames, stem: str) -> Families:
 
     Raises AssetError: there is nothing that collides.
     """
-    return _Namer(asset, engine, stem).families()
+    return _Namer(asset, engine, stem).name_all()
 
 
 class _Namer:
@@ -60,13 +60,13 @@ class _Namer:
         self.lost = list(refused)
         self.bare: list[str] = []
 
-    def families(self) -> Families:
+    def name_all(self) -> Families:
         asset, engine = self.asset, self.engine
         collides = [piece for piece in asset.opaque if _has_triangles(piece)] if engine.takes_opaque else []
         if not asset.geoms and not collides:
             raise AssetError("there is no hull to write", where=str(asset.path))
-        names = [self._free(engine.body, self._wanted(body)) for body in asset.bodies]
-        found = [self._family(*pair) for pair in zip(asset.bodies, names, strict=True)]
+        names = [self._claim_name(engine.body, self._base_name(body)) for body in asset.bodies]
+        found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]
         notes = list(engine.notes(asset.geoms))
         if self.bare:
             notes.append(
@@ -75,10 +75,10 @@ class _Namer:
         kept = tuple(one for one in found if one.surfaces or one.hulls or one.opaque)
         return Families(kept, tuple(self.lost), tuple(notes))
 
-    def _wanted(self, body: Body) -> str:
+    def _base_name(self, body: Body) -> str:
         return self.stem if len(self.asset.bodies) == 1 and body.name == _NAMELESS else body.name
 
-    def _family(self, body: Body, name: str) -> Family:
+    def _name_body(self, body: Body, name: str) -> Family:
         engine = self.engine
         geoms = [geom for geom in self.asset.geoms if geom.body == body.name]
         opaque = [piece for piece in self.asset.opaque if piece.body == body.name and _has_triangles(piece)]
@@ -92,15 +92,15 @@ class _Namer:
             instead = "written to be seen alone" if bare else None
             self.lost.append(Loss(What.OPAQUE, tuple(piece.name for piece in opaque), why, instead))
             opaque = []
-        hulls = {self._free(partial(engine.hull, name, geom, k), self._own(geom)): geom for k, geom in enumerate(geoms)}
-        pieces = {self._free(engine.opaque, self._own(piece)): piece for piece in opaque}
+        hulls = {self._claim_name(partial(engine.hull, name, geom, k), self._own_name_of(geom)): geom for k, geom in enumerate(geoms)}
+        pieces = {self._claim_name(engine.opaque, self._own_name_of(piece)): piece for piece in opaque}
         return Family(body, name, surfaces, hulls, pieces)
 
-    def _own(self, thing: Geom | Opaque) -> str:
+    def _own_name_of(self, thing: Geom | Opaque) -> str:
         """The name without the body, where there is only one."""
         return thing.name.removeprefix(f"{thing.body}/") if len(self.asset.bodies) == 1 else thing.name
 
-    def _free(self, named: Callable[[str], str], wanted: str) -> str:
+    def _claim_name(self, named: Callable[[str], str], wanted: str) -> str:
         """What `named` makes of a name, or of it with a number, that no other has; Unreal takes no notice of case."""
         name, number = named(wanted), 2
         while name.lower() in self.taken:
@@ -115,7 +115,7 @@ def _has_triangles(piece: Opaque) -> bool:
 
 def _together(geoms: Sequence[Geom], opaque: Sequence[Opaque]) -> tuple[Surface, ...]:
     """What collides, as one surface."""
-    hulls = [geom.shape.tessellated() for geom in geoms]
+    hulls = [geom.shape.tessellate() for geom in geoms]
     parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
     parts += [piece.surface for piece in opaque if piece.surface is not None]
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])

@@ -45,5 +45,5 @@ class UnityNames(EngineNames):
 
 
 def _is_large(geom: Geom) -> bool:
-    hull = geom.shape.tessellated()
+    hull = geom.shape.tessellate()
     return len(hull.vertices) > _MOST or len(polygon_sizes(hull)) > _MOST

@@ -77,7 +77,7 @@ class Folder(Format):
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
         if not isinstance(document, FolderDocument):
-            raise self._cannot_create(asset)
+            raise self._creation_error(asset)
         own = {name for member in document.members for name in member.names.values()}
         kept = {g.name for g in asset.geoms if g.parent is None} & own | {o.name for o in asset.opaque}
         tree = Tree(self.format_of)
@@ -89,7 +89,7 @@ class Folder(Format):
         parts, notes = as_parts(g for g in asset.geoms if g.name not in kept)
         for part in parts:
             tree.add(part, suffix)
-        output = tree.output({g.name for g in asset.geoms})
+        output = tree.to_output({g.name for g in asset.geoms})
         return replace(output, notes=(*notes, *renaming(output.names)))
 
     def _usual_suffix(self, document: FolderDocument) -> str:
@@ -101,7 +101,7 @@ class Folder(Format):
         tree = Tree(self.format_of)
         for part in all_parts(asset):
             tree.add(part, ".obj")
-        return tree.output({g.name for g in asset.geoms})
+        return tree.to_output({g.name for g in asset.geoms})
 
 
 def _renamed(piece: Kept, name: str) -> Kept:

@@ -50,19 +50,19 @@ class Tree:
             self.hulls[member.file] = member.names
         elif stay and member.document.groups == 1 and not member.asset.opaque:
             for piece in stay:  # a file each, since a piece alone would be called after the file
-                self._edit(member, [piece], self._free(member.names[piece], Path(member.file).suffix))
+                self._edit_member(member, [piece], self._find_free_name(member.names[piece], Path(member.file).suffix))
         elif stay or member.asset.visuals:  # a file of something seen is not lost with its hulls: its writer refuses
-            self._edit(member, stay, member.file)
+            self._edit_member(member, stay, member.file)
         if stay:
             self.beside |= companions(member.asset.path)
 
     def add(self, part: Part, suffix: str) -> None:
         """Make the file of a new hull."""
-        file = self._free(part.name, suffix)
-        self._put(file, self.format_of(Path(file)).made([part]))
+        file = self._find_free_name(part.name, suffix)
+        self._put_file(file, self.format_of(Path(file)).format_parts([part]))
         self.hulls[file] = dict.fromkeys(self.documents[file].names, part.name)
 
-    def output(self, hulls: Collection[str]) -> Output:
+    def to_output(self, hulls: Collection[str]) -> Output:
         """All files, and which of the hulls will read back under another name."""
         files = sorted(self.documents, key=natural)
         back = member_names(files, [self.documents[file] for file in files])
@@ -75,18 +75,18 @@ class Tree:
         copies = {**self.beside, **self.copies}
         return Output(b"", self.made, copies, names=names)
 
-    def _edit(self, member: Member, stay: list[str], file: str) -> None:
+    def _edit_member(self, member: Member, stay: list[str], file: str) -> None:
         geoms = [geom for geom in member.asset.geoms if geom.name in stay]
         written = self.format_of(Path(file)).write(member.asset.with_geoms(geoms), file)
-        self._put(file, written.main)
+        self._put_file(file, written.main)
         now = {piece: written.names.get(piece, piece) for piece in stay}
         self.hulls[file] = {now[piece]: member.names[piece] for piece in stay}
 
-    def _put(self, file: str, data: bytes) -> None:
+    def _put_file(self, file: str, data: bytes) -> None:
         self.made[file] = data
-        self.documents[file] = self.format_of(Path(file)).taken_apart(data, Path(file))[0]
+        self.documents[file] = self.format_of(Path(file)).parse_document(data, Path(file))[0]
 
-    def _free(self, name: str, suffix: str) -> str:
+    def _find_free_name(self, name: str, suffix: str) -> str:
         """A file name for a hull that no other file has, in any case of letters."""
         safe = re.sub(r"[^\w.#~@ +-]+", "_", name)[:_LONGEST].strip(". ") or "hull"
         taken = {file.lower() for file in self.documents}

@@ -29,7 +29,7 @@ def marked_soup(text: ObjText, soup: Soup) -> Soup:
     if not names:
         return soup
     hull_of = np.array([names.index(name) if name is not None else -1 for name in marks], dtype=np.int64)
-    return Soup(soup.vertices, soup.faces, hull_of[soup.group], tuple(names), soup.spoken, marked=True)
+    return Soup(soup.vertices, soup.faces, hull_of[soup.group], tuple(names), soup.mentions, marked=True)
 
 
 def marked_pieces(soup: Soup) -> list[Piece]:

@@ -36,25 +36,25 @@ class Obj(PlainFormat):
     could = frozenset({What.MATERIALS, What.TEXTURES, What.TEXTURE_COORDINATES, What.VERTEX_COLORS, What.COMMENTS})
     suffixes = (".obj",)
 
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         text = parse_obj(data, str(path))
         return marked_soup(text, text.soup(str(path)))
 
-    def meant(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
-        shapes, _ = super().meant(document, found)
+    def interpret_hulls(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
+        shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
         meant = {name: unreal_shape(name, hull) for name, hull in shapes.items()}
         notes = (HOW, *(note for _, note in meant.values() if note))
         return {name: shape for name, (shape, _) in meant.items()}, notes
 
-    def called(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        return next_names(parse_obj(document.data, ""), geoms) if document.marked else super().called(document, geoms)
+    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+        return next_names(parse_obj(document.data, ""), geoms) if document.marked else super().name_hulls(document, geoms)
 
-    def edited(self, edit: Edit) -> bytes:
+    def apply_edit(self, edit: Edit) -> bytes:
         return edited_obj(parse_obj(edit.document.data, str(edit.path)), edit)
 
-    def made(self, parts: Sequence[Part]) -> bytes:
+    def format_parts(self, parts: Sequence[Part]) -> bytes:
         return parts_text([replace(part, name="_" * bool(unreal_kind(part.name)) + part.name) for part in parts])
 
     def features(self, asset: Asset) -> Iterator[Feature]:

@@ -22,7 +22,7 @@ _FREE_FORM = (b"curv", b"curv2", b"surf", b"bzp", b"bsp", b"cdc", b"cdp")
 
 def edited_obj(text: ObjText, edit: Edit) -> bytes:
     """The bytes of the edited file. Raises AssetError: free-form surfaces, which also use the vertices."""
-    return _Editor(text, edit).written()
+    return _Editor(text, edit).to_bytes()
 
 
 class _Editor:
@@ -36,11 +36,11 @@ class _Editor:
         self.bare = {  # statements that name vertices and make no triangle, which stay
             k for k, word in enumerate(self.words) if word in _OTHERS or (word in _FACES and k not in self.stays)
         }
-        self.wanted = self._wanted()
+        self.wanted = self._target_groups()
         self.end = line_end(text.statements)
         self._number_vertices()
 
-    def written(self) -> bytes:
+    def to_bytes(self) -> bytes:
         body = b"".join(self._lines())
         if body and not body.endswith((b"\n", b"\r")):
             body += self.end
@@ -51,7 +51,7 @@ class _Editor:
         words = (b"o", b"g") if self.edit.document.marked else (b"o",)
         return body + parts_text(self.edit.parts, int(self.kept.sum()), self.end, colors, words)
 
-    def _wanted(self) -> dict[int, Group]:
+    def _target_groups(self) -> dict[int, Group]:
         """The group that each face statement which stays should be in."""
         document, text = self.edit.document, self.text
         touched = set(text.face_group[~self.edit.stays].tolist())
@@ -89,9 +89,9 @@ class _Editor:
                 if self.stays[k]:
                     yield from self._group_lines(force, self.wanted[k])
                     force = self.wanted[k]
-                    yield self._renumbered(k)
+                    yield self._renumber(k)
             elif k in self.bare:
-                yield self._renumbered(k)
+                yield self._renumber(k)
             elif k not in self.gone_at:
                 yield statement
 
@@ -122,7 +122,7 @@ class _Editor:
         if force[1] != wanted[1]:
             yield named(b"g", wanted[1]) + self.end
 
-    def _renumbered(self, k: int) -> bytes:
+    def _renumber(self, k: int) -> bytes:
         """A statement of an element with the new numbers of its vertices; relative numbers stay relative."""
         if not self.gone_at:
             return self.text.statements[k]

@@ -29,8 +29,8 @@ class ObjForUnreal(Obj):
     holds = _UNREAL.holds - {What.COLORS}
     instead: ClassVar[Mapping[What, str]] = {**instead_of(_UNREAL), What.BODIES: "written as groups"}
 
-    def takes_back(self, asset: Asset) -> bool:
-        return isinstance(asset.document, PlainDocument) and asset.document.marked and super().takes_back(asset)
+    def can_write_back(self, asset: Asset) -> bool:
+        return isinstance(asset.document, PlainDocument) and asset.document.marked and super().can_write_back(asset)
 
     def create(self, asset: Asset, name: str) -> Output:
         found = families(asset, _UNREAL, PurePosixPath(name).stem)
@@ -38,7 +38,7 @@ class ObjForUnreal(Obj):
         hulls = set(found.names.values())
         whose = [part.name if part.name in hulls else SEEN for part in parts for _ in part.surface.faces]
         data = parts_text(parts, words=(b"o", b"g"))
-        read = self._checked(data, Path(name), Wanted(whose, corners_of(parts)), hulls, asset.path)
+        read = self._check_output(data, Path(name), Wanted(whose, corners_of(parts)), hulls, asset.path)
         names = {name: read.get(now, now) for name, now in found.names.items() if read.get(now, now) != name}
         return Output(data, names=names, lost=found.lost, notes=(_SCALE, *found.notes))
 
@@ -46,5 +46,5 @@ class ObjForUnreal(Obj):
 def _parts(family: Family) -> Sequence[Part]:
     """What is seen of a body, and its hulls."""
     seen = [Part(family.name, surface) for surface in family.surfaces]
-    hulls = {name: geom.shape.tessellated() for name, geom in family.hulls.items()}
+    hulls = {name: geom.shape.tessellate() for name, geom in family.hulls.items()}
     return [*seen, *(Part(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]

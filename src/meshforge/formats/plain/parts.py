@@ -115,7 +115,7 @@ def as_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
     """Geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
     parts, round_ones = [], Counter[str]()
     for geom in geoms:
-        shape = geom.shape.tessellated()
+        shape = geom.shape.tessellate()
         parts.append(Part(geom.name, Surface(shape.vertices, shape.faces)))
         if not isinstance(geom.shape, Polytope | Box) and geom.shape.kind not in native:
             round_ones[geom.shape.kind] += 1

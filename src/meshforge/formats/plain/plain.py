@@ -78,21 +78,21 @@ class PlainFormat(Format):
     instead: ClassVar[Mapping[What, str]] = AS_HULLS
 
     @abstractmethod
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         """The triangles in the bytes of a file. Raises AssetError."""
 
     @abstractmethod
-    def edited(self, edit: Edit) -> bytes:
+    def apply_edit(self, edit: Edit) -> bytes:
         """The bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
 
     @abstractmethod
-    def made(self, parts: Sequence[Part]) -> bytes:
+    def format_parts(self, parts: Sequence[Part]) -> bytes:
         """The bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        document, found, soup = self._read(contents(path), path)
+        document, found, soup = self._parse(contents(path), path)
         named = [(name, piece, _mentions(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
-        shapes, notes = self.meant(document, found)
+        shapes, notes = self.interpret_hulls(document, found)
         return Asset(
             path=path,
             format=self.name,
@@ -109,21 +109,21 @@ class PlainFormat(Format):
             notes=notes,
         )
 
-    def meant(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
+    def interpret_hulls(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
         """The shapes of the hulls of a file by their names, and what a user should know about how they were read."""
         return {name: p.shape for name, p in zip(document.names, found, strict=True) if p.shape}, ()
 
-    def called(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
         """The names that made hulls get in a file."""
         return [geom.name for geom in geoms]
 
-    def taken_apart(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
+    def parse_document(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
         """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
-        document, found, _ = self._read(data, path)
+        document, found, _ = self._parse(data, path)
         return document, found
 
-    def _read(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
-        soup = self.soup(data, path)
+    def _parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
+        soup = self.parse_soup(data, path)
         try:
             found = (
                 marked_pieces(soup)
@@ -142,7 +142,7 @@ class PlainFormat(Format):
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
         if not isinstance(document, PlainDocument):
-            raise self._cannot_create(asset)
+            raise self._creation_error(asset)
         opaque = {piece.name for piece in asset.opaque}
         kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
         gone = frozenset(n for n in document.names if n not in kept and n not in opaque)
@@ -151,21 +151,21 @@ class PlainFormat(Format):
         if not gone and not new:
             return Output(document.data, copies=beside)
         parts, notes = as_parts(new, NATIVE if document.marked else ())
-        made = dict(zip((geom.name for geom in new), self.called(document, new), strict=True))
+        made = dict(zip((geom.name for geom in new), self.name_hulls(document, new), strict=True))
         parts = tuple(replace(part, name=made[part.name]) for part in parts)
-        data, read = self._settled(Edit(document, asset.path, gone, parts), {*kept, *made.values()})
+        data, read = self._edit_file(Edit(document, asset.path, gone, parts), {*kept, *made.values()})
         called = {**{name: name for name in kept}, **made}
         names = {name: read.get(now, now) for name, now in called.items() if read.get(now, now) != name}
         return Output(data, copies=beside, notes=(*notes, *renaming(names)), names=names)
 
     def create(self, asset: Asset, name: str) -> Output:
         parts = all_parts(asset)
-        data = self.made(parts)
+        data = self.format_parts(parts)
         hulls = {geom.name for geom in asset.geoms}
         wanted = Wanted(owners(parts), corners_of(parts))
-        return Output(data, names=self._checked(data, Path(name), wanted, hulls, asset.path))
+        return Output(data, names=self._check_output(data, Path(name), wanted, hulls, asset.path))
 
-    def _settled(self, edit: Edit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
+    def _edit_file(self, edit: Edit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
         """The edited file, and the names that read back otherwise; with explicit names where that mends them."""
         if not edit.owners:
             raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
@@ -175,30 +175,30 @@ class PlainFormat(Format):
                 where=str(edit.path),
                 remedy="Leave one hull: without any, what is seen would be taken for collision.",
             )
-        data = self.edited(edit)
-        wanted = self._wanted(edit)
-        names = self._checked(data, edit.path, wanted, hulls, edit.path)
+        data = self.apply_edit(edit)
+        wanted = self._target_of(edit)
+        names = self._check_output(data, edit.path, wanted, hulls, edit.path)
         if names:
-            data = self.edited(replace(edit, explicit=True))
-            names = self._checked(data, edit.path, wanted, hulls, edit.path)
+            data = self.apply_edit(replace(edit, explicit=True))
+            names = self._check_output(data, edit.path, wanted, hulls, edit.path)
         return data, names
 
-    def _wanted(self, edit: Edit) -> Wanted:
+    def _target_of(self, edit: Edit) -> Wanted:
         """What the edited file should hold."""
-        soup = self.soup(edit.document.data, edit.path)
+        soup = self.parse_soup(edit.document.data, edit.path)
         kept = soup.vertices[soup.faces[edit.stays]]
         return Wanted(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
 
-    def _checked(self, data: bytes, path: Path, wanted: Wanted, hulls: Collection[str], where: Path) -> dict[str, str]:
+    def _check_output(self, data: bytes, path: Path, wanted: Wanted, hulls: Collection[str], where: Path) -> dict[str, str]:
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
-        document, found, soup = self._read(data, path)
+        document, found, soup = self._parse(data, path)
         return read_back(document, found, soup, wanted, hulls, str(where))
 
 
 def _mentions(soup: Soup, piece: Piece) -> Mentions:
     """What else the file says of the triangles of a piece."""
     return without_repeats(
-        (kind, names[k]) for kind, owner, names in soup.spoken for k in np.unique(owner[piece.face_indices]).tolist()
+        (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
     )
 
 

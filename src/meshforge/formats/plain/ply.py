@@ -41,18 +41,18 @@ class Ply(PlainFormat):
     could = frozenset({What.VERTEX_COLORS, What.TEXTURE_COORDINATES, What.COMMENTS})
     suffixes = (".ply",)
 
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         return joined(parse_ply(data, str(path)).surfaces(str(path)))
 
-    def edited(self, edit: Edit) -> bytes:
-        return _Editor(parse_ply(edit.document.data, str(edit.path)), edit).written()
+    def apply_edit(self, edit: Edit) -> bytes:
+        return _Editor(parse_ply(edit.document.data, str(edit.path)), edit).to_bytes()
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             colors = len(_COLOR.findall(asset.document.data[:_HEAD].partition(b"end_header")[0]))
             yield Feature(What.VERTEX_COLORS, unnamed=colors)
 
-    def made(self, parts: Sequence[Part]) -> bytes:
+    def format_parts(self, parts: Sequence[Part]) -> bytes:
         vertices, faces = _stacked(parts, 0)
         rows = np.zeros(len(faces), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
         rows["count"], rows["corners"] = 3, faces
@@ -85,23 +85,23 @@ class _Editor:
         self.kept = np.ones(len(text.vertices), dtype=bool)
         self.kept[np.unique(text.faces[~edit.stays])] = False
         self.kept[np.unique(text.faces[edit.stays])] = True
-        self.kept[self._of_faces_without_triangles(first["face"])] = True
+        self.kept[self._corners_of_bare_faces(first["face"])] = True
         self.number = np.cumsum(self.kept) - 1
         self.gone = set(text.face_at[~edit.stays].tolist())
         self.vertices, self.faces = _stacked(edit.parts, int(self.kept.sum()))
         self._refuse_misfits()
 
-    def _of_faces_without_triangles(self, faces: Rows) -> list[int]:
+    def _corners_of_bare_faces(self, faces: Rows) -> list[int]:
         """The vertices of faces of two corners, which stay."""
         bare = set(range(faces.element.rows)).difference(self.text.face_at.tolist())
         lists = [faces.values[key] for key in INDICES if key in faces.values]
         return [int(corner) for read in lists for k in bare for corner in read[k]]
 
-    def written(self) -> bytes:
+    def to_bytes(self) -> bytes:
         head = self.edit.document.data[: self.text.header.size]
         body = b""
         for rows in self.text.rows:
-            written = list(self._rows(rows))
+            written = list(self._edit_rows(rows))
             count = b"element %s %d" % (rows.element.name.encode(), len(written))
             head = re.sub(rb"(?m)^element\s+%s\s+\d+" % rows.element.name.encode(), count, head, count=1)
             body += b"".join(written)
@@ -117,7 +117,7 @@ class _Editor:
                     problem = f"a made hull needs {wrong[0]:.6g} in the property {kind.name}, whose type cannot hold it"
                     raise AssetError(problem, where=str(self.edit.path), remedy="Convert it to OBJ first.")
 
-    def _rows(self, rows: Rows) -> Iterator[bytes]:
+    def _edit_rows(self, rows: Rows) -> Iterator[bytes]:
         data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
         cut = [data[start:stop] for start, stop in rows.spans.tolist()]
         if rows.element.name == "vertex":

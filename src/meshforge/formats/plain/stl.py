@@ -24,7 +24,7 @@ class Stl(PlainFormat):
     title = "STL"
     suffixes = (".stl",)
 
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         text = parse_stl(data, str(path))
         text.surfaces(str(path))  # raises where there is nothing to read
         corners = text.corners.reshape(-1, 3)
@@ -32,7 +32,7 @@ class Stl(PlainFormat):
         names = tuple((name or None) if several else None for name in text.solids)
         return Soup(corners, np.arange(len(corners)).reshape(-1, 3), text.solid, names)
 
-    def edited(self, edit: Edit) -> bytes:
+    def apply_edit(self, edit: Edit) -> bytes:
         data = edit.document.data
         text = parse_stl(data, str(edit.path))
         if text.binary:
@@ -40,7 +40,7 @@ class Stl(PlainFormat):
             return _binary(data[:80], [kept, _records(edit.parts)])
         return _ascii(data, text, edit)
 
-    def made(self, parts: Sequence[Part]) -> bytes:
+    def format_parts(self, parts: Sequence[Part]) -> bytes:
         return _binary(_TITLE, [_records(parts)])
 
 

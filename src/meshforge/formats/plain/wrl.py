@@ -22,13 +22,13 @@ class Wrl(PlainFormat):
     suffixes = (".wrl",)
     writable = False
 
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         return joined(parse_vrml(data, str(path)))
 
-    def edited(self, edit: Edit) -> bytes:
+    def apply_edit(self, edit: Edit) -> bytes:
         raise _read_only(str(edit.path))
 
-    def made(self, parts: Sequence[Part]) -> bytes:
+    def format_parts(self, parts: Sequence[Part]) -> bytes:
         raise _read_only(None)
 
     def create(self, asset: Asset, name: str) -> Output:

@@ -34,7 +34,7 @@ def create_urdf(asset: Asset, name: str) -> Output:
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, opaque pieces meshes as they are.
     """
-    return _Creator(asset, Path(name).stem).output()
+    return _Creator(asset, Path(name).stem).build_output()
 
 
 class _Creator:
@@ -49,32 +49,32 @@ class _Creator:
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
         bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
         self.chain: Chain = chain_of(asset, bare, _RULES)
-        self.slots = self._slots()
-        self.shown = {link: self._visuals(link) for link in self.chain.frames}
+        self.slots = self._build_slots()
+        self.shown = {link: self._build_visuals(link) for link in self.chain.frames}
 
-    def output(self) -> Output:
+    def build_output(self) -> Output:
         names = settle([slot for own in self.slots.values() for slot in own])
         head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escaped(self.stem)]
-        links = [line for link in self.chain.frames for line in self._link(link)]
+        links = [line for link in self.chain.frames for line in self._link_lines(link)]
         joints = [line for joint in self.chain.joints for line in joint_element(joint)]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
         if self.visuals.refused:
             refused = tuple(dict.fromkeys(self.visuals.refused))
             self.lost.append(Loss(What.VISUALS, refused, "their files cannot be read"))
         lost = (*self.chain.lost, *self.lost)
-        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._notes(), names, lost)
+        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
-    def _slots(self) -> dict[str, list[Slot]]:
+    def _build_slots(self) -> dict[str, list[Slot]]:
         slots: dict[str, list[Slot]] = {link: [] for link in self.chain.frames}
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.slot(geom, self.chain.frames[link], None, _LEAD))
+            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
         for piece in self.asset.opaque:
             link = self.chain.of_body[piece.body]
-            slots[link] += self._opaque(piece, self.chain.frames[link])
+            slots[link] += self._build_opaque(piece, self.chain.frames[link])
         return slots
 
-    def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
         """The element of an opaque piece; none where it has no surface, or a flat one, which engines refuse."""
         surface = piece.surface
         if surface is None or piece.plane is not None:
@@ -86,32 +86,32 @@ class _Creator:
         tag = mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
         return [Slot(piece.body, (piece.name,), text=fresh(Pose.identity(), tag, _LEAD, b"\n"))]
 
-    def _visuals(self, link: str) -> list[bytes]:
+    def _build_visuals(self, link: str) -> list[bytes]:
         lines = []
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:
-                shown = self.visuals.shown(body, visual, self.chain.frames[link])
+                shown = self.visuals.add_visual(body, visual, self.chain.frames[link])
                 if shown is not None:
-                    lines += visual_element(shown, self._mesh_of(body, shown.what))
+                    lines += visual_element(shown, self._add_mesh(body, shown.what))
         return lines
 
-    def _mesh_of(self, body: str, shape: Shape | str) -> str | None:
+    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
         """The file of a shown shape that URDF lacks."""
         if isinstance(shape, str | Box | Cylinder | Sphere):
             return None
         return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
 
-    def _link(self, link: str) -> list[bytes]:
+    def _link_lines(self, link: str) -> list[bytes]:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
         inertial = self.inertials.get(body) if body else LIGHT if link in self.chain.light else None
         frame = self.chain.frames[link] if body else Pose.identity()
         inside = inertial_element(inertial, frame) if inertial else []
-        inside += [*self.shown[link], *(_LEAD + slot.written(b"") for slot in self.slots[link])]
+        inside += [*self.shown[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
         if not inside:
             return [b'  <link name="%s"/>' % escaped(link)]
         return [b'  <link name="%s">' % escaped(link), *inside, b"  </link>"]
 
-    def _notes(self) -> tuple[str, ...]:
+    def _collect_notes(self) -> tuple[str, ...]:
         """What engines make of what is not told in the file."""
         notes = list(self.chain.notes)
         opaque = [

@@ -31,24 +31,24 @@ class Maker:
     notes: list[str] = field(default_factory=list)
     _pieces: dict[str, list[Piece]] = field(default_factory=dict)
 
-    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
-        shape = geom.shape.moved(root_t_link.inverse())
+        shape = geom.shape.move(root_t_link.inverse())
         if isinstance(shape, Box | Cylinder | Sphere):
             pose, tag = shape.pose, native_tag(shape)
             edits = reshaped(self.data, template, pose, tag) if template else ()
         else:
-            pose, reference = Pose.identity(), self._file(geom, shape, template)
+            pose, reference = Pose.identity(), self._add_mesh(geom, shape, template)
             tag = mesh_tag(reference)
             edits = remeshed(self.data, template, pose, reference) if template else ()
         if template:
             return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         return Slot(geom.body, (geom.name,), text=fresh(pose, tag, lead, self.line_end))
 
-    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         mesh, resolver = geometry_of(element), self.files.resolver
         assert mesh is not None and resolver is not None and self.meshes is not None  # only meshes have several pieces
         reference = mesh.attributes["filename"]
@@ -60,7 +60,7 @@ class Maker:
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
         return refiled(self.data, element, made)
 
-    def _file(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+    def _add_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
         """The reference to the mesh file of a hull, which is made."""
         if not isinstance(shape, Polytope):
             self.notes.append(

@@ -36,7 +36,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     plan = Plan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
     names = settle(plan.slots)
     data = spliced(text.data, plan.splices)
-    main = document.source if data == text.data else text.encoded(data)
+    main = document.source if data == text.data else text.encode(data)
     copies, far = _copies(robot_of(data, str(asset.path)), document.resolver)
     return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 

@@ -59,7 +59,7 @@ _LIGHTS = "Light"
 def features_of(asset: Asset) -> list[Feature]:
     """The features of a USD file that its asset does not tell."""
     with usd(str(asset.path)):
-        return list(_features(Scene.opened(asset.path)))
+        return list(_features(Scene.open(asset.path)))
 
 
 def _features(scene: Scene) -> Iterator[Feature]:

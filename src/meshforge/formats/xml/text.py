@@ -25,19 +25,19 @@ class Text:
         """The text of authored bytes; what is no valid text in its own encoding is taken byte by byte."""
         for mark, encoding in _MARKS:
             if raw.startswith(mark):
-                return Text._decoded(raw[len(mark) :], encoding, mark)
+                return Text._decode(raw[len(mark) :], encoding, mark)
         declared = _DECLARED.match(raw[:1000])
         name = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
-        return Text._decoded(raw, "utf-8" if name.startswith(("utf-16", "utf-32", "ucs")) else name, b"")
+        return Text._decode(raw, "utf-8" if name.startswith(("utf-16", "utf-32", "ucs")) else name, b"")
 
     @staticmethod
-    def _decoded(raw: bytes, encoding: str, mark: bytes) -> Text:
+    def _decode(raw: bytes, encoding: str, mark: bytes) -> Text:
         try:
             return Text(raw.decode(encoding).encode(), encoding, mark)
         except (LookupError, UnicodeError):
             return Text(raw.decode("latin-1").encode(), "latin-1", mark)
 
-    def encoded(self, data: bytes) -> bytes:
+    def encode(self, data: bytes) -> bytes:
         """Edited UTF-8 in the authored encoding, with its byte order mark."""
         return self.mark + data.decode().encode(self.encoding, "xmlcharrefreplace")
 

@@ -64,7 +64,7 @@ class _Reader:
     def __init__(self, data: bytes, where: str) -> None:
         self.data, self.where = data, where
         self.open: list[Element] = []
-        self.said: list[list[str]] = []
+        self.texts: list[list[str]] = []
         self.done: Element | None = None
         self.parser = expat.ParserCreate("utf-8")
         self.parser.StartElementHandler = self._start
@@ -91,14 +91,14 @@ class _Reader:
         if self.open:
             self.open[-1].children.append(element)
         self.open.append(element)
-        self.said.append([])
+        self.texts.append([])
 
     def _characters(self, text: str) -> None:
-        self.said[-1].append(text)
+        self.texts[-1].append(text)
 
     def _end(self, tag: str) -> None:
         element = self.open.pop()
-        element.text = "".join(self.said.pop()).strip()
+        element.text = "".join(self.texts.pop()).strip()
         empty = self.data[element.inside - 2 : element.inside] == b"/>"
         closing = element.inside - 1 if empty else self.parser.CurrentByteIndex
         element.end = self.data.index(b">", closing) + 1

@@ -63,7 +63,7 @@ def _sliced(hull: Polytope, rise: float) -> Floats | None:
     """The outline (n, 3) of a hull between two levels, pressed flat; None where it does not reach there."""
     low, high = hull.aabb.min.copy(), hull.aabb.max.copy()
     low[2], high[2] = np.multiply(_SLICE, rise)
-    part = common(hull, Box.filling(Aabb(low, high)))
+    part = common(hull, Box.of_bounds(Aabb(low, high)))
     return part.vertices * [1, 1, 0] if part else None
 
 

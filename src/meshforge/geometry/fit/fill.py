@@ -27,7 +27,7 @@ def longest_axis(bounds: Aabb) -> int:
 def aabb_box(bounds: Aabb) -> Box:
     """The box that is `bounds`. Raises GeometryError where a side has no extent; so do the other shapes here."""
     _check_extent(bounds)
-    return Box.filling(bounds)
+    return Box.of_bounds(bounds)
 
 
 def aabb_cylinder(bounds: Aabb) -> Cylinder | Polytope:
@@ -73,7 +73,7 @@ def mapped_to(shapes: Iterable[Shape], source: Aabb, target: Aabb) -> tuple[Shap
     flat = source.size <= 0
     factors = np.where(flat, 1.0, target.size / np.where(flat, 1.0, source.size))
     offset = target.center - source.center * factors
-    return tuple(shape.mapped(np.diag(factors), offset) for shape in shapes)
+    return tuple(shape.transform(np.diag(factors), offset) for shape in shapes)
 
 
 def _check_extent(bounds: Aabb) -> int:

@@ -62,65 +62,65 @@ class Reader:
         self.points[self.placed] = vertices[faces]
 
     def read(self) -> list[Part]:
-        found = [part for faces in _split(self.of_place) for part in self._touching(faces)]
-        return self._mended(found) if any(part.verdict.shape is None for part in found) else found
+        found = [part for faces in _split(self.of_place) for part in self._split_touching(faces)]
+        return self._join_near(found) if any(part.verdict.shape is None for part in found) else found
 
-    def _mended(self, found: list[Part]) -> list[Part]:
+    def _join_near(self, found: list[Part]) -> list[Part]:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
         opaque = [part for part in found if part.verdict.shape is None]
         faces = np.sort(np.concatenate([part.faces for part in opaque]))
-        near = nearly_welded(self.points, self.placed[faces], _NEAR * self._size())
+        near = nearly_welded(self.points, self.placed[faces], _NEAR * self._extent())
         if near is None:
             return found
-        mended = [self._judged(part, near) for part in _sub(faces, by_vertices(near[self.placed[faces]]))]
+        mended = [self._judge(part, near) for part in _sub(faces, by_vertices(near[self.placed[faces]]))]
         hulls = [part for part in mended if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
 
-    def _size(self) -> float:
+    def _extent(self) -> float:
         return float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
 
-    def _touching(self, faces: Ints) -> list[Part]:
+    def _split_touching(self, faces: Ints) -> list[Part]:
         """All that touches: as whole, or group by group."""
         parts = _sub(faces, self.of_group[faces])
         if len(parts) == 1:
-            return self._indexed(faces, self.in_groups)
-        better = self._better([p for part in parts for p in self._indexed(part, self.in_groups)], faces)
-        return better if len(better) > 1 else self._indexed(faces, self.across)
+            return self._split_by_index(faces, self.in_groups)
+        better = self._choose_better([p for part in parts for p in self._split_by_index(part, self.in_groups)], faces)
+        return better if len(better) > 1 else self._split_by_index(faces, self.across)
 
-    def _indexed(self, faces: Ints, indexed: Indexed) -> list[Part]:
+    def _split_by_index(self, faces: Ints, indexed: Indexed) -> list[Part]:
         """What touches: as whole, or by the closed surfaces that share no vertex number."""
         closed = indexed.closed[faces]
         parts = _sub(faces[closed], indexed.component[faces[closed]])
         if not closed.all():
             parts += _sub(faces[~closed], by_vertices(self.placed[faces[~closed]]))
         if len(parts) == 1:
-            return self._surface(faces)
-        return self._better([p for part in parts for p in self._surface(part)], faces)
+            return self._split_surface(faces)
+        return self._choose_better([p for part in parts for p in self._split_surface(part)], faces)
 
-    def _surface(self, faces: Ints) -> list[Part]:
+    def _split_surface(self, faces: Ints) -> list[Part]:
         """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
-        whole = self._judged(faces)
+        whole = self._judge(faces)
         if whole.verdict.shape is not None and is_simple(self.placed[faces]):
             return [whole]
-        return self._written_solids(faces) or self._solids(faces, whole) or [whole]
+        return self._split_by_order(faces) or self._split_solids(faces, whole) or [whole]
 
-    def _written_solids(self, faces: Ints) -> list[Part]:
+    def _split_by_order(self, faces: Ints) -> list[Part]:
         """The hulls that some faces were written as, one after the other; none where they were not."""
         runs = _sub(faces, closed_runs(self.placed[faces]))
         if len(runs) < 2 or min(map(len, runs)) < 4:
             return []
         solids: list[Part] = []
         for run in runs:
-            found = self._solids(run)
+            found = self._split_solids(run)
             if not found:
                 return []
             solids += found
         return _without_backs(solids)
 
-    def _solids(self, faces: Ints, whole: Part | None = None) -> list[Part]:
+    def _split_solids(self, faces: Ints, whole: Part | None = None) -> list[Part]:
         """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
-        whole = whole or self._judged(faces)
+        whole = whole or self._judge(faces)
         corners = self.placed[faces]
         if whole.verdict.shape is not None and is_simple(corners):
             return [whole]
@@ -129,21 +129,21 @@ class Reader:
             return []
         inward = volume_and_centroid(self.points, corners)[0] < 0
         component = by_edges(self.points, corners[proper], inward)
-        parts = self._with_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
+        parts = self._add_slivers(_sub(faces[proper], component), np.setdiff1d(faces, faces[proper]))
         closed = len(closed_components(corners[proper], component)) == len(parts) > 1
-        solids = self._all_hulls(parts) if closed else []
+        solids = self._judge_all(parts) if closed else []
         return _without_backs(solids) or ([whole] if whole.verdict.shape else [])
 
-    def _all_hulls(self, parts: list[Ints]) -> list[Part]:
+    def _judge_all(self, parts: list[Ints]) -> list[Part]:
         """The parts judged, none where one of them is no hull."""
         judged = []
         for part in parts:
-            judged.append(self._judged(part))
+            judged.append(self._judge(part))
             if judged[-1].verdict.shape is None:
                 return []
         return judged
 
-    def _with_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
+    def _add_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
         """The parts, each with the faces without area that lie at one of its corners."""
         owner = np.zeros(len(self.points), dtype=np.int64)
         for k in reversed(range(len(parts))):
@@ -151,19 +151,19 @@ class Reader:
         of_sliver = owner[self.placed[slivers, 0]]
         return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
 
-    def _judged(self, faces: Ints, near: Ints | None = None) -> Part:
+    def _judge(self, faces: Ints, near: Ints | None = None) -> Part:
         corners = self.placed[faces] if near is None else near[self.placed[faces]]
         proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
         if len(proper) < 2:
             return Part(faces, Verdict(None, "flat"))
         return Part(faces, verdict(self.points, corners[proper]))
 
-    def _better(self, parts: list[Part], faces: Ints) -> list[Part]:
+    def _choose_better(self, parts: list[Part], faces: Ints) -> list[Part]:
         """The parts, or the whole, whichever accounts for more by valid hulls."""
         parts = _without_backs(parts)
         if all(part.verdict.shape for part in parts):
             return parts
-        whole = self._judged(faces)
+        whole = self._judge(faces)
         solid = sum(abs(p.verdict.volume) for p in parts if p.verdict.shape and p.verdict.closed)
         enough = FILLED * abs(whole.verdict.volume) if whole.verdict.shape else 0.0
         return parts if solid > enough else [whole]

@@ -41,11 +41,11 @@ class Shape(ABC):
         """A point (3,) of the shape that lies farthest along `direction` (3,), which need not be a unit vector."""
 
     @abstractmethod
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         """The shape as a polytope: itself, exact for a box, at most 64 inscribed vertices for a round one."""
 
     @abstractmethod
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         """The image under x -> linear @ x + offset; of the same kind where the map allows it, else a polytope.
 
         linear: (3, 3), regular, reflections included; offset: (3,) [m].
@@ -54,20 +54,20 @@ class Shape(ABC):
     @property
     def vertices(self) -> Floats:
         """Vertices (n, 3) [m]; of a primitive, those of its tessellation."""
-        return self.tessellated().vertices
+        return self.tessellate().vertices
 
     @property
     def faces(self) -> Ints:
         """Triangles (m, 3), outward; of a primitive, those of its tessellation."""
-        return self.tessellated().faces
+        return self.tessellate().faces
 
     @property
     def is_primitive(self) -> bool:
         return self.kind != "polytope"
 
-    def moved(self, pose: Pose) -> Shape:
+    def move(self, pose: Pose) -> Shape:
         """The shape moved rigidly; primitives stay what they are."""
-        return self.mapped(pose.rotation, pose.translation)
+        return self.transform(pose.rotation, pose.translation)
 
 
 def scaled_rotation(linear: Floats) -> tuple[Floats, Floats] | None:

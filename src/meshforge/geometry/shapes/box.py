@@ -33,7 +33,7 @@ class Box(Shape):
         object.__setattr__(self, "half", frozen_floats(self.half, (3,)))
 
     @staticmethod
-    def filling(bounds: Aabb) -> Box:
+    def of_bounds(bounds: Aabb) -> Box:
         """The axis-aligned box that is `bounds`."""
         return Box(Pose.of_translation(bounds.center), bounds.size / 2)
 
@@ -54,12 +54,12 @@ class Box(Shape):
         side = np.where(self.pose.rotation.T @ direction >= 0, 1.0, -1.0)
         return self.pose.rotation @ (side * self.half) + self.pose.translation
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         return Polytope(self.pose.apply(_CORNERS * self.half), np.array(_FACES))
 
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         split = scaled_rotation(linear @ self.pose.rotation)
         if split is None:
-            return self.tessellated().mapped(linear, offset)
+            return self.tessellate().transform(linear, offset)
         rotation, scales = split
         return Box(Pose(rotation, linear @ self.pose.translation + offset), self.half * scales)

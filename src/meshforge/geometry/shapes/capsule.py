@@ -42,14 +42,14 @@ class Capsule(Shape):
         end = self.pose.translation + axis * (self.half_length if axis @ direction >= 0 else -self.half_length)
         return end + direction * (self.radius / float(np.linalg.norm(direction)))
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         points, faces = capsule(self.radius, self.half_length)
         return Polytope(self.pose.apply(points), faces)
 
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         split = scaled_rotation(linear @ self.pose.rotation)
         if split is None or np.ptp(split[1]) > 1e-9 * split[1].max():
-            return self.tessellated().mapped(linear, offset)
+            return self.tessellate().transform(linear, offset)
         rotation, scales = split
         scale = float(scales.mean())
         pose = Pose(rotation, linear @ self.pose.translation + offset)

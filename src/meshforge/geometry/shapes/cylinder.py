@@ -46,14 +46,14 @@ class Cylinder(Shape):
         point: Floats = self.pose.rotation @ local + self.pose.translation
         return point
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         points, faces = unit_cylinder()
         return Polytope(self.pose.apply(points * [self.radius, self.radius, self.half_length]), faces)
 
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         split = scaled_rotation(linear @ self.pose.rotation)
         if split is None or abs(split[1][0] - split[1][1]) > 1e-9 * split[1].max():
-            return self.tessellated().mapped(linear, offset)
+            return self.tessellate().transform(linear, offset)
         rotation, scales = split
         pose = Pose(rotation, linear @ self.pose.translation + offset)
         return Cylinder(pose, self.radius * float(scales[:2].mean()), self.half_length * float(scales[2]))

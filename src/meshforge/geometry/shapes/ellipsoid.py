@@ -43,11 +43,11 @@ class Ellipsoid(Shape):
         pull = self.radii * (self.pose.rotation.T @ direction)
         return self.pose.rotation @ (self.radii * pull / np.linalg.norm(pull)) + self.pose.translation
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         points, faces = unit_sphere()
         return Polytope(self.pose.apply(points * self.radii), faces)
 
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         center = linear @ self.pose.translation + offset
         split = scaled_rotation(linear @ self.pose.rotation)
         if split is not None:

@@ -61,10 +61,10 @@ class Polytope(Shape):
         farthest: Floats = self._vertices[int(np.argmax(self._vertices @ direction))]
         return farthest
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         return self
 
-    def mapped(self, linear: Floats, offset: Floats) -> Polytope:
+    def transform(self, linear: Floats, offset: Floats) -> Polytope:
         faces = self._faces if np.linalg.det(linear) > 0 else self._faces[:, ::-1]
         return Polytope(self._vertices @ linear.T + offset, faces)
 

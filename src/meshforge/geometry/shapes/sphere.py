@@ -38,13 +38,13 @@ class Sphere(Shape):
     def support(self, direction: Floats) -> Floats:
         return self.pose.translation + direction * (self.radius / float(np.linalg.norm(direction)))
 
-    def tessellated(self) -> Polytope:
+    def tessellate(self) -> Polytope:
         points, faces = unit_sphere()
         return Polytope(self.pose.apply(points * self.radius), faces)
 
-    def mapped(self, linear: Floats, offset: Floats) -> Shape:
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
         split = scaled_rotation(linear @ self.pose.rotation)
         if split is None or np.ptp(split[1]) > 1e-9 * split[1].max():
-            return self.tessellated().mapped(linear, offset)
+            return self.tessellate().transform(linear, offset)
         rotation, scales = split
         return Sphere(Pose(rotation, linear @ self.pose.translation + offset), self.radius * float(scales.mean()))

@@ -32,8 +32,8 @@ class Add(Action):
         axis, sign = "XYZ".index(self.direction[1]), 1.0 if self.direction[0] == "+" else -1.0
         factor = 1.0 if self.keep else _largest_fit(template.aabb, group.bounds, axis)
         offset = _flush(template.aabb, group.bounds, axis, sign, factor)
-        shapes = tuple(shape.mapped(np.eye(3) * factor, offset) for shape in template.shapes)
-        return Edit.inserting(shapes, group, removes=False)
+        shapes = tuple(shape.transform(np.eye(3) * factor, offset) for shape in template.shapes)
+        return Edit.insert(shapes, group, removes=False)
 
 
 def _largest_fit(part: Aabb, bounds: Aabb, axis: int) -> float:

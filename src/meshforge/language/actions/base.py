@@ -27,11 +27,11 @@ class Action(ABC):
                     f"{type(self).__name__} takes {argument.wants} as its {name}, not {value!r}",
                     remedy=f"Write {self.usage()}.",
                 )
-        clash = self.clash()
+        clash = self.conflict()
         if clash:
             raise ProgramError(clash, remedy=f"Write {self.usage()}.")
 
-    def clash(self) -> str | None:
+    def conflict(self) -> str | None:
         """Why the arguments do not go together, None where they do."""
         return None
 
@@ -59,7 +59,7 @@ class Action(ABC):
         return {f.name: cast(Argument, f.metadata["argument"]) for f in _fields(cls)}
 
     @classmethod
-    def required(cls) -> int:
+    def min_arguments(cls) -> int:
         """How many arguments cannot be left out."""
         return sum(f.default is MISSING for f in _fields(cls))
 
@@ -69,7 +69,7 @@ class Action(ABC):
         parts = ""
         for k, argument in enumerate(cls.arguments().values()):
             text = f"{', ' if k else ''}{argument.usage}"
-            parts += text if k < cls.required() else f"[{text}]"
+            parts += text if k < cls.min_arguments() else f"[{text}]"
         return f"{cls.__name__}({parts})" if parts else cls.__name__
 
     @classmethod

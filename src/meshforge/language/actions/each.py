@@ -16,7 +16,7 @@ class Each(Action):
 
     action: Action = field(metadata={"argument": Inner()})
 
-    def clash(self) -> str | None:
+    def conflict(self) -> str | None:
         return "Each cannot stand inside Each" if isinstance(self.action, Each) else None
 
     def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:

@@ -81,6 +81,6 @@ class Edit:
     note: str | None = None
 
     @staticmethod
-    def inserting(shapes: tuple[Shape, ...], group: Group, *, removes: bool = True, note: str | None = None) -> Edit:
+    def insert(shapes: tuple[Shape, ...], group: Group, *, removes: bool = True, note: str | None = None) -> Edit:
         """The edit that puts shapes made from the whole group into the mesh."""
         return Edit(tuple(Made(shape, group.largest, group.hulls) for shape in shapes), removes, note)

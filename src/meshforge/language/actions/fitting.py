@@ -55,7 +55,7 @@ def fitted_template(group: Group, name: str, *, turned: bool) -> tuple[Shape, ..
     if not turned:
         return mapped_to(template.shapes, template.aabb, group.bounds)
     turn = _onto(longest_axis(template.aabb), longest_axis(group.bounds))
-    shapes = [shape.mapped(turn, np.zeros(3)) for shape in template.shapes]
+    shapes = [shape.transform(turn, np.zeros(3)) for shape in template.shapes]
     return mapped_to(shapes, Aabb.union(shape.aabb for shape in shapes), group.bounds)
 
 

@@ -21,4 +21,4 @@ class Merge(Action):
             return Edit(removes=False)
         hull = convex_hull(group.points, name=group.largest.name, thicken=group.thickness)
         note = "round primitives were merged by their tessellated points" if group.has_round else None
-        return Edit.inserting((hull,), group, note=note)
+        return Edit.insert((hull,), group, note=note)

@@ -19,7 +19,7 @@ class Replace(Action):
     geometry: str = field(metadata={"argument": PrimitiveOrFile()})
     fit: Literal["tight", "longest"] | None = field(default=None, metadata={"argument": Words(("tight", "longest"))})
 
-    def clash(self) -> str | None:
+    def conflict(self) -> str | None:
         if self.fit == "tight" and self.geometry not in ("box", "cylinder", "capsule"):
             return f"tight is for box, cylinder and capsule, not {self.geometry}"
         if self.fit == "longest" and self.geometry in PRIMITIVES:
@@ -32,6 +32,6 @@ class Replace(Action):
 
     def edit(self, group: Group) -> Edit:
         if self.templates:
-            return Edit.inserting(fitted_template(group, self.geometry, turned=self.fit == "longest"), group)
+            return Edit.insert(fitted_template(group, self.geometry, turned=self.fit == "longest"), group)
         shape, note = fitted_primitive(group, self.geometry, tight=self.fit == "tight")
-        return Edit.inserting((shape,), group, note=note)
+        return Edit.insert((shape,), group, note=note)

@@ -23,4 +23,4 @@ class Scale(Action):
         offset = group.bounds.center * (1.0 - factors)
         linear = np.diag(factors)
         with np.errstate(all="ignore"):  # what grows beyond all numbers is refused where made shapes are verified
-            return Edit(tuple(Made(hull.shape.mapped(linear, offset), hull, (hull,)) for hull in group.hulls))
+            return Edit(tuple(Made(hull.shape.transform(linear, offset), hull, (hull,)) for hull in group.hulls))

@@ -35,14 +35,14 @@ class Names:
         """Its name without that of its body."""
         return self.hull.removeprefix(f"{self.body}/")
 
-    def own_said(self) -> Iterator[tuple[str, str]]:
+    def own_names(self) -> Iterator[tuple[str, str]]:
         """The kinds and the names that are its own, not its body's."""
         yield _HULL, self.own
         yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
 
-    def said(self) -> Iterator[tuple[str, str]]:
+    def all_names(self) -> Iterator[tuple[str, str]]:
         """The kinds and the names, what is most its own first; a body that has no real name is left out."""
-        yield from self.own_said()
+        yield from self.own_names()
         if self.body != NAMELESS:
             yield "body", self.body
         yield from ((kind, name) for kind, name in self.mentions if kind not in _OWN)
@@ -69,7 +69,7 @@ def told(names: Names, vocabulary: Sequence[str], patterns: Sequence[Pattern] = 
 
 
 def _by_pattern(names: Names, patterns: Sequence[Pattern]) -> Told | None:
-    for kind, name in (*names.said(), (_HULL, names.hull)):
+    for kind, name in (*names.all_names(), (_HULL, names.hull)):
         if pattern := fitting(name, patterns):
             return Told(pattern.label or None, _PATTERN, kind, name, "pattern")
     return None
@@ -89,7 +89,7 @@ def _by_words(names: Names, vocabulary: Sequence[str]) -> Told | None:
 
 
 def _said(names: Names, vocabulary: Sequence[str]) -> Iterator[Told]:
-    for kind, name in names.said():
+    for kind, name in names.all_names():
         if one := said(name, vocabulary):
             confidence = round(one.confidence - _LESS.get(kind, 0.0), _DIGITS)
             yield Told(one.label, confidence, kind, name, "word" if one.exact else "likeness")

@@ -21,7 +21,7 @@ class Pattern:
     label: str
     expression: re.Pattern[str]
 
-    def fits(self, name: str) -> bool:
+    def matches(self, name: str) -> bool:
         return self.expression.search(name) is not None
 
 
@@ -37,4 +37,4 @@ def pattern_of(text: str, label: str) -> Pattern:
 
 def fitting(name: str, patterns: Iterable[Pattern]) -> Pattern | None:
     """The first pattern that fits a name."""
-    return next((pattern for pattern in patterns if pattern.fits(name)), None)
+    return next((pattern for pattern in patterns if pattern.matches(name)), None)

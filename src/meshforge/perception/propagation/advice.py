@@ -33,7 +33,7 @@ def chosen(family: Family, chances: Floats, count: int) -> list[int]:
         found: Floats = np.exp(-((cdist(rows[hulls], some) / near) ** 2) / 2).max(axis=0, initial=0.0)
         return found
 
-    covered = alike(evenly(family.told, _HULLS))
+    covered = alike(evenly(family.labelled, _HULLS))
     starts = np.searchsorted(family.owner, open_meshes)
     ends = np.searchsorted(family.owner, open_meshes, side="right")
     stands = np.stack([alike(np.arange(start, end)) for start, end in zip(starts, ends, strict=True)])

@@ -31,17 +31,17 @@ class Describer:
         self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
         self._touching = _touching(mesh)
 
-    def shapes(self, up: Floats) -> Floats:
+    def describe_shapes(self, up: Floats) -> Floats:
         """What each hull is itself, and how it lies: `SHAPES` of its row, which is quick. up: (3,)."""
-        return shapes(self._whole.turned(standing(up)), self._volumes)
+        return shapes(self._whole.rotate(standing(up)), self._volumes)
 
-    def described(self, up: Floats) -> Floats:
+    def describe(self, up: Floats) -> Floats:
         """A row for each hull (n, WIDTH). up: (3,).
 
         What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest),
         and how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
         """
-        whole = self._whole.turned(standing(up))
+        whole = self._whole.rotate(standing(up))
         own = shapes(whole, self._volumes)
         touching = self._touching
         around = touching * np.sqrt(np.maximum(self._volumes, 0.0))

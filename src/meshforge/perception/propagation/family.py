@@ -57,11 +57,11 @@ class Family:
     touching: Ints
 
     @cached_property
-    def told(self) -> Ints:
+    def labelled(self) -> Ints:
         """The hulls whose label is told."""
         return np.flatnonzero(self.codes != UNTOLD)
 
-    def taught(self, told: Sequence[str | None]) -> Family:
+    def with_labels(self, told: Sequence[str | None]) -> Family:
         """The same with other labels told; told: that of each hull, None where it is not known."""
         labels = tuple(sorted({label for label in told if label is not None}))
         places = {label: place for place, label in enumerate(labels)}

@@ -39,7 +39,7 @@ def by_likeness(family: Family, metric: Floats) -> Floats:
 def _told(family: Family) -> tuple[Ints, Floats]:
     """The hulls that are told, of very many of one label some, evenly, and how many each stands for."""
     most = max(1, _TOLD // max(1, len(family.labels)))
-    of_labels = [family.told[family.codes[family.told] == code] for code in range(len(family.labels))]
+    of_labels = [family.labelled[family.codes[family.labelled] == code] for code in range(len(family.labels))]
     chosen = [evenly(hulls, most) for hulls in of_labels]
     voters = np.concatenate([np.zeros(0, dtype=np.int64), *chosen])
     shares = [len(hulls) / len(some) for hulls, some in zip(of_labels, chosen, strict=True)]

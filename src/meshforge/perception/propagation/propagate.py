@@ -50,19 +50,19 @@ class Relatives:
     """Meshes of one kind, described once; labels may then be told again and again."""
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
-        sketches = [Sketcher(mesh).sketch() for mesh in meshes]
+        sketches = [Sketcher(mesh).describe() for mesh in meshes]
         self.family = family_of([(sketch.rows, sketch.touching) for sketch in sketches])
         self._sides = [sketch.sides for sketch in sketches]
-        self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(Sketcher(meshes[mesh]).on_side))
+        self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(Sketcher(meshes[mesh]).describe_side))
 
-    def propagated(self, told: Sequence[str | None], metric: Floats | None = None) -> Propagated:
+    def propagate(self, told: Sequence[str | None], metric: Floats | None = None) -> Propagated:
         """What some labels say about all hulls, these included.
 
         told: of each hull of all meshes, None where its label is not known; metric: the weight of each column of a
         description, None for the one that ships.
         """
         metric = weights() if metric is None else metric
-        family = self.family.taught(told)
+        family = self.family.with_labels(told)
         doubtful = doubtful_sides(family, self._sides.__getitem__, metric)
         looked = ((mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful)
         return compared_hulls(righted(family, looked, metric), metric)
@@ -81,7 +81,7 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> Propagated:
     The same family in the same order gives the same, bit for bit, on any processor. Meshes may lie anyhow about the
     upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side.
     """
-    return Relatives(meshes).propagated([given_label(hull.annotation) for mesh in meshes for hull in mesh.hulls])
+    return Relatives(meshes).propagate([given_label(hull.annotation) for mesh in meshes for hull in mesh.hulls])
 
 
 def given_label(label: Label | None) -> str | None:

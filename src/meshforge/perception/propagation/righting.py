@@ -25,7 +25,7 @@ def doubtful_sides(
 
     sides: `Sketch.sides` of the mesh of that number; metric: as of `by_likeness`.
     """
-    if not len(family.told):
+    if not len(family.labelled):
         return
     taught, scale = _taught(family, metric)[:, SHAPES], family.scale.of_columns(SHAPES)
 
@@ -63,7 +63,7 @@ def righted(family: Family, looked: Iterable[tuple[int, Sequence[Floats]]], metr
 
 
 def _taught(family: Family, metric: Floats) -> Floats:
-    found: Floats = family.rows[evenly(family.told, _TAUGHT_BY)] * metric
+    found: Floats = family.rows[evenly(family.labelled, _TAUGHT_BY)] * metric
     return found
 
 

@@ -37,15 +37,15 @@ class Sketcher:
             self._up = upright(mesh)
             self._ups = other_sides(mesh, self._up, _SIDES)
 
-    def sketch(self) -> Sketch:
+    def describe(self) -> Sketch:
         """The mesh as it seems to stand, and what is quickly told of its other sides."""
         count, columns = len(self._mesh.hulls), SHAPES.stop - SHAPES.start
         if not count:
             return Sketch(np.zeros((0, WIDTH)), np.zeros((0, 2), np.int64), np.zeros((0, 0, columns)))
         touching = np.array(sorted(self._mesh.contacts), dtype=np.int64).reshape(-1, 2)
-        sides = np.array([self._describer.shapes(up) for up in self._ups]).reshape(-1, count, columns)
-        return Sketch(self._describer.described(self._up), touching, sides)
+        sides = np.array([self._describer.describe_shapes(up) for up in self._ups]).reshape(-1, count, columns)
+        return Sketch(self._describer.describe(self._up), touching, sides)
 
-    def on_side(self, side: int) -> Floats:
+    def describe_side(self, side: int) -> Floats:
         """The rows (n, WIDTH) on one of the sides of the sketch."""
-        return self._describer.described(self._ups[side])
+        return self._describer.describe(self._ups[side])

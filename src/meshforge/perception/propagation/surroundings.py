@@ -55,7 +55,7 @@ class Whole:
         most = float(np.quantile(np.linalg.norm(seen[:, :2] - axis, axis=1), 0.95))
         return Whole(pieces, seen, weights, foot, max(top - foot, _THIN * size), axis, max(most, _THIN * size), size)
 
-    def turned(self, turn: Floats) -> Whole:
+    def rotate(self, turn: Floats) -> Whole:
         """The same after a rotation (3, 3)."""
         return Whole.of(tuple(piece @ turn.T for piece in self.pieces), self.seen @ turn.T, self.weights)
 

@@ -36,7 +36,7 @@ class Cache:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def get(self, question: Question, endpoint: Endpoint) -> Reply | None:
+    def read(self, question: Question, endpoint: Endpoint) -> Reply | None:
         """The answer to a question, None where there is none, or none that can be read."""
         try:
             data = json.loads(self.path(question, endpoint).read_bytes())
@@ -45,7 +45,7 @@ class Cache:
         except (OSError, ValueError, KeyError, TypeError, ValidationError):
             return None
 
-    def put(self, question: Question, endpoint: Endpoint, reply: Reply) -> None:
+    def write(self, question: Question, endpoint: Endpoint, reply: Reply) -> None:
         """Keep an answer. The pictures are written first, so that an answer that is there has them."""
         for digest, picture in zip(question.digests, question.pictures, strict=True):
             path = self.folder / "pictures" / f"{digest}.png"

@@ -54,9 +54,9 @@ class Client:
         self._unanswered, self._answered = 0, False
 
     @property
-    def bill(self) -> Bill:
+    def usage(self) -> Bill:
         """What was asked so far, and what it cost."""
-        return self._purse.bill
+        return self._purse.usage
 
     @property
     def end(self) -> EndError | None:
@@ -76,16 +76,16 @@ class Client:
                 self._features = read_features(path) if path else None
             if self._features is None:
                 try:
-                    self._features = probe(self._probed)
+                    self._features = probe(self._send_probe)
                 except AskingError as error:
-                    raise self._ended(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
+                    raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
                 if path:
                     write_features(path, self._features, self.endpoint)
             return self._features
 
-    def known(self, question: Question) -> Reply | None:
+    def find_answer(self, question: Question) -> Reply | None:
         """The answer that was given earlier, None where there is none; never asks."""
-        return self._cache.get(question, self.endpoint) if self._cache else None
+        return self._cache.read(question, self.endpoint) if self._cache else None
 
     def ask(self, question: Question) -> Reply:
         """The answer to a question; the same question asked at one time is asked once.
@@ -103,7 +103,7 @@ class Client:
             self._purse.count(cached=1)
             return replace(reply, cached=True)
         try:
-            mine.set_result(self._known_or_asked(question, key))
+            mine.set_result(self._find_or_ask(question, key))
         except BaseException as error:
             mine.set_exception(error)
             raise
@@ -116,64 +116,64 @@ class Client:
         """Close the connections."""
         self._transport.close()
 
-    def _known_or_asked(self, question: Question, key: str) -> Reply:
-        known = self.known(question)
+    def _find_or_ask(self, question: Question, key: str) -> Reply:
+        known = self.find_answer(question)
         if known:
             self._purse.count(cached=1)
             return known
         features = self.features()
         if not features.pictures and any(question.pictures):
-            raise self._ended(EndError("this model takes no pictures", where=self.endpoint.model))
+            raise self._end_with(EndError("this model takes no pictures", where=self.endpoint.model))
         try:
-            reply = self._asked(question, features, key)
+            reply = self._ask_with_retries(question, features, key)
         except RefusedError:  # of all that a server may dislike, a schema can be done without
             if question.schema is None or not features.schema:
                 raise
-            reply = self._asked(question, replace(features, schema=False), key)
+            reply = self._ask_with_retries(question, replace(features, schema=False), key)
         if self._cache:
-            self._cache.put(question, self.endpoint, reply)
+            self._cache.write(question, self.endpoint, reply)
         return reply
 
-    def _probed(self, question: Question, features: Features) -> Reply:
-        return self._asked(question, features, question.digest(self.endpoint), is_probe=True)
+    def _send_probe(self, question: Question, features: Features) -> Reply:
+        return self._ask_with_retries(question, features, question.digest(self.endpoint), is_probe=True)
 
-    def _asked(self, question: Question, features: Features, key: str, *, is_probe: bool = False) -> Reply:
+    def _ask_with_retries(self, question: Question, features: Features, key: str, *, is_probe: bool = False) -> Reply:
         """Ask until an answer is there, or patience ends."""
         body = features.body(question, self.endpoint)
         with self._room:
             try:
                 for attempt in range(self.endpoint.retries + 1):
-                    self._check()
+                    self._raise_if_ended()
                     self._patience.wait()
                     try:
-                        return self._attempt(question, body, is_probe)
+                        return self._ask_once(question, body, is_probe)
                     except PassingError as fault:
                         self._give_up(fault, attempt)
                         self._purse.count(retries=1)
-                        self._patience.backed_off(attempt, fault.after, _spread(key, attempt))
+                        self._patience.back_off(attempt, fault.after, _spread(key, attempt))
             except EndError as error:
-                raise self._ended(error) from None
+                raise self._end_with(error) from None
         raise AssertionError("the last attempt gives an answer or raises")
 
-    def _attempt(self, question: Question, body: Mapping[str, Any], is_probe: bool) -> Reply:
+    def _ask_once(self, question: Question, body: Mapping[str, Any], is_probe: bool) -> Reply:
         """Ask once, and count what it costs. Raises PassingError, RefusedError or EndError."""
-        bound = self._purse.bound(question)
-        with self._purse.held(bound, self._stop):
-            self._patience.check()
+        bound = self._purse.upper_bound(question)
+        with self._purse.reserve(bound, self._stop):
+            self._patience.raise_if_stopped()
             try:
                 reply = self._transport.send(body)
             except NoReplyError as error:
                 if error.usage:
-                    self._purse.pay(question, error.usage, is_probe=is_probe)
+                    self._purse.charge(question, error.usage, is_probe=is_probe)
                 else:
-                    self._purse.lose(bound)
+                    self._purse.count_lost(bound)
                 raise PassingError(str(error)) from error
             except PassingError as fault:
                 if fault.charged:
-                    self._purse.lose(bound)
+                    self._purse.count_lost(bound)
                 raise
-            usage, cost = self._purse.pay(question, reply.usage, is_probe=is_probe)
-        self._got_through()
+            usage, cost = self._purse.charge(question, reply.usage, is_probe=is_probe)
+        self._count_success()
         return replace(reply, usage=usage, cost=cost)
 
     def _give_up(self, fault: PassingError, attempt: int) -> None:
@@ -181,7 +181,7 @@ class Client:
         where = self.endpoint.place
         if fault.unreachable and not self._answered and attempt:
             remedy = "Is the server running, and base_url right?"
-            raise self._ended(EndError(f"the server cannot be reached: {fault}", where=where, remedy=remedy))
+            raise self._end_with(EndError(f"the server cannot be reached: {fault}", where=where, remedy=remedy))
         if attempt < self.endpoint.retries:
             return
         with self._lock:
@@ -189,20 +189,20 @@ class Client:
         tried = f"no answer after {attempt + 1} attempts, the last: {fault}"
         if self._unanswered > self.endpoint.concurrency + _DOWN:
             remedy = "Try again later; what was answered is not asked again."
-            raise self._ended(EndError(f"several questions in a row got {tried}", where=where, remedy=remedy))
+            raise self._end_with(EndError(f"several questions in a row got {tried}", where=where, remedy=remedy))
         raise AskingError(tried, where=where)
 
-    def _got_through(self) -> None:
+    def _count_success(self) -> None:
         with self._lock:
             self._unanswered, self._answered = 0, True
 
-    def _check(self) -> None:
+    def _raise_if_ended(self) -> None:
         """Raises EndError where one came up before, or a stop is wanted."""
         if self._end:
             raise self._end
-        self._patience.check()
+        self._patience.raise_if_stopped()
 
-    def _ended(self, error: EndError) -> EndError:
+    def _end_with(self, error: EndError) -> EndError:
         """The first error after which there is nothing to ask; later questions get the same."""
         self._end = self._end or error
         return self._end

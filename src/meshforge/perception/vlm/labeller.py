@@ -58,7 +58,7 @@ class Pending:
     def is_done(self) -> bool:
         return all(answer.done() for answer in self.answers)
 
-    def said(self) -> Said:
+    def result(self) -> Said:
         """What the model said, when all of it is there."""
         heard = [answer.result() for answer in self.answers]
         labels, left = dict[str, Label](), dict[str, str]()
@@ -87,7 +87,7 @@ class Labeller:
         """Ask no more; what is under way is kept when its answer comes, yet not waited for."""
         self._workers.close()
 
-    def looks(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Iterator[Look]:
+    def build_questions(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Iterator[Look]:
         """The questions that `begin` asks at first; nothing is sent."""
         return looks(mesh, mesh.index.keys() if wanted is None else wanted, self._manner, name)
 
@@ -97,36 +97,36 @@ class Labeller:
         name: that of the asset, told where the manner says so. All else as of `ask`.
         """
         names = [hull for hull in mesh.index if wanted is None or hull in wanted]
-        return self.ask(names, self.looks(mesh, names, name))
+        return self.ask(names, self.build_questions(mesh, names, name))
 
     def ask(self, names: Sequence[str], asked: Iterable[Look]) -> Pending:
         """Ask about some hulls of a mesh, as its looks come. Waits where many questions are under way already."""
         answers = []
         for look in asked:
-            answers.append(self._workers.submit(partial(self._heard, self.shown(look))))
+            answers.append(self._workers.submit(partial(self._ask_about, self.add_examples(look))))
             if self._client.end:  # what is drawn from here on would not be asked
                 break
         return Pending(names, self._manner.vocabulary, answers)
 
-    def shown(self, look: Look) -> Look:
+    def add_examples(self, look: Look) -> Look:
         """A look as it is asked, behind the examples."""
-        return look.after(self._examples) if self._examples else look
+        return look.show_examples(self._examples) if self._examples else look
 
     def label(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> Said:
         """What the model says of a mesh; all as of `begin`."""
-        return self.begin(mesh, wanted, name).said()
+        return self.begin(mesh, wanted, name).result()
 
-    def _heard(self, look: Look) -> _Heard:
+    def _ask_about(self, look: Look) -> _Heard:
         """What a look brings; what the answer leaves open is asked once more."""
         asked: tuple[str, ...] = (self._digest(look.question),)
         try:
-            votes, left, second = self._votes(look, look.question)
+            votes, left, second = self._collect_votes(look, look.question)
         except AskingError as error:
             return _Heard(open=dict.fromkeys(look.hulls.values(), "the question got no answer"), failed=error.sentence)
         failed = None
         if second:
             try:
-                more, left, _ = self._votes(replace(look, hulls={n: look.hulls[n] for n in left}), second)
+                more, left, _ = self._collect_votes(replace(look, hulls={n: look.hulls[n] for n in left}), second)
                 votes, asked = votes | more, (*asked, self._digest(second))
             except AskingError as error:
                 failed = error.sentence
@@ -135,7 +135,7 @@ class Labeller:
     def _digest(self, question: Question) -> str:
         return question.digest(self._client.endpoint)
 
-    def _votes(self, look: Look, question: Question) -> tuple[dict[str, Vote], dict[int, str], Question | None]:
+    def _collect_votes(self, look: Look, question: Question) -> tuple[dict[str, Vote], dict[int, str], Question | None]:
         """The votes of an answer by hull, why numbers are left open, and the question that asks for these again."""
         reply = self._client.ask(question)
         vocabulary, unknown = self._manner.vocabulary, self._manner.unknown
@@ -171,5 +171,5 @@ def shown_as_example(mesh: SymbolicMesh, manner: Manner) -> tuple[Message, ...]:
     taken = shots(mesh, hulls=labelled, most=min(2, manner.how.pictures), size=manner.how.size)
     shown = frozenset[str]().union(*(shot.numbered for shot in taken))
     numbers = {hull: mesh.index[hull] for hull in labelled if hull in shown}
-    said = {number: mesh.named(hull).label or manner.unknown for hull, number in numbers.items()}
+    said = {number: mesh.hull_of(hull).label or manner.unknown for hull, number in numbers.items()}
     return request(taken, 0, numbers), example(said)

@@ -33,7 +33,7 @@ class Look:
         """About how many tokens the answer has."""
         return _SAID * (len(self.hulls) + 1)
 
-    def after(self, examples: tuple[Message, ...]) -> Look:
+    def show_examples(self, examples: tuple[Message, ...]) -> Look:
         """The same question with messages that show labelled assets before its own pictures."""
         instructions, *pictures = self.question.messages
         return replace(self, question=replace(self.question, messages=(instructions, *examples, *pictures)))
@@ -76,7 +76,7 @@ def _asked(
     if not numbers:
         return
     pictures = request(shots, manner.how.plain, numbers, name)
-    pixels = {hull: sum(shot.seen[hull] for shot in shots if hull in shot.numbered) for hull in numbers}
+    pixels = {hull: sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered) for hull in numbers}
     weights = {hull: clearness(count, manner.how.size) for hull, count in pixels.items()}
     limit = manner.room + _ENTRY * len(numbers)
     for repeat in range(manner.repeats):

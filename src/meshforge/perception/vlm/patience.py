@@ -26,7 +26,7 @@ class Patience:
         self._lock = threading.Lock()
         self._closed_until = 0.0
 
-    def backed_off(self, attempt: int, after: float | None, spread: float) -> None:
+    def back_off(self, attempt: int, after: float | None, spread: float) -> None:
         """Wait after failed attempt number `attempt`, counted from 0; after [s]: what the server wants.
 
         spread in 0..1 keeps questions apart that failed at one time. Raises EndError: that is too long, or a stop.
@@ -53,11 +53,11 @@ class Patience:
 
     def _wait_until(self, moment: float) -> None:
         while (left := moment - time.monotonic()) > 0:
-            self.check()
+            self.raise_if_stopped()
             time.sleep(min(left, _GLANCE))
-        self.check()
+        self.raise_if_stopped()
 
-    def check(self) -> None:
+    def raise_if_stopped(self) -> None:
         """Raises EndError where a stop is wanted."""
         if self._stop():
             raise EndError("stopped", remedy="What was answered is kept, and is not asked again.")

@@ -55,12 +55,12 @@ class Purse:
         self._first_ratio = 1.0
 
     @property
-    def bill(self) -> Bill:
+    def usage(self) -> Bill:
         """What was spent so far."""
         with self._changed:
             return self._bill
 
-    def bound(self, question: Question) -> float:
+    def upper_bound(self, question: Question) -> float:
         """What a question may cost at most [$], as far as can be told."""
         with self._changed:
             ratio = max(self._ratios, default=self._first_ratio)
@@ -68,7 +68,7 @@ class Purse:
         return self._endpoint.price(Usage(int(expected * max(1.0, ratio) * _MARGIN), question.limit))
 
     @contextmanager
-    def held(self, bound: float, stop: Callable[[], bool]) -> Iterator[None]:
+    def reserve(self, bound: float, stop: Callable[[], bool]) -> Iterator[None]:
         """Keep so much [$] back while a question is under way. Raises EndError where it could pass the limit.
 
         Where only other questions under way are in its way, it waits for these; stop: whether to wait no longer.
@@ -90,7 +90,7 @@ class Purse:
                 self._held -= bound
                 self._changed.notify_all()
 
-    def pay(self, question: Question, usage: Usage | None, *, is_probe: bool = False) -> tuple[Usage, float]:
+    def charge(self, question: Question, usage: Usage | None, *, is_probe: bool = False) -> tuple[Usage, float]:
         """Count an answer, be it of use or not; gives its tokens, estimated where not told, and its cost [$]."""
         expected = estimate(question)
         counted = usage or Usage(expected, 0, estimated=True)
@@ -106,7 +106,7 @@ class Purse:
             self._changed.notify_all()
         return counted, price
 
-    def lose(self, bound: float) -> None:
+    def count_lost(self, bound: float) -> None:
         """Count an attempt that got no answer and may be charged for."""
         with self._changed:
             self._bill = replace(self._bill, lost=self._bill.lost + 1, perhaps=self._bill.perhaps + bound)

@@ -43,9 +43,9 @@ class Transport:
             seconds = f"{self._endpoint.timeout:g}"
             raise PassingError(f"no answer within {seconds} seconds", charged=True) from error
         except openai.APIConnectionError as error:
-            raise self._broken(error) from error
+            raise self._to_transient_error(error) from error
         except openai.APIStatusError as error:
-            raise self._refused(error) from error
+            raise self._to_error(error) from error
         try:
             data = json.loads(text)
         except ValueError as error:
@@ -69,15 +69,15 @@ class Transport:
                 self._made = _client(self._endpoint, self._key)
             return self._made
 
-    def _broken(self, error: APIConnectionError) -> PassingError:
+    def _to_transient_error(self, error: APIConnectionError) -> PassingError:
         """A connection that never was, or that broke before the answer was there."""
         cause = error.__cause__
         unreachable = type(cause).__name__ in ("ConnectError", "UnsupportedProtocol")
-        why = self._hidden(str(cause)) if cause and str(cause) else "the connection broke"
+        why = self._redact(str(cause)) if cause and str(cause) else "the connection broke"
         return PassingError(why, charged=not unreachable, unreachable=unreachable)
 
-    def _refused(self, error: APIStatusError) -> Exception:
-        status, said = error.status_code, self._hidden(_said(error))
+    def _to_error(self, error: APIStatusError) -> Exception:
+        status, said = error.status_code, self._redact(_said(error))
         where = self._endpoint.place
         if status == 402 or (status in (400, 403, 429) and any(word in said.lower() for word in _NO_MONEY)):
             return EndError(f"the account has no money left: {said}", where=where)
@@ -96,7 +96,7 @@ class Transport:
             return EndError(f"there is no model {self._endpoint.model!r} here: {said}", where=where, remedy=remedy)
         return RefusedError(f"the server refused the question ({status}): {said}", where=where)
 
-    def _hidden(self, text: str) -> str:
+    def _redact(self, text: str) -> str:
         """A text of the server's without the key, should it repeat that."""
         return text.replace(self._key, "...") if self._key else text
 

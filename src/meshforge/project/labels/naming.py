@@ -45,7 +45,7 @@ def _labelled(taker: Taker, asset: str, facts: Facts, patterns: Sequence[Pattern
         return Labelled(asset, problems=(facts.error,))
     said = ((names.hull, told(names, taker.vocabulary, patterns)) for names in names_of(facts))
     given = {hull: label for hull, one in said if one and (label := as_label(one))}
-    return taker.taken(asset, facts.hulls, given, none_there)
+    return taker.try_write(asset, facts.hulls, given, none_there)
 
 
 def as_label(one: Told) -> Label | None:

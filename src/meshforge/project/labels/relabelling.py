@@ -46,12 +46,12 @@ def relabelled(project: Project, asset: str, old: Mapping[str, Shape], mesh: Sym
     fresh = {h.name: _label(h, gone, labels) for h in mesh.hulls if were.get(h.name) != here[h.name]}
     rest = replace(file, labels={n: label for n, label in file.labels.items() if n not in gone})
     followed = follow_labels(rest, mesh).mesh
-    taken = {name: label for name, label in fresh.items() if label and not followed.named(name).annotation}
+    taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {listed([*gone])} went to {listed([*taken])}"] if taken else []
     lost = sorted({label.name for label in labels.values()} - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {listed(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)
-    return Relabelled(project, asset, followed.labelled(taken), away, tuple(notes))
+    return Relabelled(project, asset, followed.with_labels(taken), away, tuple(notes))
 
 
 def _label(hull: Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:

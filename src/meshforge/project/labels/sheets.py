@@ -49,7 +49,7 @@ def contact_sheets(
 
 def _drawn(work: _Work) -> bytes | None:
     try:
-        mesh = work.place.mesh()
+        mesh = work.place.read_mesh()
     except MeshForgeError:
         return None
     return png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=work.vocabulary))

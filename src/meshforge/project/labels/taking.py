@@ -35,14 +35,14 @@ class Taker:
             self._seen, self._vocabulary = now, self._project.vocabulary
         return self._vocabulary
 
-    def taken(self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: May) -> Labelled:
+    def try_write(self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: May) -> Labelled:
         """The same; that the labels that there are cannot be read is told in the report."""
         try:
-            return self.take(asset, hulls, given, may)
+            return self.write(asset, hulls, given, may)
         except AssetError as error:
             return Labelled(asset, problems=(error.message,))
 
-    def take(self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: May) -> Labelled:
+    def write(self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: May) -> Labelled:
         """Write those of the labels that may be taken: they may have been looked for for a long time.
 
         hulls: digests by name, in order. Raises AssetError where the labels that there are cannot be read.

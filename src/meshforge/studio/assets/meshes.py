@@ -25,7 +25,7 @@ class _Read:
     """An asset as it was read. times: modification [ns] and size of its files; prepared: the digest of that."""
 
     times: Times
-    prepared: str | None
+    record: str | None
     mesh: SymbolicMesh
 
 
@@ -33,7 +33,7 @@ class _Read:
 class _Labelled:
     """An asset with its labels. labels: what their file holds; contact: the threshold that was set."""
 
-    read: _Read
+    source: _Read
     labels: bytes
     contact: float | None
     mesh: SymbolicMesh
@@ -46,7 +46,7 @@ class Meshes:
         self._workers = workers
         self._lock = Lock()
         self._busy: dict[str, Lock] = {}
-        self._kept: OrderedDict[str, _Labelled] = OrderedDict()
+        self._entries: OrderedDict[str, _Labelled] = OrderedDict()
 
     def get(self, project: Project, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with the labels it has now. Raises AssetError where it cannot be read."""
@@ -55,17 +55,17 @@ class Meshes:
             busy = self._busy.setdefault(asset, Lock())
         with busy:  # who asks for it at the same time waits for one reading
             with self._lock:
-                kept = self._kept.get(asset)
-            read = kept.read if kept and _holds(kept.read, project, asset) else self._fresh(project, asset, path)
+                kept = self._entries.get(asset)
+            read = kept.source if kept and _holds(kept.source, project, asset) else self._read(project, asset, path)
             labelled = _labelled(project, asset, read, kept)
             with self._lock:
-                self._kept[asset] = labelled
-                self._kept.move_to_end(asset)
-                while len(self._kept) > MOST:
-                    self._kept.popitem(last=False)
+                self._entries[asset] = labelled
+                self._entries.move_to_end(asset)
+                while len(self._entries) > MOST:
+                    self._entries.popitem(last=False)
         return labelled.mesh
 
-    def _fresh(self, project: Project, asset: str, path: Path) -> _Read:
+    def _read(self, project: Project, asset: str, path: Path) -> _Read:
         folder = project.layout.preparation(asset)
         prepared, times = record_digest(folder), times_of([*source_files(path), path])
         try:
@@ -79,7 +79,7 @@ class Meshes:
 class KeptProject(Project):
     """A project whose assets stay in memory, so that what is done to one need not read its files again."""
 
-    meshes_kept: Meshes = field(repr=False, compare=False)
+    mesh_cache: Meshes = field(repr=False, compare=False)
 
     @staticmethod
     def of(project: Project, meshes: Meshes) -> KeptProject:
@@ -91,20 +91,20 @@ class KeptProject(Project):
         return replace(self, found=found)
 
     def mesh(self, asset: str) -> SymbolicMesh:
-        return self.meshes_kept.get(self, asset)
+        return self.mesh_cache.get(self, asset)
 
 
 def _holds(read: _Read, project: Project, asset: str) -> bool:
     folder = project.layout.preparation(asset)
-    return record_digest(folder) == read.prepared and times_of(read.times) == read.times
+    return record_digest(folder) == read.record and times_of(read.times) == read.times
 
 
 def _labelled(project: Project, asset: str, read: _Read, kept: _Labelled | None) -> _Labelled:
     contact, path = project.settings.thresholds.contact, project.layout.labels(asset)
     labels = path.read_bytes() if path.exists() else b""
-    if kept and kept.read is read and kept.labels == labels and kept.contact == contact:
+    if kept and kept.source is read and kept.labels == labels and kept.contact == contact:
         return kept
-    bare = _bare(kept.mesh) if kept and kept.read is read and kept.contact == contact else read.mesh
+    bare = _bare(kept.mesh) if kept and kept.source is read and kept.contact == contact else read.mesh
     mesh = follow_labels(project.labels(asset), bare).mesh
     wanted = mesh if contact is None or mesh.epsilon == contact else replace(mesh, epsilon=contact)
     return _Labelled(read, labels, contact, wanted)
@@ -112,4 +112,4 @@ def _labelled(project: Project, asset: str, read: _Read, kept: _Labelled | None)
 
 def _bare(mesh: SymbolicMesh) -> SymbolicMesh:
     """The mesh without labels; what was measured between its hulls stays known."""
-    return mesh.labelled(dict.fromkeys(mesh.index))
+    return mesh.with_labels(dict.fromkeys(mesh.index))

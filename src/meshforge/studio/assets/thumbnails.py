@@ -36,7 +36,7 @@ class _Work:
     asset: str
     of: Of
     digest: str
-    kept: Path
+    target: Path
 
 
 class Thumbnails:
@@ -63,22 +63,22 @@ class Thumbnails:
                 return self._drawing[digest]
             work, future = self._waiting.pop(digest, (wanted, Future[bytes]()))
             self._waiting[digest] = work, future  # now the one that was asked for last
-        self._next()
+        self._start_next()
         return future
 
-    def _next(self) -> None:
+    def _start_next(self) -> None:
         with self._lock:
             if not self._waiting or len(self._drawing) >= self._workers.count:
                 return
             digest, (work, future) = self._waiting.popitem()
             self._drawing[digest] = future
         try:
-            self._workers.start(_drawn, work).add_done_callback(partial(self._over, digest, future))
+            self._workers.start(_drawn, work).add_done_callback(partial(self._end, digest, future))
         except MeshForgeError as error:  # the studio is being closed
             self._finish(digest)
             future.set_exception(error)
 
-    def _over(self, digest: str, future: Future[bytes], drawn: Future[bytes]) -> None:
+    def _end(self, digest: str, future: Future[bytes], drawn: Future[bytes]) -> None:
         self._finish(digest)
         if not future.done():  # who asked for it may have left
             try:
@@ -86,7 +86,7 @@ class Thumbnails:
             except (Exception, CancelledError) as error:
                 known = isinstance(error, MeshForgeError)
                 future.set_exception(error if known else MeshForgeError(f"this was not drawn: {error}"))
-        self._next()
+        self._start_next()
 
     def _finish(self, digest: str) -> None:
         with self._lock:
@@ -112,7 +112,7 @@ def _drawn(work: _Work) -> bytes:
     if present != work.digest:
         raise NotHereError("there is no such picture any more", where=work.asset, remedy="Ask for the present one.")
     data = thumbnail(shown, upright(project, source).pose)
-    write_atomically(work.kept, data)
+    write_atomically(work.target, data)
     return data
 
 

@@ -45,7 +45,7 @@ class Uploads:
         await save(place, chunks, TEMPLATE)
         return place
 
-    def staged(self) -> tuple[Path, tuple[str, ...]]:
+    def list_files(self) -> tuple[Path, tuple[str, ...]]:
         """The folder of the files that were sent, and their paths in it."""
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))

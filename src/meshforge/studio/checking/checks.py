@@ -30,38 +30,38 @@ class Checks:
     """The checks of a project's outputs. workers: for what pages look at; what is cancelled ends at once."""
 
     def __init__(self, folder: Path, workers: Workers) -> None:
-        self._shelf, self._workers = Shelf(folder), workers
+        self._cache, self._workers = Shelf(folder), workers
         self._faults: dict[str, tuple[Fault, ...]] = {}
-        self._shelf.clear()
+        self._cache.remove_oldest()
 
-    def part(self, project: Project, asset: str, part: Part) -> Future[Checked]:
+    def check_part(self, project: Project, asset: str, part: Part) -> Future[Checked]:
         """One part of what is measured of an asset's output; as `arrived`. Raises ProjectError without one."""
         work = _work(project, asset)
-        kept = self._shelf.checked(work.key, part)
-        return _done(kept) if kept else self._workers.start(_measure, work, part, self._shelf)
+        kept = self._cache.read(work.key, part)
+        return _done(kept) if kept else self._workers.start(_measure, work, part, self._cache)
 
-    def pictures(self, project: Project, asset: str, part: Part) -> Future[tuple[CheckPicture, ...]]:
+    def draw_pictures(self, project: Project, asset: str, part: Part) -> Future[tuple[CheckPicture, ...]]:
         """The pictures of a part, which are drawn first. Raises ProjectError where there is no output."""
         work = _work(project, asset)
-        kept = self._shelf.pictures(work.key, part)
-        return _done(kept) if kept is not None else self._workers.start(_draw, work, part, self._shelf)
+        kept = self._cache.read_pictures(work.key, part)
+        return _done(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
 
-    def picture(self, asset: str, key: str, name: str) -> bytes:
+    def read_picture(self, asset: str, key: str, name: str) -> bytes:
         """A picture that was drawn. Raises NotHereError where it was not."""
         try:
-            return self._shelf.picture(key, name).read_bytes()
+            return self._cache.picture_path(key, name).read_bytes()
         except OSError:
             raise NotHereError("there is no such picture", where=asset) from None
 
-    def faults(self, key: str | None) -> tuple[Fault, ...] | None:
+    def faults_of(self, key: str | None) -> tuple[Fault, ...] | None:
         """What was found of the output of a key, None where not all of it is measured."""
         if key is None:
             return None
-        if key not in self._faults and (found := self._shelf.faults(key)) is not None:
+        if key not in self._faults and (found := self._cache.read_faults(key)) is not None:
             self._faults[key] = found
         return self._faults.get(key)
 
-    def every(
+    def check_all(
         self, project: Project, assets: Sequence[str], done: Callable[[], None], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, tuple[Fault, ...] | str]]:
         """What is found of the outputs of some assets, or why it cannot be told; those measured already come first.
@@ -76,17 +76,17 @@ class Checks:
                 done()
                 yield asset, error.sentence
                 continue
-            if self._shelf.missing(work.key):
+            if self._cache.missing_parts(work.key):
                 fresh.append(work)
             else:
                 done()
-                yield asset, self.faults(work.key) or ()
+                yield asset, self.faults_of(work.key) or ()
         bound = share(min(processors(), max(len(fresh), 1)))
-        todo = [(work, self._shelf) for work in fresh]
+        todo = [(work, self._cache) for work in fresh]
         results = isolated(_measure_all, todo, timeout=TIMEOUT, memory=bound, done=done, stop=stop)
         for work, result in zip(fresh, results, strict=True):
             problem = result.why if isinstance(result, Lost) else result
-            yield work.asset, problem or self.faults(work.key) or ()
+            yield work.asset, problem or self.faults_of(work.key) or ()
 
 
 def _work(project: Project, asset: str) -> Work:
@@ -98,7 +98,7 @@ def _work(project: Project, asset: str) -> Work:
 
 def _measure(work: Work, part: Part, shelf: Shelf) -> Checked:
     checked = measured(pair_of(work), part)
-    shelf.put(work.key, checked)
+    shelf.write(work.key, checked)
     return checked
 
 
@@ -108,9 +108,9 @@ def _measure_all(work: tuple[Work, Shelf]) -> str | None:
     problem = None
     try:
         pair = pair_of(what)
-        for part in shelf.missing(what.key):
+        for part in shelf.missing_parts(what.key):
             try:
-                shelf.put(what.key, measured(pair, part))
+                shelf.write(what.key, measured(pair, part))
             except MeshForgeError as error:  # the other parts can still be measured
                 problem = problem or error.sentence
     except Exception as error:  # one that fails never stops the others
@@ -123,7 +123,7 @@ def _draw(work: Work, part: Part, shelf: Shelf) -> tuple[CheckPicture, ...]:
     found = examine_mesh(pair.after, MEASURES[part], pair.before) if part in MEASURES else None
     rows = pictures(pair.after, found, SIZE) if found else ()
     drawn = [(CheckPicture(name=name, text=text), png(image)) for name, text, image in rows]
-    shelf.put_pictures(work.key, part, drawn)
+    shelf.write_pictures(work.key, part, drawn)
     return tuple(picture for picture, _ in drawn)
 
 

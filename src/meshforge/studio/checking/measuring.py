@@ -73,7 +73,7 @@ def _of_engine(mesh: SymbolicMesh, engine: str | None) -> list[Finding]:
 def _unsimulated(now: Examination) -> tuple[str, ...]:
     """Why there is no rest to tell of."""
     rows = (("", now.physics), ("before the edit ", now.earlier))
-    return tuple(f"{when}{p.told}" for when, p in rows if p and p.rest is None)
+    return tuple(f"{when}{p.description}" for when, p in rows if p and p.rest is None)
 
 
 def _row(found: Finding, engine: str | None, new: bool) -> CheckFinding:

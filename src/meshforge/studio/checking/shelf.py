@@ -24,47 +24,47 @@ class Shelf:
 
     folder: Path
 
-    def checked(self, key: str, part: Part) -> Checked | None:
+    def read(self, key: str, part: Part) -> Checked | None:
         """A part that was measured."""
         try:
             return Checked.model_validate_json((self.folder / f"{key}.{part}.json").read_bytes())
         except (OSError, ValidationError):
             return None
 
-    def put(self, key: str, checked: Checked) -> None:
+    def write(self, key: str, checked: Checked) -> None:
         """Keep a part."""
         write_atomically(self.folder / f"{key}.{checked.part}.json", checked.model_dump_json())
 
-    def missing(self, key: str) -> tuple[Part, ...]:
+    def missing_parts(self, key: str) -> tuple[Part, ...]:
         """The parts that were not measured yet."""
-        return tuple(part for part in PARTS if self.checked(key, part) is None)
+        return tuple(part for part in PARTS if self.read(key, part) is None)
 
-    def faults(self, key: str) -> tuple[Fault, ...] | None:
+    def read_faults(self, key: str) -> tuple[Fault, ...] | None:
         """All that was found, once every part is measured."""
-        parts = [checked for part in PARTS if (checked := self.checked(key, part))]
+        parts = [checked for part in PARTS if (checked := self.read(key, part))]
         whole = len(parts) == len(PARTS)
         return tuple(_fault(found) for checked in parts for found in checked.findings) if whole else None
 
-    def pictures(self, key: str, part: Part) -> tuple[CheckPicture, ...] | None:
+    def read_pictures(self, key: str, part: Part) -> tuple[CheckPicture, ...] | None:
         """The pictures of a part that were drawn."""
         try:
             return _PICTURES.validate_json((self.folder / f"{key}.{part}.pictures.json").read_bytes())
         except (OSError, ValidationError):
             return None
 
-    def put_pictures(self, key: str, part: Part, drawn: Iterable[tuple[CheckPicture, bytes]]) -> None:
+    def write_pictures(self, key: str, part: Part, drawn: Iterable[tuple[CheckPicture, bytes]]) -> None:
         """Keep the pictures of a part; the list of them comes last."""
         drawn = tuple(drawn)
         for picture, data in drawn:
-            write_atomically(self.picture(key, picture.name), data)
+            write_atomically(self.picture_path(key, picture.name), data)
         names = _PICTURES.dump_json(tuple(picture for picture, _ in drawn))
         write_atomically(self.folder / f"{key}.{part}.pictures.json", names)
 
-    def picture(self, key: str, name: str) -> Path:
+    def picture_path(self, key: str, name: str) -> Path:
         """Where a picture is kept."""
         return self.folder / f"{key}.{name}.png"
 
-    def clear(self) -> None:
+    def remove_oldest(self) -> None:
         """Remove the oldest."""
         files = sorted(self.folder.glob("*.*"), key=lambda path: path.stat().st_mtime_ns)
         for path in files[:-MOST]:

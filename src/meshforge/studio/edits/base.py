@@ -23,11 +23,11 @@ class Edit(Wire):
         """Make the change; on disk when this returns. Raises MeshForgeError, with nothing changed."""
 
     @abstractmethod
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         """The files and folders that `apply` may change."""
 
     @abstractmethod
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         """What it does, in a few words: `label 3 hulls of table_04 as leg`."""
 
     def assets(self, project: Project) -> tuple[str, ...]:

@@ -42,10 +42,10 @@ class SetSteps(Edit):
             )
         project.demonstrate(self.asset, _steps(self.steps))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.demonstration(self.asset),)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         before = [(step.select, action_text(step.action, step.label)) for step in _kept(project, self)]
         now = [(None if s.select is None else frozenset(s.select), s.action) for s in self.steps]
         if len(now) == len(before) + 1 and now[:-1] == before:
@@ -80,7 +80,7 @@ def _kept(project: Project, edit: SetSteps) -> tuple[Step, ...]:
 class _RuleEdit(Edit):
     """An edit of a rule in all demonstrations, and in the answers about it."""
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.folder / "demonstrations", project.layout.answers)
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -97,7 +97,7 @@ class MoveRule(_RuleEdit):
     def apply(self, project: Project) -> None:
         project.move_rule(self.rule, self.to)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"rule {self.rule} is now rule {self.to}"
 
 
@@ -110,7 +110,7 @@ class DeleteRule(_RuleEdit):
     def apply(self, project: Project) -> None:
         project.delete_rule(self.rule)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"rule {self.rule} taken away"
 
 
@@ -123,10 +123,10 @@ class SetOrientation(Edit):
     def apply(self, project: Project) -> None:
         project.set_orientation(self.text)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"orientation: {self.text}" if self.text else "orientation taken away"
 
     def assets(self, project: Project) -> tuple[str, ...]:

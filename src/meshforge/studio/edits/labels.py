@@ -24,10 +24,10 @@ class LabelHulls(Edit):
     def apply(self, project: Project) -> None:
         project.set_labels(self.asset, dict.fromkeys(self.hulls, self.label))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.labels(self.asset),)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         hulls = counted(len(self.hulls), "hull")
         done = f"{hulls} of {self.asset} labelled {self.label}"
         return done if self.label else f"label of {hulls} of {self.asset} taken away"
@@ -44,10 +44,10 @@ class LabelFromFiles(Edit):
     def apply(self, project: Project) -> None:
         project.label_from_files()
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings, project.layout.folder / "labels")
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "labels taken over from files"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -62,10 +62,10 @@ class LabelFromNames(Edit):
     def apply(self, project: Project) -> None:
         project.label_from_names()
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.folder / "labels",)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "labels taken from names"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -81,10 +81,10 @@ class SetVocabulary(Edit):
     def apply(self, project: Project) -> None:
         project.set_vocabulary(self.labels)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"vocabulary: {', '.join(self.labels) or 'empty'}"
 
 
@@ -98,12 +98,12 @@ class RenameLabel(Edit):
     def apply(self, project: Project) -> None:
         project.rename_label(self.old, self.new)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         layout = project.layout
         folders = (layout.folder / "labels", layout.folder / "demonstrations", layout.folder / "corrections")
         return (layout.settings, *folders, layout.answers, *program_files(project))
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"
 
     def assets(self, project: Project) -> tuple[str, ...]:

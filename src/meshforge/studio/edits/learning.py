@@ -27,10 +27,10 @@ class AnswerQuestion(Edit):
     def apply(self, project: Project) -> None:
         project.add_answer(Answer(self.rule, self.asset, self.select, self.refused))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.answers,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"rule {self.rule} on {self.asset} answered"
 
 
@@ -48,10 +48,10 @@ class SettleRepair(Edit):
         settle = project.confirm if self.accept else project.reject
         settle(Correction(self.asset, self.hull, self.was, self.to))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.answers, project.layout.labels(self.asset))
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         how = "is now labelled" if self.accept else "is not"
         return f"{self.hull} of {self.asset} {how} {self.to}"
 
@@ -68,10 +68,10 @@ class TakeBack(Edit):
     def apply(self, project: Project) -> None:
         project.take_back(self.id)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.answers, project.layout.folder / "labels")
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.id} taken back"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -95,10 +95,10 @@ class WriteProgram(Edit):
             )
         project.accept(Program.parse(self.text))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return program_files(project)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "program changed by hand"
 
 

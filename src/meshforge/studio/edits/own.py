@@ -21,10 +21,10 @@ class Decompose(Edit):
     def apply(self, project: Project) -> None:
         raise AssertionError("the job of decomposing makes this change")
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.asset} decomposed"
 
 
@@ -39,10 +39,10 @@ class Propagate(Edit):
     def apply(self, project: Project) -> None:
         raise AssertionError("the job of carrying labels over makes this change")
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.folder / "labels",)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "labels carried over"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -58,10 +58,10 @@ class LabelFromModel(Edit):
     def apply(self, project: Project) -> None:
         raise AssertionError("the job of asking makes this change")
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.folder / "labels",)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"labels from {self.model}"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -77,10 +77,10 @@ class AddTemplate(Edit):
     def apply(self, project: Project) -> None:
         project.add_template(self.name, Path(self.file).read_bytes())
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.templates[1] / self.name,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"template {self.name} added"
 
 
@@ -100,10 +100,10 @@ class AddAssets(Edit):
             (Path(self.staged) / name).replace(home / name)
         project.add_assets([home / name for name in self.added])
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings, *(Path(self.home) / name for name in self.files))
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{counted(len(self.added), 'asset')} added: {listed(self.added, most=2)}"
 
 
@@ -114,8 +114,8 @@ class TakeLearned(Edit):
         for path in program_files(project)[::2]:
             path.unlink(missing_ok=True)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return program_files(project)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "the learned program taken in place of the one by hand"

@@ -16,7 +16,7 @@ Vector = tuple[float, float, float]
 class _Preparing(Edit):
     asset: str
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -34,7 +34,7 @@ class CutHull(_Preparing):
     def apply(self, project: Project) -> None:
         project.cut(self.asset, self.hull, self.at, self.across)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.hull} of {self.asset} cut in two"
 
 
@@ -46,5 +46,5 @@ class Unprepare(_Preparing):
     def apply(self, project: Project) -> None:
         project.unprepare(self.asset)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"last preparation of {self.asset} taken back"

@@ -24,10 +24,10 @@ class ReviewAssets(Edit):
     def apply(self, project: Project) -> None:
         project.review(self.ids, self.verdict, self.note)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.review,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         what = self.ids[0] if len(self.ids) == 1 else counted(len(self.ids), "asset")
         return f"{what} {self.verdict or 'not reviewed'}"
 
@@ -46,10 +46,10 @@ class CorrectByHand(Edit):
     def apply(self, project: Project) -> None:
         project.correct(self.asset, self.select, *parse_action_text(self.action, "action"))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.corrections(self.asset),)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.asset} edited by hand: {self.action}"
 
     def assets(self, project: Project) -> tuple[str, ...]:
@@ -65,10 +65,10 @@ class DropCorrections(Edit):
     def apply(self, project: Project) -> None:
         project.drop_corrections(self.asset)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.corrections(self.asset),)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
 
     def assets(self, project: Project) -> tuple[str, ...]:

@@ -19,17 +19,17 @@ class Blobs:
 
     folder: Path
 
-    def keep(self, file: Path) -> str:
+    def store(self, file: Path) -> str:
         """Keep what a file holds, and give its digest."""
         digest = file_digest(file)
-        place = self.place(digest)
+        place = self.path_of(digest)
         if not place.exists():
             _copy(file, place)
         return digest
 
-    def put_back(self, digest: str, file: Path) -> None:
+    def restore(self, digest: str, file: Path) -> None:
         """Let a file hold again what it held. Raises ProjectError where that is lost or damaged."""
-        place = self.place(digest)
+        place = self.path_of(digest)
         if not place.is_file() or file_digest(place) != digest:
             raise ProjectError(
                 "what this file held before is no longer kept",
@@ -38,13 +38,13 @@ class Blobs:
             )
         _copy(place, file)
 
-    def forget_all_but(self, wanted: Container[str]) -> None:
+    def prune(self, wanted: Container[str]) -> None:
         """Remove the contents that nothing mentions any more."""
         for place in self.folder.glob("*/*"):
             if place.parent.name + place.name not in wanted:
                 place.unlink()
 
-    def place(self, digest: str) -> Path:
+    def path_of(self, digest: str) -> Path:
         """Where a content is kept."""
         return self.folder / digest[:2] / digest[2:]
 

@@ -70,7 +70,7 @@ class EntryFiles:
         except (FileNotFoundError, ValueError):
             return len(self.entries)
 
-    def move(self, position: int) -> None:
+    def set_position(self, position: int) -> None:
         """Set how many entries are done; without the file, all are."""
         if position < len(self.entries):
             write_atomically(self._position, str(position))
@@ -80,11 +80,11 @@ class EntryFiles:
     def put(self, number: int, entry: Entry) -> None:
         """Set an entry in the place of all from that number on, which go first, the last one foremost."""
         for gone in range(len(self.entries), number, -1):
-            self._path(gone).unlink()
-        write_atomically(self._path(number), entry.model_dump_json())
+            self._path_of(gone).unlink()
+        write_atomically(self._path_of(number), entry.model_dump_json())
         self.entries[number - 1 :] = [entry]
 
-    def pending(self) -> Pending | None:
+    def read_pending(self) -> Pending | None:
         """What was under way when it was last looked at."""
         try:
             return Pending.model_validate_json(self._pending.read_bytes())
@@ -100,7 +100,7 @@ class EntryFiles:
         """Nothing is under way any more."""
         self._pending.unlink(missing_ok=True)
 
-    def _path(self, number: int) -> Path:
+    def _path_of(self, number: int) -> Path:
         return _path(self._folder / "entries", number)
 
 

@@ -37,7 +37,7 @@ class History:
         with project.lock():
             self._recover(project)
             wanted = {digest for entry in self._files.entries for digest in entry.digests}
-            self._snapshots.blobs.forget_all_but(wanted)
+            self._snapshots.blobs.prune(wanted)
 
     @property
     def view(self) -> HistoryView:
@@ -52,17 +52,17 @@ class History:
             )
 
     @property
-    def done(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[Entry, ...]:
         """Everything that was done and not undone, the first first."""
         with self._mutex:
             return tuple(self._files.entries[: self._files.position])
 
-    def held(self, digest: str) -> Path:
+    def path_of(self, digest: str) -> Path:
         """A file that holds what one with that digest held. It is gone where the history was damaged from outside."""
-        return self._snapshots.blobs.place(digest)
+        return self._snapshots.blobs.path_of(digest)
 
     @property
-    def last(self) -> Entry:
+    def last_entry(self) -> Entry:
         """What was done last."""
         with self._mutex:
             return self._files.entries[self._files.position - 1]
@@ -70,27 +70,27 @@ class History:
     def do(self, project: Project, edit: Edit, by: str | None = None) -> Entry | None:
         """Make an edit; it is on disk with its entry when this returns. None where it changed nothing."""
         with self._mutex, project.lock():
-            with self.recorded(project, edit, by) as at:
+            with self.record(project, edit, by) as at:
                 edit.apply(project)
-            return self.last if self._files.position > at else None
+            return self.last_entry if self._files.position > at else None
 
     @contextmanager
-    def recorded(self, project: Project, edit: Edit, by: str | None = None, group: str | None = None) -> Iterator[int]:
+    def record(self, project: Project, edit: Edit, by: str | None = None, group: str | None = None) -> Iterator[int]:
         """An edit whose change is made within the block; an error in it takes back what was changed. Gives how many
         entries were done before."""
         with self._mutex, project.lock():
             self._recover(project)
-            touches = edit.touches(project)
-            before = self._snapshots.taken(touches)
+            touches = edit.list_paths(project)
+            before = self._snapshots.take(touches)
             now, data = datetime.now(UTC).isoformat(timespec="seconds"), edit.model_dump(mode="json")
-            title = edit.said(project)
+            title = edit.describe(project)
             entry = Entry(title=title, edit=data, before=before, after={}, at=now, by=by, group=group)
             names = tuple(relative_name(path, project.folder) for path in touches)
             self._files.begin(Pending(what="do", number=self._files.position + 1, entry=entry, touches=names))
             try:
                 yield self._files.position
             except BaseException:
-                self._take_back(before, touches)
+                self._roll_back(before, touches)
                 raise
             self._finish(project)
 
@@ -99,13 +99,13 @@ class History:
 
         Raises ConflictError, nothing changed, where a file was changed since by something else.
         """
-        return self._moved(project, "undo")
+        return self._move(project, "undo")
 
     def redo(self, project: Project) -> tuple[Entry, ...]:
         """Put back what files held after the last thing that was undone; as `undo`."""
-        return self._moved(project, "redo")
+        return self._move(project, "redo")
 
-    def _moved(self, project: Project, what: Literal["undo", "redo"]) -> tuple[Entry, ...]:
+    def _move(self, project: Project, what: Literal["undo", "redo"]) -> tuple[Entry, ...]:
         with self._mutex, project.lock():
             self._recover(project)
             entries, way = self._files.entries, -1 if what == "undo" else 1
@@ -120,7 +120,7 @@ class History:
     def _shift(self, project: Project, pending: Pending) -> None:
         entry, undo = pending.entry, pending.what == "undo"
         wanted, other = (entry.before, entry.after) if undo else (entry.after, entry.before)
-        now = self._snapshots.now(wanted)
+        now = self._snapshots.read_state(wanted)
         derived = self._derived(project)
         for name, digest in now.items():
             if digest not in (wanted[name], other[name]) and name not in derived:
@@ -130,13 +130,13 @@ class History:
                     remedy=f"“{entry.title}” can no longer be {'undone' if undo else 'redone'}; nothing was changed.",
                 )
         self._files.begin(pending)
-        self._snapshots.put_back(wanted, now)
-        self._files.move(pending.number - 1 if undo else pending.number)
+        self._snapshots.restore(wanted, now)
+        self._files.set_position(pending.number - 1 if undo else pending.number)
         self._files.end()
 
     def _recover(self, project: Project) -> None:
         """Bring what was under way to its end."""
-        pending = self._files.pending()
+        pending = self._files.read_pending()
         if pending is None:
             return
         if pending.what == "do":
@@ -148,19 +148,19 @@ class History:
             self._files.end()
 
     def _finish(self, project: Project) -> None:
-        pending = self._files.pending()
+        pending = self._files.read_pending()
         if pending is None:
             return
-        after = self._snapshots.taken(project.folder / name for name in pending.touches)
+        after = self._snapshots.take(project.folder / name for name in pending.touches)
         changed = changes(pending.entry.before, after)
         if changed[0]:
             entry = pending.entry.model_copy(update={"before": changed[0], "after": changed[1]})
             self._files.put(pending.number, entry)
-            self._files.move(pending.number)
+            self._files.set_position(pending.number)
         self._files.end()
 
-    def _take_back(self, before: State, touches: Sequence[Path]) -> None:
-        now = self._snapshots.taken(touches)
+    def _roll_back(self, before: State, touches: Sequence[Path]) -> None:
+        now = self._snapshots.take(touches)
         wanted, _ = changes(before, now)
-        self._snapshots.put_back(wanted, {name: now.get(name) for name in wanted})
+        self._snapshots.restore(wanted, {name: now.get(name) for name in wanted})
         self._files.end()

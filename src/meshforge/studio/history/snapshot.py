@@ -19,15 +19,15 @@ class Snapshots:
     folder: Path
     blobs: Blobs
 
-    def taken(self, touches: Iterable[Path]) -> State:
+    def take(self, touches: Iterable[Path]) -> State:
         """The state of files, and of all files in folders; their contents are kept."""
-        return {relative_name(file, self.folder): self.blobs.keep(file) for file in sorted(_files(touches))}
+        return {relative_name(file, self.folder): self.blobs.store(file) for file in sorted(_files(touches))}
 
-    def now(self, names: Iterable[str]) -> State:
+    def read_state(self, names: Iterable[str]) -> State:
         """The state of files by their names, nothing kept."""
         return {name: _digest(self.folder / name) for name in names}
 
-    def put_back(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
+    def restore(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
         """Let files hold what they held; those that were not there go, and folders that are empty then."""
         for name, digest in wanted.items():
             if now[name] == digest:
@@ -35,7 +35,7 @@ class Snapshots:
             if digest is None:
                 _remove(self.folder / name, self.folder)
             else:
-                self.blobs.put_back(digest, self.folder / name)
+                self.blobs.restore(digest, self.folder / name)
 
 
 def changes(before: State, after: State) -> tuple[State, State]:

@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 def apply_job(desk: Desk, request: ApplyJob) -> Job:
     """Begin to run the program on all assets, or on some. Raises ProjectError where there is no program."""
     project = desk.project
-    desk.check(*request.assets or ())
+    desk.check_assets(*request.assets or ())
     assets = project.assets() if request.assets is None else tuple(dict.fromkeys(request.assets))
     if project.program() is None:
         raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
 
     def work(running: Running) -> str:
         counts: Counter[str] = Counter()
-        outcomes = project.apply(assets, progress=running.advance, stop=lambda: running.stopped)
+        outcomes = project.apply(assets, progress=running.advance, stop=lambda: running.is_stopped)
         for outcome in outcomes:
             counts[status(outcome)] += 1
-            running.line(_line(outcome))
-            desk.written(outcome.asset)
+            running.add_line(_line(outcome))
+            desk.note_output(outcome.asset)
         said = ", ".join(f"{number} {word}" for word, number in counts.items())
         return f"{counted(len(assets), 'asset')}: {said or 'none'}."
 

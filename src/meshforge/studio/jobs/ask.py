@@ -24,8 +24,8 @@ def forecast_job(desk: Desk, request: ForecastJob) -> Job:
     settings = _settings(desk, request)
 
     def work(running: Running) -> str:
-        found = project.forecast_vlm(settings, progress=running.advance, stop=lambda: running.stopped)
-        running.check()
+        found = project.forecast_vlm(settings, progress=running.advance, stop=lambda: running.is_stopped)
+        running.raise_if_stopped()
         return _foretold(found)
 
     title = f"What asking {settings.model} would cost"
@@ -41,16 +41,16 @@ def ask_job(desk: Desk, request: AskJob) -> Job:
 
     @contextmanager
     def keeping() -> Iterator[None]:
-        with desk.making(LabelFromModel(model=settings.model), uuid4().hex):
+        with desk.record_edit(LabelFromModel(model=settings.model), uuid4().hex):
             yield
 
     def work(running: Running) -> str:
         found = project.label_with_vlm(
-            settings, progress=lambda bill: running.advance(), stop=lambda: running.stopped, keeping=keeping
+            settings, progress=lambda bill: running.advance(), stop=lambda: running.is_stopped, keeping=keeping
         )
         for report in found.reports:
-            running.line(_line(report, found))
-        if found.ended and not running.stopped:
+            running.add_line(_line(report, found))
+        if found.ended and not running.is_stopped:
             raise MeshForgeError(f"The asking ended early: {found.ended}", remedy=_said(found))
         return _said(found)
 
@@ -83,7 +83,7 @@ def _line(report: Labelled, found: VlmLabelled) -> JobLine:
 
 
 def _said(found: VlmLabelled) -> str:
-    taken, bill = sum(report.taken for report in found.reports), found.bill
+    taken, bill = sum(report.taken for report in found.reports), found.usage
     bare = sum(map(len, found.open.values()))
     cost = f"{bill.usage.input + bill.usage.output:,} tokens" if bill.cost is None else f"${bill.cost:.4f}"
     parts = [f"{counted(taken, 'label')} taken"]

@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
 def check_job(desk: Desk) -> Job:
     """Begin to check all outputs. Raises ProjectError where there are none."""
-    assets = tuple(card.asset for card in desk.shown.cards if card.check)
+    assets = tuple(card.asset for card in desk.pages.cards if card.check)
     if not assets:
         raise ProjectError("there is no output to be checked", remedy="Apply the program first.")
 
     def work(running: Running) -> str:
         odd = failed = 0
-        for asset, found in desk.checks.every(desk.project, assets, running.advance, lambda: running.stopped):
+        for asset, found in desk.checks.check_all(desk.project, assets, running.advance, lambda: running.is_stopped):
             line = check_line(asset, found)
             odd, failed = odd + bool(line.text and line.status == "done"), failed + (line.status == "failed")
-            running.line(line)
-            desk.chores.add([asset])
+            running.add_line(line)
+            desk.refresh_queue.add([asset])
         broken = f"; {failed} could not be checked" if failed else ""
         return f"{counted(len(assets), 'result')}: {odd} with findings, limits of engines apart{broken}."
 

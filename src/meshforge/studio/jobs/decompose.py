@@ -21,23 +21,23 @@ if TYPE_CHECKING:
 def decompose_job(desk: Desk, request: DecomposeJob) -> Job:
     """Begin to decompose what some assets have no hulls for."""
     project = desk.project
-    desk.check(*request.assets)
+    desk.check_assets(*request.assets)
     assets, group = tuple(dict.fromkeys(request.assets)), uuid4().hex
     settings = CoacdSettings() if request.method == "coacd" else VhacdSettings()
 
     @contextmanager
     def keeping(asset: str) -> Iterator[None]:
-        with desk.making(Decompose(asset=asset), group):
+        with desk.record_edit(Decompose(asset=asset), group):
             yield
 
     def work(running: Running) -> str:
         made = 0
         results = project.decompose(
-            assets, settings, progress=running.advance, stop=lambda: running.stopped, keeping=keeping
+            assets, settings, progress=running.advance, stop=lambda: running.is_stopped, keeping=keeping
         )
         for result in results:
             made += len(result.hulls)
-            running.line(_line(result))
+            running.add_line(_line(result))
         return f"{counted(made, 'hull')} made for {counted(len(assets), 'asset')}."
 
     return desk.jobs.start("decompose", f"Decomposing {counted(len(assets), 'asset')}", len(assets), work)

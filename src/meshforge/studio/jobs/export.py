@@ -27,7 +27,7 @@ def export_job(desk: Desk, request: ExportJob) -> Job:
     """Begin to export. Raises UsageError for a folder that is not to be written, or holds other things."""
     folder = _folder(desk, request.folder)
     known = _known(folder)
-    rows = [card for card in desk.shown.cards if not request.accepted_only or card.review == "accepted"]
+    rows = [card for card in desk.pages.cards if not request.accepted_only or card.review == "accepted"]
     if not rows:
         which = "accepted" if request.accepted_only else "there"
         raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
@@ -37,10 +37,10 @@ def export_job(desk: Desk, request: ExportJob) -> Job:
         kept: dict[str, None] = {}
         done = 0
         for card in rows:
-            running.check()
+            running.raise_if_stopped()
             line = _exported(edited, folder, card.asset, known, kept)
             done += line.status == "done"
-            running.line(line)
+            running.add_line(line)
             running.advance()
         _forget(folder, [name for name in known if name not in kept])
         return f"{counted(done, 'asset')} exported."
@@ -77,7 +77,7 @@ def _copy(source: Path, target: Path) -> None:
 
 def _folder(desk: Desk, name: str) -> Path:
     """The folder to write: below the project, or the one that was allowed when the studio was opened."""
-    root, allowed = desk.project.folder, desk.opening.export
+    root, allowed = desk.project.folder, desk.options.export
     folder = plain_path(root / name)
     if allowed and folder == plain_path(allowed):
         return folder

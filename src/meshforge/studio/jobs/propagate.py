@@ -32,19 +32,19 @@ def propagate_job(desk: Desk) -> Job:
 
     @contextmanager
     def keeping(best: str | None) -> Iterator[None]:
-        with desk.making(Propagate(used=used, next=best), uuid4().hex):
+        with desk.record_edit(Propagate(used=used, next=best), uuid4().hex):
             if _hulls(desk.project) != began:
                 raise ConflictError("assets or their hulls were changed meanwhile", remedy=_AGAIN)
             yield
 
     def work(running: Running) -> str:
-        spread = Spread(stop=lambda: running.stopped)
+        spread = Spread(stop=lambda: running.is_stopped)
         carried = project.propagate_labels(spread=spread, stage=running.stage, keeping=keeping)
         for report in carried.reports:
-            running.line(_line(report))
+            running.add_line(_line(report))
         if not any(report.taken for report in carried.reports):
-            desk.relabelling.stayed(used, carried.next)
-            desk.chores.add()
+            desk.label_changes.note_no_change(used, carried.next)
+            desk.refresh_queue.add()
         return _said(carried)
 
     assets = project.assets()

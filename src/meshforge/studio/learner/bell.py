@@ -22,15 +22,15 @@ _COUNT = struct.Struct("<q")
 class Ticket:
     """What a piece of work takes with it: of which kind it is, and how often the bell had rung for that."""
 
-    bell: Path
+    path: Path
     kind: Kind
-    rung: int
+    count: int
 
     @property
     def stop(self) -> Callable[[], bool]:
         """Whether the bell has rung since."""
-        counts, place = _shared(self.bell), KINDS.index(self.kind) * _COUNT.size
-        return lambda: int(_COUNT.unpack_from(counts, place)[0]) != self.rung
+        counts, place = _shared(self.path), KINDS.index(self.kind) * _COUNT.size
+        return lambda: int(_COUNT.unpack_from(counts, place)[0]) != self.count
 
 
 class Bell:
@@ -43,24 +43,24 @@ class Bell:
         self._counts = mmap.mmap(handle, 0)
         os.close(handle)
 
-    def ring(self, *kinds: Kind) -> None:
+    def cancel(self, *kinds: Kind) -> None:
         """End the work of some kinds that is going on."""
         for kind in kinds:
-            _COUNT.pack_into(self._counts, self._place(kind), self._rung(kind) + 1)
+            _COUNT.pack_into(self._counts, self._offset_of(kind), self._count_of(kind) + 1)
 
-    def ticket(self, kind: Kind) -> Ticket:
+    def make_token(self, kind: Kind) -> Ticket:
         """The ticket of work that begins now."""
-        return Ticket(self.path, kind, self._rung(kind))
+        return Ticket(self.path, kind, self._count_of(kind))
 
     def close(self) -> None:
         """Take the file away."""
         self._counts.close()
         self.path.unlink(missing_ok=True)
 
-    def _rung(self, kind: Kind) -> int:
-        return int(_COUNT.unpack_from(self._counts, self._place(kind))[0])
+    def _count_of(self, kind: Kind) -> int:
+        return int(_COUNT.unpack_from(self._counts, self._offset_of(kind))[0])
 
-    def _place(self, kind: Kind) -> int:
+    def _offset_of(self, kind: Kind) -> int:
         return KINDS.index(kind) * _COUNT.size
 
 

@@ -32,28 +32,28 @@ class Learner:
         A lesson that is interrupted has the status `timeout`; what goes wrong is told in its error.
         """
         self.interrupt()
-        return self._line.put("lesson", work.learn, self._folder, self._bell.ticket("lesson"), number, take)
+        return self._line.put("lesson", work.learn, self._folder, self._bell.make_token("lesson"), number, take)
 
     def reach(self, number: int, program: str) -> Future[tuple[Reach, ...]]:
         """What a program does on every asset that `work.reach` looks at; number: of the lesson that it comes from.
 
         Raises ProgramError for a text that is no program, or a template that is not there.
         """
-        self._bell.ring("reach")
-        return self._line.put("reach", work.reach, self._folder, self._bell.ticket("reach"), program)
+        self._bell.cancel("reach")
+        return self._line.put("reach", work.reach, self._folder, self._bell.make_token("reach"), program)
 
     def generalise(self, extractor: str, rule: int, program: str | None) -> Future[Generalised]:
         """What an extractor selects on the same assets as a rule of that number meets them, after those of a program.
 
         Raises ProgramError for a text that is no extractor.
         """
-        self._bell.ring("generalise")
-        ticket = self._bell.ticket("generalise")
+        self._bell.cancel("generalise")
+        ticket = self._bell.make_token("generalise")
         return self._line.put("generalise", work.generalise, self._folder, ticket, extractor, rule, program)
 
     def interrupt(self) -> None:
         """End the lesson that is learned, and the reach that is worked out, soon."""
-        self._bell.ring("lesson", "reach")
+        self._bell.cancel("lesson", "reach")
 
     def close(self) -> None:
         """Stop the process."""

@@ -45,7 +45,7 @@ class Line:
             before, self._waiting[kind] = self._waiting.get(kind), call
         if before:
             before.give_up("something newer was asked for")
-        self._go_on()
+        self._start_next()
         return call.future
 
     def close(self) -> None:
@@ -55,18 +55,18 @@ class Line:
         for call in waiting:
             call.give_up("the studio is being closed")
 
-    def _go_on(self) -> None:
-        call = self._next()
+    def _start_next(self) -> None:
+        call = self._take_next()
         if call is None:
             return
         try:
             work = self._workers.start(call.function, *call.args)
         except (MeshForgeError, RuntimeError) as error:
-            self._ended(call, error)
+            self._finish(call, error)
             return
-        work.add_done_callback(lambda done: self._ended(call, _outcome(done)))
+        work.add_done_callback(lambda done: self._finish(call, _outcome(done)))
 
-    def _next(self) -> _Call | None:
+    def _take_next(self) -> _Call | None:
         """What is begun now, None where something is being done, or nothing waits."""
         with self._lock:
             for kind in [kind for kind in KINDS if kind in self._waiting and not self._busy]:
@@ -76,7 +76,7 @@ class Line:
                     return call
         return None
 
-    def _ended(self, call: _Call, outcome: Any) -> None:
+    def _finish(self, call: _Call, outcome: Any) -> None:
         with self._lock:
             self._busy = False
         match outcome:
@@ -88,7 +88,7 @@ class Line:
                 call.future.set_exception(Superseded("it was interrupted"))
             case _:
                 call.future.set_result(outcome)
-        self._go_on()
+        self._start_next()
 
 
 def _outcome(done: Future[Any]) -> Any:

@@ -17,7 +17,7 @@ from meshforge.synthesis.replay import begun
 class _Met:
     """An asset after the rules of a plan, None where they cannot be done; origins: of its hulls, in their order."""
 
-    plan: tuple[str, str]
+    key: tuple[str, str]
     mesh: SymbolicMesh | None
     origins: tuple[tuple[int, ...], ...] = ()
 
@@ -28,11 +28,11 @@ class Meetings:
     def __init__(self) -> None:
         self._last: WeakKeyDictionary[SymbolicMesh, _Met] = WeakKeyDictionary()
 
-    def selected(self, plan: Plan, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
+    def select(self, plan: Plan, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
         """Positions of an asset's own hulls that an extractor selects after the rules of a plan, or of which was made
         what it selects; nothing where these rules cannot be done."""
         met = self._last.get(mesh)
-        if met is None or met.plan != plan.key:
+        if met is None or met.key != plan.key:
             met = self._last[mesh] = _met(plan, mesh)
         if met.mesh is None:
             return ()

@@ -38,10 +38,10 @@ class Shelf:
     """The assets of a project, with the labels they have when they are asked for."""
 
     def __init__(self) -> None:
-        self._kept: dict[str, _Kept] = {}
-        self._lessons = 0
+        self._entries: dict[str, _Kept] = {}
+        self._runs = 0
 
-    def meshes(
+    def read_meshes(
         self, project: Project, assets: Iterable[str], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, SymbolicMesh]]:
         """Those of some assets that can be read, with their ids. Raises Stopped when `stop` says so."""
@@ -49,18 +49,18 @@ class Shelf:
         for asset in assets:
             if stop():
                 raise Stopped
-            kept = self._kept[asset] = self._now(project, asset, contact)
+            kept = self._entries[asset] = self._update(project, asset, contact)
             if kept.mesh is not None:
                 yield asset, kept.mesh
 
-    def grow_older(self) -> None:
+    def count_run(self) -> None:
         """Count a lesson. After many, what was worked out about the assets meanwhile is forgotten."""
-        self._lessons += 1
-        if self._lessons % LIFE == 0:
-            self._kept = {asset: _renewed(kept) for asset, kept in self._kept.items()}
+        self._runs += 1
+        if self._runs % LIFE == 0:
+            self._entries = {asset: _renewed(kept) for asset, kept in self._entries.items()}
 
-    def _now(self, project: Project, asset: str, contact: float | None) -> _Kept:
-        kept, labels = self._kept.get(asset), _labels(project, asset)
+    def _update(self, project: Project, asset: str, contact: float | None) -> _Kept:
+        kept, labels = self._entries.get(asset), _labels(project, asset)
         if kept is None or kept.contact != contact or times_of(kept.times) != kept.times:
             return _read(project, asset, contact, labels)
         if kept.labels == labels:
@@ -89,7 +89,7 @@ def _renewed(kept: _Kept) -> _Kept:
 def _labelled(project: Project, asset: str, mesh: SymbolicMesh) -> SymbolicMesh | None:
     """The mesh with the labels it has now; what was measured between its hulls stays known."""
     try:
-        return follow_labels(project.labels(asset), mesh.labelled(dict.fromkeys(mesh.index))).mesh
+        return follow_labels(project.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh
     except MeshForgeError:
         return None
 

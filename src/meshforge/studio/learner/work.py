@@ -33,9 +33,9 @@ def learn(folder: Path, ticket: Ticket, number: int, take: bool) -> LessonView:
     try:
         project = Project.open(folder)
         shelf = _shelf(folder)
-        shelf.grow_older()
-        meshes = dict(shelf.meshes(project, looked_at(project), stop))
-        accept = take or not project.standing().by_hand
+        shelf.count_run()
+        meshes = dict(shelf.read_meshes(project, looked_at(project), stop))
+        accept = take or not project.program_state().by_hand
         outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
     except Stopped:
         return LessonView(number=number, status="timeout", seconds=perf_counter() - begun)
@@ -53,7 +53,7 @@ def reach(folder: Path, ticket: Ticket, program: str) -> tuple[Reach, ...] | Non
     project = Project.open(folder)
     plan = _plan(project, Program.parse(program))
     try:
-        rows = _shelf(folder).meshes(project, looked_at(project), ticket.stop)
+        rows = _shelf(folder).read_meshes(project, looked_at(project), ticket.stop)
         return tuple(reached(plan, asset, mesh) for asset, mesh in rows)
     except Stopped:
         return None
@@ -67,8 +67,8 @@ def generalise(folder: Path, ticket: Ticket, extractor: str, rule: int, program:
     plan = _plan(project, (Program.parse(program) if program else bare), rule)
     meetings = _meetings(folder)
     try:
-        rows = _shelf(folder).meshes(project, looked_at(project), ticket.stop)
-        return Generalised(assets={asset: meetings.selected(plan, mesh, wanted) for asset, mesh in rows})
+        rows = _shelf(folder).read_meshes(project, looked_at(project), ticket.stop)
+        return Generalised(assets={asset: meetings.select(plan, mesh, wanted) for asset, mesh in rows})
     except Stopped:
         return None
 

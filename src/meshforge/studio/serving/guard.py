@@ -35,7 +35,7 @@ class Guard:
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
-        refusal = self._refusal(HTTPConnection(scope))
+        refusal = self._find_refusal(HTTPConnection(scope))
         if scope["type"] == "websocket":
             await (_refused_socket(receive, send) if refusal else self._app(scope, receive, send))
             return
@@ -53,7 +53,7 @@ class Guard:
         else:
             await self._app(scope, receive, safely)
 
-    def _refusal(self, request: HTTPConnection) -> _Refusal | None:
+    def _find_refusal(self, request: HTTPConnection) -> _Refusal | None:
         """Why a request is refused. A foreign name in `Host` means that a foreign page has rebound its name to us."""
         host = request.headers.get("host", "")
         if _name(f"//{host}") not in LOOPBACK:
@@ -63,11 +63,11 @@ class Guard:
             return _Refusal(403, Problem(message="another site asked for this", where=origin, remedy=_REOPEN))
         if not _needs_token(request.url.path):
             return None
-        if not self._knows(request):
+        if not self._has_token(request):
             return _Refusal(401, Problem(message="this page has no valid token for the studio", remedy=_REOPEN))
         return _too_long(request) if request.scope.get("method") == "POST" else None
 
-    def _knows(self, request: HTTPConnection) -> bool:
+    def _has_token(self, request: HTTPConnection) -> bool:
         kind, _, given = request.headers.get("authorization", "").partition(" ")
         token = given if kind.lower() == "bearer" else request.query_params.get("token", "")
         return compare_digest(token.encode(), self._token)

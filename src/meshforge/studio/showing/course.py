@@ -38,26 +38,26 @@ class Course:
     start: SymbolicMesh
     mesh: SymbolicMesh
     used: frozenset[str] = frozenset()
-    deeds: tuple[Deed, ...] = ()
+    results: tuple[Deed, ...] = ()
 
     @property
-    def home(self) -> SymbolicMesh:
+    def incoming_mesh(self) -> SymbolicMesh:
         """The asset as it is now, in the frame it comes in."""
         return unstage(self.source, self.mesh, self.pose)
 
-    def mask(self, names: Iterable[str]) -> int:
+    def mask_of(self, names: Iterable[str]) -> int:
         """Hulls by name as a bit set. Raises DemonstrationError for one that is not there."""
         names = sorted(names)
         for name in names:
             if name not in self.mesh.index:
-                raise self._unknown(name)
+                raise self._unknown_hull(name)
         return mask_of(self.mesh.index[name] for name in names)
 
-    def then(
+    def apply(
         self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template], *, again: bool = False
     ) -> Course:
         """After one more edit, of the hulls of a bit set. again: whether it will be asked for once more."""
-        number = len(self.deeds) + 1
+        number = len(self.results) + 1
 
         def change() -> _Change:
             return _Change.of(self.mesh, apply_action(self.mesh, mask, action, templates, label, self.used))
@@ -72,14 +72,14 @@ class Course:
         selected = tuple(self.mesh.hulls[k].name for k in sorted(bits(mask)))
         gone = tuple(hull.name for hull in self.mesh.hulls if hull.name not in mesh.index)
         deed = Deed(number, selected, done.made, gone, done.note)
-        return replace(self, mesh=mesh, used=done.used, deeds=(*self.deeds, deed))
+        return replace(self, mesh=mesh, used=done.used, results=(*self.results, deed))
 
-    def without(self, error: MeshForgeError) -> Course:
+    def skip(self, error: MeshForgeError) -> Course:
         """After an edit that cannot be done, and is left out."""
-        return replace(self, deeds=(*self.deeds, Deed(len(self.deeds) + 1, error=error.message)))
+        return replace(self, results=(*self.results, Deed(len(self.results) + 1, error=error.message)))
 
-    def _unknown(self, name: str) -> DemonstrationError:
-        where = f"{self.asset}, rule {len(self.deeds) + 1}"
+    def _unknown_hull(self, name: str) -> DemonstrationError:
+        where = f"{self.asset}, rule {len(self.results) + 1}"
         if name in self.source.index or name in self.used:
             return DemonstrationError(
                 f"the hull {name!r} is gone: an earlier rule removed or replaced it",

@@ -46,7 +46,7 @@ def language_view() -> LanguageView:
 
 def _form(name: str, kind: type[Action]) -> ActionForm:
     given = kind.arguments()
-    required = list(given)[: kind.required()]
+    required = list(given)[: kind.min_arguments()]
     example = kind(*(_example(given[one]) for one in required))
     return ActionForm(
         name=name,

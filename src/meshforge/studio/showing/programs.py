@@ -19,7 +19,7 @@ def program_view(project: Project) -> ProgramView:
     version = program_version(project)
     if not version:
         return ProgramView()
-    path, standing = project.layout.program, project.standing()
+    path, standing = project.layout.program, project.program_state()
     text = path.read_text(encoding="utf-8", errors="replace")
     try:
         program = Program.read(path)

@@ -33,7 +33,7 @@ def project_view(
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rules=rule_lines(demonstrated(project)),
-        said=tuple(_said(project)),
+        describe=tuple(_said(project)),
         templates=project.template_names(),
         carried=carried,
         next=following,
@@ -44,7 +44,7 @@ def project_view(
 
 def demonstrated(project: Project) -> dict[str, tuple[Step, ...]]:
     """The steps of every asset on which something was demonstrated."""
-    shown = set(project.layout.kept_for("demonstrations"))
+    shown = set(project.layout.ids_with("demonstrations"))
     return {asset: project.steps(asset) for asset in project.assets() if asset in shown}
 
 

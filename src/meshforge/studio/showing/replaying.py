@@ -35,22 +35,22 @@ def walk(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = N
         try:
             course = _after(project, course, step, program)
         except MeshForgeError as error:
-            course = course.without(error)
+            course = course.skip(error)
     return course
 
 
 def _after(project: Project, course: Course, step: Step, program: Program) -> Course:
     if step.select is not None:
-        return _done(project, course, course.mask(step.select), step.action, step.label)
+        return _done(project, course, course.mask_of(step.select), step.action, step.label)
     rule = _rule_of(program, step)
     if rule is None:
-        return replace(course, deeds=(*course.deeds, Deed(step.rule)))
+        return replace(course, results=(*course.results, Deed(step.rule)))
     mask = select_mask(rule.extractor, course.mesh, program.extremity or EXTREMITY)
     return _done(project, course, mask, rule.action, rule.label)
 
 
 def _done(project: Project, course: Course, mask: int, action: Action, label: str | None) -> Course:
-    return course.then(mask, action, label, project.templates(action.templates), again=True)
+    return course.apply(mask, action, label, project.templates(action.templates), again=True)
 
 
 def _rule_of(program: Program, step: Step) -> Rule | None:

@@ -31,7 +31,7 @@ def take_assets(desk: Desk, page: str | None) -> Uploaded:
     """Put the files that were sent in place, as assets of the project. Raises ProjectError, and throws them away,
     where one cannot be read, or would take the place of another file."""
     try:
-        staged, files = desk.uploads.staged()
+        staged, files = desk.uploads.list_files()
         added = new_assets(desk.readers, staged)
         home = desk.project.found.base / ADDED
         _check_free(home, files)

@@ -29,7 +29,7 @@ class Changes:
     settings: bool = False
     program: bool = False
     reviews: bool = False
-    lesson: bool = False
+    learning: bool = False
 
 
 def changes_of(project: Project, names: Iterable[str]) -> Changes:
@@ -47,5 +47,5 @@ def changes_of(project: Project, names: Iterable[str]) -> Changes:
         settings=settings,
         program=bool(names & {PROGRAM, LEARNED}),
         reviews="review.json" in names,
-        lesson=settings or bool(shapes) or any(n.startswith(_LESSONS) or n in _SAID for n in names),
+        learning=settings or bool(shapes) or any(n.startswith(_LESSONS) or n in _SAID for n in names),
     )

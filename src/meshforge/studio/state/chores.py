@@ -35,7 +35,7 @@ class Chores:
             self._wake.notify()
 
     @property
-    def left(self) -> int:
+    def remaining(self) -> int:
         """How many assets are still to be refreshed."""
         with self._wake:
             return len(self._urgent | self._rest)
@@ -58,11 +58,11 @@ class Chores:
                 self._wake.wait_for(lambda: self._urgent or self._rest or self._whole or self._closed)
                 if self._closed:
                     return
-                assets = self._portion()
+                assets = self._take_portion()
                 self._whole = False
             self._refresh(assets)
 
-    def _portion(self) -> tuple[str, ...]:
+    def _take_portion(self) -> tuple[str, ...]:
         source = self._urgent or self._rest
         assets = tuple(source)[: self._size()]
         for asset in assets:

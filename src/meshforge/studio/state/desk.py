@@ -58,47 +58,47 @@ class Desk:
     """Opens a project, changes it, and keeps all pages in step with it."""
 
     def __init__(self, opening: Opening) -> None:
-        self.opening = opening
+        self.options = opening
         self._mutex = RLock()
         self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
         self.project = KeptProject.of(Project.open(opening.folder), Meshes(self.readers))
         self.history = History(self.project, _derived)
-        self.relabelling = Relabelling(self.history)
+        self.label_changes = Relabelling(self.history)
         self.hub = Hub()
         view = first_view(self.project)
-        self.shown = Shown(self.hub, view, self.history.view, version("meshforge"), opening.tour)
+        self.pages = Shown(self.hub, view, self.history.view, version("meshforge"), opening.tour)
         self.offers = Offers()
-        self.jobs = Jobs(self.shown.set_job)
-        self.thumbnails = Thumbnails(self.state / "thumbnails", self._drawers)
-        self.checks = Checks(self.state / "checks", self._checkers)
-        self.uploads = Uploads(self.state / "uploads")
-        self.lessons = Lessons(Learner(self.project.folder), self.shown, self._is_taught, self._learned)
+        self.jobs = Jobs(self.pages.set_job)
+        self.thumbnails = Thumbnails(self.studio_folder / "thumbnails", self._drawers)
+        self.checks = Checks(self.studio_folder / "checks", self._checkers)
+        self.uploads = Uploads(self.studio_folder / "uploads")
+        self.learning = Lessons(Learner(self.project.folder), self.pages, self._has_demonstrations, self._end_learning)
         refreshing = Refreshing(self)
-        self.chores = Chores(refreshing.refresh, refreshing.portion)
-        self._watch = Watch(self._look_again)
-        self._following = Following(self)
-        self._taking = False
+        self.refresh_queue = Chores(refreshing.refresh, refreshing.portion_size)
+        self._watcher = Watch(self._poll_files)
+        self._file_sync = Following(self)
+        self._take_learned = False
 
     @property
-    def state(self) -> Path:
+    def studio_folder(self) -> Path:
         """The folder of what the studio keeps."""
         return self.project.folder / STATE / "studio"
 
     def start(self) -> None:
         """Begin to read, to learn and to watch."""
-        self.shown.set_assets(self.project.assets())
-        self.shown.set_program(program_view(self.project))
-        self.chores.add(self.project.assets(), later=True)
-        self.chores.start()
-        self._watch.start()
-        self.lessons.restart()
+        self.pages.set_assets(self.project.assets())
+        self.pages.set_program(program_view(self.project))
+        self.refresh_queue.add(self.project.assets(), later=True)
+        self.refresh_queue.start()
+        self._watcher.start()
+        self.learning.restart()
 
     def close(self) -> None:
         """Stop everything, worker processes too."""
-        self._watch.close()
-        self.chores.close()
+        self._watcher.close()
+        self.refresh_queue.close()
         self.jobs.close()
-        self.lessons.close()
+        self.learning.close()
         self.readers.close()
         self._drawers.close()
         self._checkers.close()
@@ -108,10 +108,10 @@ class Desk:
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
-        self.check(asset)
+        self.check_assets(asset)
         return self.project.mesh(asset)
 
-    def check(self, *assets: str) -> None:
+    def check_assets(self, *assets: str) -> None:
         """Raises NotHereError for an id that no asset has."""
         for asset in assets:
             if asset not in self.project.found.ids:
@@ -122,97 +122,97 @@ class Desk:
     def edit(self, edit: Edit, by: str | None = None) -> Done:
         """Make an edit; it is on disk when this returns."""
         with self._mutex:
-            said = edit.said(self.project)
-            if self.project.layout.program in edit.touches(self.project):
-                self.lessons.pause()
+            said = edit.describe(self.project)
+            if self.project.layout.program in edit.list_paths(self.project):
+                self.learning.pause()
             try:
                 entry = self.history.do(self.project, edit, by)
             finally:
-                self.lessons.resume()
+                self.learning.resume()
             if entry is None:
-                return Done(said=said, nothing=True)
-            self.noted((entry,), "edit", by)
-        return Done(said=entry.title)
+                return Done(describe=said, nothing=True)
+            self.announce((entry,), "edit", by)
+        return Done(describe=entry.title)
 
     def undo(self, by: str | None = None) -> Done:
         """Take back what was done last."""
-        return self._moved("undo", by)
+        return self._move("undo", by)
 
     def redo(self, by: str | None = None) -> Done:
         """Do again what was taken back last."""
-        return self._moved("redo", by)
+        return self._move("redo", by)
 
-    def _moved(self, way: Literal["undo", "redo"], by: str | None) -> Done:
+    def _move(self, way: Literal["undo", "redo"], by: str | None) -> Done:
         with self._mutex:
-            self.lessons.pause()
+            self.learning.pause()
             try:
                 move = self.history.undo if way == "undo" else self.history.redo
                 entries = move(self.project)
             finally:
-                self.lessons.resume()
+                self.learning.resume()
             if not entries:
-                return Done(said=f"there is nothing to {way}", nothing=True)
-            self.noted(entries, way, by)
-        return Done(said=entries[0].title)
+                return Done(describe=f"there is nothing to {way}", nothing=True)
+            self.announce(entries, way, by)
+        return Done(describe=entries[0].title)
 
-    def noted(self, entries: Iterable[Entry], did: Did, by: str | None = None) -> None:
+    def announce(self, entries: Iterable[Entry], did: Did, by: str | None = None) -> None:
         """Tell all pages of entries that were made, undone or redone, after what they changed (cards follow)."""
         with self._mutex:
             entries = tuple(entries)
             said = entries[0].title
-            self.shown.set_relabelled(None)
-            self.changed({name for entry in entries for name in entry.names})
-            self.shown.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
+            self.pages.set_relabelled(None)
+            self.update({name for entry in entries for name in entry.names})
+            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, describe=said, by=by))
 
     @contextmanager
-    def making(self, edit: Edit, group: str) -> Iterator[None]:
+    def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
         """An edit of a job, whose change is made within the block."""
         with self._mutex:
-            with self.history.recorded(self.project, edit, group=group) as before:
+            with self.history.record(self.project, edit, group=group) as before:
                 yield
             if self.history.view.undoable > before:
-                self.noted((self.history.last,), "edit")
+                self.announce((self.history.last_entry,), "edit")
 
-    def written(self, asset: str) -> None:
+    def note_output(self, asset: str) -> None:
         """The output of an asset was written anew."""
-        self.changed([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
+        self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
 
-    def changed(self, names: Iterable[str]) -> None:
+    def update(self, names: Iterable[str]) -> None:
         """Look anew at what depends on these files; names: paths from the project's folder."""
         with self._mutex:
-            self._following.changed(names)
+            self._file_sync.update(names)
 
-    def _look_again(self) -> None:
+    def _poll_files(self) -> None:
         with self._mutex:
-            self._following.look_again()
+            self._file_sync.poll()
 
     # Learning
 
     def learn(self) -> Done:
         """Learn now, and take the learned program even if the present one was written by hand."""
-        if not self._is_taught():
+        if not self._has_demonstrations():
             raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
         with self._mutex:
-            self._taking = self.shown.program.by_hand
-            self.lessons.restart()
-        return Done(said="learning")
+            self._take_learned = self.pages.program.by_hand
+            self.learning.restart()
+        return Done(describe="learning")
 
-    def _is_taught(self) -> bool:
-        shown = set(self.project.layout.kept_for("demonstrations"))
+    def _has_demonstrations(self) -> bool:
+        shown = set(self.project.layout.ids_with("demonstrations"))
         return any(asset in shown for asset in self.project.assets())
 
-    def _learned(self, lesson: LessonView) -> None:
+    def _end_learning(self, lesson: LessonView) -> None:
         """A lesson is over: it has left its program, unless a person's stands there."""
         with self._mutex:
-            taking, self._taking = self._taking, False
-            if taking and lesson.program and self.lessons.is_present(lesson.number):
+            taking, self._take_learned = self._take_learned, False
+            if taking and lesson.program and self.learning.is_latest(lesson.number):
                 self.edit(TakeLearned())
                 return
-            self._following.show_program()
-            self.chores.add()
+            self._file_sync.show_program()
+            self.refresh_queue.add()
 
 
 def _derived(project: Project) -> frozenset[str]:
     """What learning writes by itself: undoing puts it back whatever it is by then, but no program by hand goes."""
     always = {LEARNED, PREVIOUS}
-    return frozenset(always if project.standing().by_hand else {*always, PROGRAM})
+    return frozenset(always if project.program_state().by_hand else {*always, PROGRAM})

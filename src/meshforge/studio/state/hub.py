@@ -19,7 +19,7 @@ class Page:
         self.events: asyncio.Queue[str | None] = asyncio.Queue()
         self._loop = loop
 
-    def tell(self, text: str | None) -> None:
+    def send(self, text: str | None) -> None:
         """Add to what it is told; from any thread."""
         with suppress(RuntimeError):  # the studio is closed, and its loop with it
             self._loop.call_soon_threadsafe(self._put, text)
@@ -38,7 +38,7 @@ class Hub:
     def join(self, page: Page, hello: Wire) -> None:
         """Add a page, which is told `hello` first, then everything that comes after that."""
         with self._lock:
-            page.tell(hello.model_dump_json())
+            page.send(hello.model_dump_json())
             self._pages[page] = None
 
     def leave(self, page: Page) -> None:
@@ -46,17 +46,17 @@ class Hub:
         with self._lock:
             self._pages.pop(page, None)
 
-    def tell(self, event: Wire) -> None:
+    def broadcast(self, event: Wire) -> None:
         """Tell all pages; from any thread."""
         with self._lock:
             pages = list(self._pages)
             if pages:
                 text = event.model_dump_json()
                 for page in pages:
-                    page.tell(text)
+                    page.send(text)
 
     def close(self) -> None:
         """End all connections."""
         with self._lock:
             for page in self._pages:
-                page.tell(None)
+                page.send(None)

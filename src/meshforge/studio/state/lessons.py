@@ -32,7 +32,7 @@ class Lessons:
         self, learner: Learner, shown: Shown, taught: Callable[[], bool], learned: Callable[[LessonView], None]
     ) -> None:
         self._learner, self._shown = learner, shown
-        self._taught, self._learned = taught, learned
+        self._can_learn, self._on_outcome = taught, learned
         self._lock = RLock()
         self._number, self._paused = 0, False
         self._timer: Timer | None = None
@@ -41,9 +41,9 @@ class Lessons:
     def restart(self) -> None:
         """Begin a lesson, in the place of one that is under way."""
         number = self._stop()
-        if not self._taught():
+        if not self._can_learn():
             self._shown.set_lesson(None, learning=False)
-            self.measure()
+            self.measure_reach()
             return
         self._shown.set_lesson(self._shown.lesson, learning=True)
         with self._lock:
@@ -74,20 +74,20 @@ class Lessons:
             self._paused = False
             self.restart()
 
-    def is_present(self, number: int) -> bool:
+    def is_latest(self, number: int) -> bool:
         """Whether a lesson is the last one that was begun."""
         return number == self._number
 
-    def measure(self) -> None:
+    def measure_reach(self) -> None:
         """Measure what the accepted program does on all assets."""
         text = self._shown.program.text
         if not text or self._shown.program.error:
             self._shown.set_reach(self._number, ())
             return
         number = self._number
-        self._after(self._learner.reach(number, text), lambda reach: self._measured(number, reach))
+        self._when_done(self._learner.reach(number, text), lambda reach: self._show_reach(number, reach))
 
-    def generalised(self, extractor: str, rule: int) -> Future[Generalised]:
+    def generalise(self, extractor: str, rule: int) -> Future[Generalised]:
         """What an extractor selects on all assets."""
         return self._learner.generalise(extractor, rule, self._shown.program.text or None)
 
@@ -113,9 +113,9 @@ class Lessons:
                 self._running = self._learner.learn(number, False)
             except MeshForgeError:  # the studio is being closed
                 return
-        self._running.add_done_callback(partial(self._over, number))
+        self._running.add_done_callback(partial(self._finish, number))
 
-    def _over(self, number: int, future: Future[LessonView]) -> None:
+    def _finish(self, number: int, future: Future[LessonView]) -> None:
         try:
             lesson = future.result()
         except CancelledError:
@@ -125,21 +125,21 @@ class Lessons:
         if number != self._number:
             return
         try:
-            self._learned(lesson)
+            self._on_outcome(lesson)
         finally:
             self._show(number, lesson)
-        self.measure()
+        self.measure_reach()
 
     def _show(self, number: int, lesson: LessonView) -> None:
         with self._lock:  # so that no other lesson begins meanwhile
             if number == self._number:
                 self._shown.set_lesson(lesson, learning=False)
 
-    def _measured(self, number: int, reach: tuple[Reach, ...]) -> None:
+    def _show_reach(self, number: int, reach: tuple[Reach, ...]) -> None:
         if number == self._number:
             self._shown.set_reach(number, reach)
 
-    def _after(self, future: Future[Result], then: Callable[[Result], None]) -> None:
+    def _when_done(self, future: Future[Result], then: Callable[[Result], None]) -> None:
         def arrived(done: Future[Result]) -> None:
             try:
                 result = done.result()

@@ -37,7 +37,7 @@ class Refreshing:
         self._read = 0
         self._job: Job | None = None
 
-    def portion(self) -> int:
+    def portion_size(self) -> int:
         """How many assets are looked at together: few, so that their cards come soon."""
         return max(_FEWEST, len(self._desk.project.assets()) // _PORTIONS)
 
@@ -48,49 +48,49 @@ class Refreshing:
         except StoppedError:  # the studio is being closed
             return
         except MeshForgeError as error:
-            self._desk.shown.set_problem(error.message)
+            self._desk.pages.set_problem(error.message)
         except Exception as error:
             _LOG.debug("a chore failed", exc_info=True)
-            self._desk.shown.set_problem(told(error))
+            self._desk.pages.set_problem(told(error))
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         desk, project = self._desk, self._desk.project
-        status = project.status(assets, progress=self._count, stop=desk.chores.is_closed)
+        status = project.status(assets, progress=self._count_read, stop=desk.refresh_queue.is_closed)
         settings = project.settings
         self._names |= {row.id: row.names for row in status.assets}
         keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
-        desk.shown.set_cards(
-            card(row, settings.vocabulary, settings.orient, key, desk.checks.faults(key))
+        desk.pages.set_cards(
+            card(row, settings.vocabulary, settings.orient, key, desk.checks.faults_of(key))
             for row, key in zip(status.assets, keys, strict=True)
         )
-        self._tell()
-        if desk.chores.left == 0 or len(assets) < self.portion():
-            desk.shown.set_relabelled(desk.relabelling.relabelled(self._names))
-            desk.shown.set_project(self._view(status))
+        self._report_progress()
+        if desk.refresh_queue.remaining == 0 or len(assets) < self.portion_size():
+            desk.pages.set_relabelled(desk.label_changes.last_change(self._names))
+            desk.pages.set_project(self._build_view(status))
 
-    def _view(self, status: Status) -> ProjectView:
-        desk, cards = self._desk, self._desk.shown.cards
-        program = desk.shown.program
+    def _build_view(self, status: Status) -> ProjectView:
+        desk, cards = self._desk, self._desk.pages.cards
+        program = desk.pages.program
         has_program = bool(program.text) and not program.error
         first = partial(first_to_show, desk.project)
-        carried = desk.relabelling.carried(desk.project, cards)
-        following = next_step(cards, status.vocabulary, has_program, desk.shown.lesson, status.problem, first, carried)
+        carried = desk.label_changes.propagation_state(desk.project, cards)
+        following = next_step(cards, status.vocabulary, has_program, desk.pages.lesson, status.problem, first, carried)
         return project_view(desk.project, cards, following, status.problem, status.lost, carried)
 
-    def _count(self) -> None:
+    def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""
         self._read += 1
-        self._tell()
+        self._report_progress()
 
-    def _tell(self) -> None:
+    def _report_progress(self) -> None:
         """Show how far the reading is, where there is any that takes time."""
-        cards = self._desk.shown.cards
-        left = self._desk.chores.left
+        cards = self._desk.pages.cards
+        left = self._desk.refresh_queue.remaining
         if self._job is None and self._read and left:
             self._job = Job(id="read", kind="read", title="Reading assets", total=len(cards))
         if self._job:
             update = {"done": len(cards) - left, "state": "running" if left else "done"}
             self._job = self._job.model_copy(update=update)
-            self._desk.shown.set_job(self._job)
+            self._desk.pages.set_job(self._job)
         if not left:
             self._job, self._read = None, 0

@@ -34,37 +34,37 @@ class Relabelling:
 
     def __init__(self, history: History) -> None:
         self._history = history
-        self._known: tuple[Entry, int, Relabelled] | None = None
-        self._stayed: tuple[tuple[Entry, ...], str | None] | None = None
+        self._last: tuple[Entry, int, Relabelled] | None = None
+        self._no_change: tuple[tuple[Entry, ...], str | None] | None = None
 
-    def relabelled(self, names: Names) -> Relabelled | None:
+    def last_change(self, names: Names) -> Relabelled | None:
         """What the last edit did to assets whose hulls are known by now; None where it was not one of all labels."""
-        done = self._history.done
+        done = self._history.entries
         if not done or done[-1].edit.get("kind") not in _WAYS:
             return None
         entry = done[-1]
-        if self._known is None or self._known[0] is not entry or self._known[1] != len(names):
-            self._known = entry, len(names), self._made(entry, len(done), names)
-        return self._known[2]
+        if self._last is None or self._last[0] is not entry or self._last[1] != len(names):
+            self._last = entry, len(names), self._build_change(entry, len(done), names)
+        return self._last[2]
 
-    def stayed(self, entries: int, best: str | None) -> None:
+    def note_no_change(self, entries: int, best: str | None) -> None:
         """Labels were carried over when so many entries were done, and stayed as they were, so that it is no entry."""
-        self._stayed = self._history.done[:entries], best
+        self._no_change = self._history.entries[:entries], best
 
-    def carried(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
+    def propagation_state(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
         """How it stands with labels that were carried over; None where they never were, or where that is undone."""
-        done = self._history.done
-        used = self._used(done)
+        done = self._history.entries
+        used = self._last_propagation(done)
         if used is None:
             return None
         is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
-        states = self._states(project, done[used.entries :])
+        states = self._label_states(project, done[used.entries :])
         unused = sum(given_since(before, now) for before, now in states)
         return CarriedOver(unused=unused, next=used.best if is_open else None)
 
-    def _made(self, entry: Entry, number: int, names: Names) -> Relabelled:
+    def _build_change(self, entry: Entry, number: int, names: Names) -> Relabelled:
         files = {asset: name for asset, name in _files(entry.names).items() if asset in names}
-        states = [(a, self._held(entry.before[name]), self._held(entry.after[name])) for a, name in files.items()]
+        states = [(a, self._read_state(entry.before[name]), self._read_state(entry.after[name])) for a, name in files.items()]
         assets = (relabelled_asset(asset, names[asset], before, after) for asset, before, after in states)
         return Relabelled(
             entry=number,
@@ -73,17 +73,17 @@ class Relabelling:
             settled=sum(settled(before, after) for _, before, after in states),
         )
 
-    def _used(self, done: tuple[Entry, ...]) -> _Used | None:
+    def _last_propagation(self, done: tuple[Entry, ...]) -> _Used | None:
         """The last time that labels were carried over."""
         last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
         edit = {} if last is None else done[last].edit
         found = None if last is None else _Used(min(edit.get("used", last), last), edit.get("next"))
-        if self._stayed and done[: len(self._stayed[0])] == self._stayed[0]:
-            again = _Used(len(self._stayed[0]), self._stayed[1])
+        if self._no_change and done[: len(self._no_change[0])] == self._no_change[0]:
+            again = _Used(len(self._no_change[0]), self._no_change[1])
             return again if found is None or again.entries > found.entries else found
         return found
 
-    def _states(self, project: Project, since: Sequence[Entry]) -> Iterator[tuple[Labels, Labels]]:
+    def _label_states(self, project: Project, since: Sequence[Entry]) -> Iterator[tuple[Labels, Labels]]:
         """The labels of each asset that people or files labelled since: before that, in words of today, and now."""
         first: dict[str, str | None] = {}
         for entry in since:
@@ -92,7 +92,7 @@ class Relabelling:
         known = set(project.assets())
         for asset, name in _files(first).items():
             if asset in known:
-                before = self._held(first[name])
+                before = self._read_state(first[name])
                 for old, new in words:
                     before = {hull: replace(x, name=new) if x.name == old else x for hull, x in before.items()}
                 try:
@@ -100,10 +100,10 @@ class Relabelling:
                 except MeshForgeError:  # its card tells that they cannot be read
                     continue
 
-    def _held(self, digest: str | None) -> Labels:
+    def _read_state(self, digest: str | None) -> Labels:
         """What a labels file held; nothing where there was none, or where the history was damaged."""
         try:
-            return read_labels(self._history.held(digest)).labels if digest else {}
+            return read_labels(self._history.path_of(digest)).labels if digest else {}
         except MeshForgeError:
             return {}
 

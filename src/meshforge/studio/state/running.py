@@ -32,13 +32,13 @@ class Running:
             return self._job.model_copy(update={"lines": _most_important(self._lines)})
 
     @property
-    def stopped(self) -> bool:
+    def is_stopped(self) -> bool:
         """Whether it is to stop."""
         return self._stopped.is_set()
 
-    def check(self) -> None:
+    def raise_if_stopped(self) -> None:
         """Raises StoppedError where it is to stop."""
-        if self.stopped:
+        if self.is_stopped:
             raise StoppedError("the job was cancelled")
 
     def stop(self) -> None:
@@ -60,7 +60,7 @@ class Running:
             self._show()
         yield self.advance
 
-    def line(self, line: JobLine) -> None:
+    def add_line(self, line: JobLine) -> None:
         """What became of one asset."""
         with self._lock:
             self._lines.append(line)

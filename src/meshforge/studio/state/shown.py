@@ -81,7 +81,7 @@ class Shown:
             other = tuple(card for card in cards if self._cards.get(card.asset, card) != card)
             self._cards |= {card.asset: card for card in other}
             if other:
-                self._hub.tell(events.CardsChanged(cards=other))
+                self._hub.broadcast(events.CardsChanged(cards=other))
 
     def set_assets(self, assets: Sequence[str]) -> tuple[str, ...]:
         """Show cards of these assets, in this order, and no others; gives those that are new."""
@@ -91,7 +91,7 @@ class Shown:
             fresh = {asset: Card(asset=asset) for asset in new}
             self._cards = {asset: fresh.get(asset) or self._cards[asset] for asset in assets}
             if new or gone:
-                self._hub.tell(events.CardsChanged(cards=tuple(fresh.values()), gone=gone))
+                self._hub.broadcast(events.CardsChanged(cards=tuple(fresh.values()), gone=gone))
         return new
 
     def set_project(self, project: ProjectView) -> None:
@@ -99,7 +99,7 @@ class Shown:
         with self._lock:
             if project != self._project:
                 self._project = project
-                self._hub.tell(events.ProjectChanged(project=project))
+                self._hub.broadcast(events.ProjectChanged(project=project))
 
     def set_vocabulary(self, labels: tuple[VocabularyLabel, ...]) -> None:
         """Show other labels."""
@@ -115,28 +115,28 @@ class Shown:
         """Show what was done, and what can be undone now."""
         with self._lock:
             self._history = event.history
-            self._hub.tell(event)
+            self._hub.broadcast(event)
 
     def set_relabelled(self, relabelled: Relabelled | None) -> None:
         """Show what the last edit did to all labels."""
         with self._lock:
             if relabelled != self._relabelled:
                 self._relabelled = relabelled
-                self._hub.tell(events.RelabelledChanged(relabelled=relabelled))
+                self._hub.broadcast(events.RelabelledChanged(relabelled=relabelled))
 
     def set_lesson(self, lesson: LessonView | None, learning: bool) -> None:
         """Show a lesson, or that one has begun."""
         with self._lock:
             if (lesson, learning) != (self._lesson, self._learning):
                 self._lesson, self._learning = lesson, learning
-                self._hub.tell(events.LessonChanged(lesson=lesson, learning=learning))
+                self._hub.broadcast(events.LessonChanged(lesson=lesson, learning=learning))
 
     def set_program(self, program: ProgramView) -> bool:
         """Show the accepted program; whether its text is another than before."""
         with self._lock:
             before, self._program = self._program, program
             if program != before:
-                self._hub.tell(events.ProgramChanged(program=program))
+                self._hub.broadcast(events.ProgramChanged(program=program))
             return program.text != before.text
 
     def set_reach(self, lesson: int, reach: tuple[Reach, ...]) -> None:
@@ -144,7 +144,7 @@ class Shown:
         with self._lock:
             if reach != self._reach:
                 self._reach = reach
-                self._hub.tell(events.ReachChanged(lesson=lesson, reach=reach))
+                self._hub.broadcast(events.ReachChanged(lesson=lesson, reach=reach))
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""
@@ -153,9 +153,9 @@ class Shown:
             over = [key for key, one in self._jobs.items() if one.state != "running"]
             for key in over[:-FINISHED]:
                 del self._jobs[key]
-            self._hub.tell(events.JobChanged(job=job))
+            self._hub.broadcast(events.JobChanged(job=job))
 
-    def tell_assets(self, assets: Sequence[str], shapes: bool) -> None:
+    def announce_assets(self, assets: Sequence[str], shapes: bool) -> None:
         """Tell that something of these assets changed."""
         if assets:
-            self._hub.tell(events.AssetsChanged(assets=tuple(assets), shapes=shapes))
+            self._hub.broadcast(events.AssetsChanged(assets=tuple(assets), shapes=shapes))

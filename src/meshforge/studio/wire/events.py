@@ -69,7 +69,7 @@ class HistoryChanged(Wire):
     kind: Literal["history"] = "history"
     history: HistoryView
     did: Literal["edit", "undo", "redo"]
-    said: str
+    describe: str
     by: str | None = None
 
 

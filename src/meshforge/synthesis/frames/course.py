@@ -21,34 +21,34 @@ class Course:
     """
 
     def __init__(self, lesson: Lesson, replays: Sequence[Replay]) -> None:
-        self._lesson, self._replays = lesson, list(replays)
+        self._search, self._replays = lesson, list(replays)
         self._next: Met | None = None
         self.sizes: list[int] = []
         self.strays = 0
         self._over = False
 
     @property
-    def done(self) -> bool:
+    def is_done(self) -> bool:
         """Whether every rule has an extractor."""
-        return len(self.sizes) == len(self._lesson.rules)
+        return len(self.sizes) == len(self._search.rules)
 
-    def go(self, limit: int, most: int) -> bool:
+    def learn(self, limit: int, most: int) -> bool:
         """Learn on; whether every rule has an extractor, of at most `limit` nodes in all and `most` each."""
-        while not self._over and not self.done:
-            others = sum(self._lesson.floors[len(self.sizes) + 1 :])
+        while not self._over and not self.is_done:
+            others = sum(self._search.floors[len(self.sizes) + 1 :])
             room = min(most, limit - sum(self.sizes) - others)
-            if room < self._lesson.floors[len(self.sizes)] or not self._learned(room):
+            if room < self._search.floors[len(self.sizes)] or not self._learn_next(room):
                 break
-        return self.done and sum(self.sizes) <= limit
+        return self.is_done and sum(self.sizes) <= limit
 
-    def _learned(self, most: int) -> bool:
+    def _learn_next(self, most: int) -> bool:
         """Whether the next rule has an extractor of at most so many nodes; if so, it is applied."""
-        rule = self._lesson.rules[len(self.sizes)]
+        rule = self._search.rules[len(self.sizes)]
         try:
-            self._next = self._next or self._lesson.met(rule, self._replays)
-            extractor = self._lesson.smallest(self._next, most)
+            self._next = self._next or self._search.analyze(rule, self._replays)
+            extractor = self._search.find_smallest(self._next, most)
             if extractor:
-                self._take(extractor)
+                self._apply(extractor)
             elif self._next.strays:
                 self.strays = self._next.strays
                 self._stop()
@@ -57,9 +57,9 @@ class Course:
             return False
         return extractor is not None
 
-    def _take(self, extractor: Extractor) -> None:
-        rule, self._next = self._lesson.rules[len(self.sizes)], None
-        self._replays = self._lesson.advanced(self._replays, rule, extractor)
+    def _apply(self, extractor: Extractor) -> None:
+        rule, self._next = self._search.rules[len(self.sizes)], None
+        self._replays = self._search.advance(self._replays, rule, extractor)
         self.sizes.append(size(extractor))
 
     def _stop(self) -> None:

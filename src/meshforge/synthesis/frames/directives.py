@@ -30,14 +30,14 @@ class Directives:
     def with_one_pair(self) -> list[Orient]:
         """All with one pair, the preferred first."""
         pairs = [self._pair(a, b, _LETTERS) for a, b in self._ends]
-        return self._sorted(Orient((pair,), snap) for pair in pairs for snap in (False, True))
+        return self._sort(Orient((pair,), snap) for pair in pairs for snap in (False, True))
 
-    def extended(self, firsts: Iterable[LandmarkPair]) -> list[Orient]:
+    def with_two_pairs(self, firsts: Iterable[LandmarkPair]) -> list[Orient]:
         """All with one of the given pairs and a second one, the preferred first."""
-        both = [(first, second) for first in firsts for second in self._seconds(first)]
-        return self._sorted(Orient(pairs, snap) for pairs in both for snap in (False, True))
+        both = [(first, second) for first in firsts for second in self._second_pairs(first)]
+        return self._sort(Orient(pairs, snap) for pairs in both for snap in (False, True))
 
-    def _seconds(self, first: LandmarkPair) -> list[LandmarkPair]:
+    def _second_pairs(self, first: LandmarkPair) -> list[LandmarkPair]:
         letters = _LETTERS.replace(first.axis[1], "")
         ends = [(a, b) for a, b in self._ends if {a, b} != {first.start, first.end}]
         return [self._pair(a, b, letters) for a, b in ends]
@@ -56,9 +56,9 @@ class Directives:
         start, end = (a, b) if up else (b, a)
         return LandmarkPair(_UPWARD[letters[place]], start, end)
 
-    def _sorted(self, orients: Iterable[Orient]) -> list[Orient]:
+    def _sort(self, orients: Iterable[Orient]) -> list[Orient]:
         """Those that hold on every demonstrated mesh: plain before snap, then what holds on most of the batch."""
-        held = [(orient, self._landmarks.held(orient)) for orient in orients]
+        held = [(orient, self._landmarks.holds(orient)) for orient in orients]
         rows = [
             (orient.snap, -int(holds[self._shown :].sum()), self._places(orient), orient)
             for orient, holds in held

@@ -43,7 +43,7 @@ class Landmarks:
         far: Bools = np.linalg.norm(self.directions(start, end), axis=1) >= self._least
         return far
 
-    def held(self, orient: Orient) -> Bools:
+    def holds(self, orient: Orient) -> Bools:
         """On which meshes the landmarks of a directive are apart, those of a second pair across the first (n,)."""
         first = orient.pairs[0]
         held = self.apart(first.start, first.end)

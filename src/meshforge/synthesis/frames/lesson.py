@@ -39,23 +39,23 @@ class Lesson:
         self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
         self._frame, self._templates, self._options, self._watch = frame, templates, options, watch
         self._extremity = EXTREMITY if frame.extremity is None else frame.extremity
-        self._turnings = [(name, demo, Turning(demo.mesh, frame.contact)) for name, demo in named(demos)]
+        self._turners = [(name, demo, Turning(demo.mesh, frame.contact)) for name, demo in named(demos)]
         self._by_orient: dict[Orient, Course | None] = {}
         self._by_turns: dict[tuple[bytes, ...], Course] = {}
-        self._found: dict[frozenset[Look], Extractor] = {}
+        self._extractors: dict[frozenset[Look], Extractor] = {}
         self._none_up_to: dict[frozenset[Look], int] = {}
 
-    def course(self, orient: Orient) -> Course | None:
+    def attempt(self, orient: Orient) -> Course | None:
         """Learning in the frame of a directive, as far as it came; None where it fails on a demonstrated mesh."""
         if orient not in self._by_orient:
             self._watch.check()
-            self._by_orient[orient] = self._begun(orient)
+            self._by_orient[orient] = self._begin(orient)
         return self._by_orient[orient]
 
-    def _begun(self, orient: Orient) -> Course | None:
+    def _begin(self, orient: Orient) -> Course | None:
         """Directives that turn every mesh alike share one course."""
         try:
-            turned = [(name, demo, *turning.turned(orient)) for name, demo, turning in self._turnings]
+            turned = [(name, demo, *turning.turn(orient)) for name, demo, turning in self._turners]
         except MeshForgeError:
             return None
         turns = tuple(turn for *_, turn in turned)
@@ -63,7 +63,7 @@ class Lesson:
             self._by_turns[turns] = Course(self, [Replay(name, demo, mesh) for name, demo, mesh, _ in turned])
         return self._by_turns[turns]
 
-    def met(self, rule: Agreed, replays: Sequence[Replay]) -> Met:
+    def analyze(self, rule: Agreed, replays: Sequence[Replay]) -> Met:
         """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example(replay, rule))]
         found = met(examples, self._frame.labels, self._options.layers, self._extremity)
@@ -71,13 +71,13 @@ class Lesson:
             self.floors[rule.number - 1] = 2
         return found
 
-    def smallest(self, rule: Met, most: int) -> Extractor | None:
+    def find_smallest(self, rule: Met, most: int) -> Extractor | None:
         """The extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
         if rule.base or rule.strays or most < rule.least:
             return rule.base
-        if rule.looks not in self._found and self._none_up_to.get(rule.looks, 0) < most:
+        if rule.signatures not in self._extractors and self._none_up_to.get(rule.signatures, 0) < most:
             self._search(rule, most)
-        found = self._found.get(rule.looks)
+        found = self._extractors.get(rule.signatures)
         return found if found and size(found) <= most else None
 
     def _search(self, rule: Met, most: int) -> None:
@@ -86,11 +86,11 @@ class Lesson:
         if isinstance(answer, Unfinished):
             raise OutOfTime
         if isinstance(answer, Hit):
-            self._found[rule.looks] = answer.extractor
+            self._extractors[rule.signatures] = answer.extractor
         else:
-            self._none_up_to[rule.looks] = most
+            self._none_up_to[rule.signatures] = most
 
-    def advanced(self, replays: Sequence[Replay], rule: Agreed, extractor: Extractor) -> list[Replay]:
+    def advance(self, replays: Sequence[Replay], rule: Agreed, extractor: Extractor) -> list[Replay]:
         """The replays after one more rule. Raises MeshForgeError where its action cannot be done."""
         done = Rule(extractor, rule.action, rule.label)
         return [advanced(replay, rule.number, done, self._templates, self._frame.extremity) for replay in replays]

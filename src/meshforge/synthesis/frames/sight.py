@@ -30,7 +30,7 @@ class Met:
 
     examples: tuple[Example, ...]
     base: Base | None
-    looks: frozenset[Look] = frozenset()
+    signatures: frozenset[Look] = frozenset()
     strays: int = 0
     least: int = 1
 

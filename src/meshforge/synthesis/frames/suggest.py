@@ -67,16 +67,16 @@ def suggest_orientation(
 def _varied(trials: Trials, directives: Directives, given: Orient, limit: int) -> Fit | None:
     """The best directive that keeps the pairs that are given."""
     toggled = replace(given, snap=not given.snap)
-    return trials.best([toggled, *(directives.extended(given.pairs) if len(given.pairs) == 1 else [])], limit)
+    return trials.best([toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit)
 
 
 def _fresh(trials: Trials, directives: Directives, limit: int) -> Fit | None:
     """The best directive of all: of one pair, or of two where that saves further."""
     ones = directives.with_one_pair()
-    one = trials.glimpsed(ones, limit)
-    if one and trials.unbeaten(one):
+    one = trials.best_of_small(ones, limit)
+    if one and trials.is_optimal(one):
         return one
-    return trials.best([*ones, *directives.extended(trials.leading(ones, EXTENDED))], limit)
+    return trials.best([*ones, *directives.with_two_pairs(trials.farthest_pairs(ones, EXTENDED))], limit)
 
 
 def _why(orient: Orient, found: Sequence[int], before: Sequence[int] | None) -> str:

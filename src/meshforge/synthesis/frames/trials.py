@@ -18,14 +18,14 @@ class Trials:
     """What became of the directives that were tried; most: nodes that an extractor may have."""
 
     def __init__(self, lesson: Lesson, most: int) -> None:
-        self._lesson = lesson
+        self._search = lesson
         self._steps = sorted({min(step, most) for step in (*_STEPS, most)})
 
     def best(self, orients: Sequence[Orient], limit: int) -> Fit | None:
         """The directive with the fewest nodes in all, at most `limit`; of equals the first. Raises OutOfTime."""
         return self._best(orients, limit, self._steps)
 
-    def glimpsed(self, orients: Sequence[Orient], limit: int) -> Fit | None:
+    def best_of_small(self, orients: Sequence[Orient], limit: int) -> Fit | None:
         """The same among small extractors only."""
         return self._best(orients, limit, self._steps[:1])
 
@@ -36,17 +36,17 @@ class Trials:
                 if found:
                     total, first = min(found)
                     limit = total - (place > first)
-                course = self._lesson.course(orient) if limit >= sum(self._lesson.floors) else None
-                if course and course.go(limit, most):
+                course = self._search.attempt(orient) if limit >= sum(self._search.floors) else None
+                if course and course.learn(limit, most):
                     found[sum(course.sizes), place] = orient, tuple(course.sizes)
         return found[min(found)] if found else None
 
-    def unbeaten(self, fit: Fit) -> bool:
+    def is_optimal(self, fit: Fit) -> bool:
         """Whether no directive can need fewer nodes."""
-        return sum(fit[1]) <= sum(self._lesson.floors)
+        return sum(fit[1]) <= sum(self._search.floors)
 
-    def leading(self, orients: Sequence[Orient], count: int) -> list[LandmarkPair]:
+    def farthest_pairs(self, orients: Sequence[Orient], count: int) -> list[LandmarkPair]:
         """The pairs of the directives that came farthest, of equals the first."""
-        tried = [(orient, course) for orient in orients if (course := self._lesson.course(orient))]
+        tried = [(orient, course) for orient in orients if (course := self._search.attempt(orient))]
         tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
         return list(dict.fromkeys(orient.pairs[0] for orient, _ in tried))[:count]

@@ -23,7 +23,7 @@ class Turning:
         self._mesh = replace(mesh, epsilon=epsilon)
         self._wide = replace(mesh, epsilon=epsilon * _WIDEST, scale=None)
 
-    def turned(self, orient: Orient | None) -> tuple[SymbolicMesh, bytes]:
+    def turn(self, orient: Orient | None) -> tuple[SymbolicMesh, bytes]:
         """The mesh in the frame of a directive, and a key that turns have in common when they are the same.
 
         Raises ProgramError where the orientation fails.

@@ -46,13 +46,13 @@ class Abduction:
     def _repair(self, extractor: Extractor, demo: Demo) -> tuple[Change, ...] | None:
         for changes in self._candidates(extractor, demo):
             self._watch.check()
-            if demo.select(extractor, demo.relabelled(changes)) == demo.target:
+            if demo.select(extractor, demo.relabel(changes)) == demo.target:
                 return changes
         return None
 
     def _candidates(self, extractor: Extractor, demo: Demo) -> Iterator[tuple[Change, ...]]:
         """The relabelings of suspects, those of fewer hulls first; the first of all changes none."""
-        suspects = sorted(bits(demo.differing(extractor)))
+        suspects = sorted(bits(demo.differences(extractor)))
         choices = {index: self._choices(extractor, demo.mesh.hulls[index].label) for index in suspects}
         for count in range(self._allowed[demo.name] + 1):
             for hulls in combinations(suspects, count):

@@ -16,14 +16,14 @@ class Asking:
         self._confirm, self._rejected = confirm, rejected
         self._answers: dict[Correction, bool] = {}
 
-    def agreed(self, corrections: Sequence[Correction]) -> bool:
+    def are_confirmed(self, corrections: Sequence[Correction]) -> bool:
         """Whether all are right; nothing is asked about a repair of which one is known to be wrong."""
-        return not any(map(self._refused, corrections)) and all(map(self._confirmed, corrections))
+        return not any(map(self._is_refused, corrections)) and all(map(self._is_confirmed, corrections))
 
-    def _refused(self, correction: Correction) -> bool:
+    def _is_refused(self, correction: Correction) -> bool:
         return correction in self._rejected or not self._answers.get(correction, True)
 
-    def _confirmed(self, correction: Correction) -> bool:
+    def _is_confirmed(self, correction: Correction) -> bool:
         if self._confirm and correction not in self._answers:
             self._answers[correction] = self._confirm(correction)
         return self._answers.get(correction, True)

@@ -69,11 +69,11 @@ class Demo:
             case _:
                 assert_never(extractor)
 
-    def differing(self, extractor: Extractor) -> int:
+    def differences(self, extractor: Extractor) -> int:
         """The hulls that an extractor selects though they were not shown, or the other way round, as a bit set."""
         return self.select(extractor) ^ self.target
 
-    def relabelled(self, changes: Iterable[Change]) -> Labels:
+    def relabel(self, changes: Iterable[Change]) -> Labels:
         """The labels after some changes."""
         labels = dict(self.labels)
         for index, to in changes:

@@ -19,7 +19,7 @@ class Nearest:
 
     def offer(self, extractor: Extractor) -> int:
         """In how many hulls an extractor differs from what was shown: 0 is a match."""
-        count = sum(demo.differing(extractor).bit_count() for demo in self._demos)
+        count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
         if self._best is None or count < self._best[0]:
             self._best = (count, extractor)
         return count
@@ -29,8 +29,8 @@ class Nearest:
         if self._best is None:
             return None
         extractor = self._best[1]
-        worst = max(self._demos, key=lambda demo: demo.differing(extractor).bit_count())
-        wrong = worst.differing(extractor)
+        worst = max(self._demos, key=lambda demo: demo.differences(extractor).bit_count())
+        wrong = worst.differences(extractor)
         return NearMiss(
             extractor, worst.name, _names(worst, wrong & ~worst.target), _names(worst, wrong & worst.target)
         )

@@ -58,7 +58,7 @@ class OpenGeo:
 class OpenJoint:
     """A set operator with at least one hole below it."""
 
-    joint: Joint
+    operator: Joint
     left: Partial
     right: Partial
 
@@ -80,7 +80,7 @@ class Grammar:
         joints = [OpenJoint(joint, Hole(), Hole()) for joint in JOINTS]
         self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *joints)
 
-    def filled(self, partial: Open) -> Iterator[Partial]:
+    def fill(self, partial: Open) -> Iterator[Partial]:
         """The partial program with its first hole filled, in all ways."""
         match partial:
             case Hole():
@@ -93,9 +93,9 @@ class Grammar:
                 yield from (attach(selected, base) for base in self.bases)
             case OpenJoint(joint, left, right):
                 if isinstance(left, Open):
-                    yield from (join(joint, part, right) for part in self.filled(left))
+                    yield from (join(joint, part, right) for part in self.fill(left))
                 elif isinstance(right, Open):
-                    yield from (join(joint, left, part) for part in self.filled(right))
+                    yield from (join(joint, left, part) for part in self.fill(right))
             case _:
                 assert_never(partial)
 

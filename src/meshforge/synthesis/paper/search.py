@@ -69,7 +69,7 @@ class _Search:
         asking: Asking,
     ) -> None:
         self._demos, self._grammar, self._watch, self._max_size = demos, grammar, watch, max_size
-        self._abduction, self._asking = abduction, asking
+        self._abduction, self._confirmations = abduction, asking
         self._size = self._complete = self._filled = 0
         self.nearest = Nearest(demos)
 
@@ -86,28 +86,28 @@ class _Search:
             self._size = size - 1
             if isinstance(partial, Open):
                 self._fill(partial, worklist)
-            elif answer := self._answer(partial):
+            elif answer := self._check_complete(partial):
                 return answer
         self._size = self._max_size
-        return self._miss()
+        return self._report_miss()
 
     def _fill(self, partial: Open, worklist: Worklist) -> None:
         """EnumerateCandidates: bounds judge what still has holes; what is complete may be a near miss to explain."""
         self._filled += 1
-        for candidate in self._grammar.filled(partial):
+        for candidate in self._grammar.fill(partial):
             if not isinstance(candidate, Open) or all(feasible(candidate, demo) for demo in self._demos):
                 worklist.put(candidate)
 
-    def _answer(self, extractor: Extractor) -> Hit | Explained | None:
+    def _check_complete(self, extractor: Extractor) -> Hit | Explained | None:
         self._complete += 1
         if self.nearest.offer(extractor) == 0:
             return Hit(extractor, self.tried)
         corrections = self._abduction.infer(extractor) if self._abduction else None
-        if corrections is None or not self._asking.agreed(corrections):
+        if corrections is None or not self._confirmations.are_confirmed(corrections):
             return None
         return Explained(extractor, corrections, self.tried)
 
-    def _miss(self) -> Miss:
+    def _report_miss(self) -> Miss:
         nearest = self.nearest.miss()
         assert nearest, "All is complete and of one node"
         corrected = ", even after corrections of labels" if self._abduction else ""

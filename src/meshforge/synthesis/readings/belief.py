@@ -83,7 +83,7 @@ def _evidence(facts: Evidence) -> float:
 
 
 def _doubts(term: Term, known: dict[Extractor, float]) -> float:
-    made = term.made
+    made = term.form
     if isinstance(made, Joined):
         return _doubts(made.left, known) + _doubts(made.right, known)
     if made not in known:

@@ -41,7 +41,7 @@ class Split:
     spared: float
 
     @property
-    def worth_asking(self) -> bool:
+    def is_worth_asking(self) -> bool:
         return self.spared > PRICE
 
 
@@ -63,7 +63,7 @@ class Doubt:
         """The expected share of assets that the program edits wrongly in this rule."""
         return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
 
-    def best(self, trust: Mapping[int, float]) -> Split | None:
+    def best_question(self, trust: Mapping[int, float]) -> Split | None:
         """The question that spares most; of equals, the first.
 
         trust: the assets that can be asked about, with how much an answer there is worth: where labels are wrong, what

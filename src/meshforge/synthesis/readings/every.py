@@ -48,7 +48,7 @@ def every(search: Search, answer: Extractor, above: int) -> Consistent:
     found, last = {first.bits: first}, min(first.size + above, search.options.max_size)
     for size in range(first.size, last + 1):
         try:
-            found.update(collector.exactly(size, found))
+            found.update(collector.terms_of_size(size, found))
         except (_Enough, OutOfTime):
             return Consistent(_sorted(found), size - 1, False)
     return Consistent(_sorted(found), last, True)
@@ -71,7 +71,7 @@ class _Collector:
         self._bank = Bank(search.field.terms, search.field.width, search.watch)
         self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
 
-    def exactly(self, size: int, known: Container[int]) -> dict[int, Term]:
+    def terms_of_size(self, size: int, known: Container[int]) -> dict[int, Term]:
         """The consistent terms of that size which select something that no known one does, each the first to do so."""
         drafts = (d for d in self._drafts(self._goal, size) if d[0] & self._shown == self._need and d[0] not in known)
         return {term.bits: term for term in _firsts(drafts)}
@@ -109,4 +109,4 @@ def _firsts(drafts: Iterable[Draft]) -> tuple[Term, ...]:
     for bits, key, opening, term in drafts:
         if bits not in best or key < best[bits][0]:
             best[bits] = (key, opening, term)
-    return tuple(opening.closed(term) if opening else term for _, opening, term in best.values())
+    return tuple(opening.complete(term) if opening else term for _, opening, term in best.values())

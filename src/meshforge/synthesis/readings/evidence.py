@@ -89,11 +89,11 @@ def untried(term: Term, shown: int) -> int:
 
     shown: the groups of demonstrated hulls.
     """
-    made = term.made
+    made = term.form
     if not isinstance(made, Joined):
         return 0
     left, right = made.left.bits & shown, made.right.bits & shown
-    idle = not left & right if made.joint is Diff else not left & ~right or not right & ~left
+    idle = not left & right if made.operator is Diff else not left & ~right or not right & ~left
     return idle + untried(made.left, shown) + untried(made.right, shown)
 
 
@@ -102,7 +102,7 @@ def unneeded(term: Term, shown: int, field: Field) -> int:
 
     shown: the groups of demonstrated hulls.
     """
-    made = term.made
+    made = term.form
     match made:
         case Joined():
             return unneeded(made.left, shown, field) + unneeded(made.right, shown, field)

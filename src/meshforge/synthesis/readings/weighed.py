@@ -41,7 +41,7 @@ class Weighed:
         self.beliefs = tuple(shares[k] for k in order)
 
     @staticmethod
-    def alone(search: Search, extractor: Extractor) -> Weighed:
+    def of_single(search: Search, extractor: Extractor) -> Weighed:
         """One extractor, whatever else is consistent."""
         term = search.field.term(extractor)
         return Weighed(search, Consistent((term,), term.size, False))
@@ -61,7 +61,7 @@ class Weighed:
         return range(1, min(len(self.terms), COMPARED))
 
     @cached_property
-    def doubt(self) -> Doubt:
+    def question_value(self) -> Doubt:
         rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
         return Doubt(rows, [self.beliefs[k] for k in self.believable])
 
@@ -70,14 +70,14 @@ class Weighed:
         """Whether all believable readings do the same on the whole batch; never where not all are known."""
         return self.consistent.complete and len(self.believable) == 1
 
-    def differing(self, reading: int) -> tuple[int, ...]:
+    def differences(self, reading: int) -> tuple[int, ...]:
         """Places of the meshes on which a reading selects something else than the one that is taken."""
         other = self.terms[reading].bits ^ self.terms[0].bits
         return tuple(k for k, present in enumerate(self.field.present) if other & present)
 
-    def split(self, trust: Mapping[int, float]) -> Split | None:
+    def best_question(self, trust: Mapping[int, float]) -> Split | None:
         """The best question about an asset of the batch.
 
         trust: places of the meshes that it may be about, with how much an answer about each is worth.
         """
-        return self.doubt.best({place: worth for place, worth in trust.items() if place >= len(self.examples)})
+        return self.question_value.best_question({place: worth for place, worth in trust.items() if place >= len(self.examples)})

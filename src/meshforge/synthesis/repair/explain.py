@@ -51,7 +51,7 @@ def explain(
     corrections not to propose. Raises OutOfTime.
     """
     some = tuple(example for example in examples if example.mesh.hulls)
-    return _Case(some, vocabulary, labels, options, watch, extremity, exact, spent, rejected).explanation()
+    return _Case(some, vocabulary, labels, options, watch, extremity, exact, spent, rejected).explain()
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,17 +68,17 @@ class _Case:
     spent: Mapping[str, int]
     rejected: Collection[Correction]
 
-    def explanation(self) -> Explanation | None:
-        variants = self._variants()
+    def explain(self) -> Explanation | None:
+        variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
-        candidates = self._candidates(variants)
-        sure = beliefs(candidates, self._rival(variants))
-        chosen = self._believed(ranked(candidates), sure)
-        return self._explained(chosen, sure) if chosen else None
+        candidates = self._find_candidates(variants)
+        sure = beliefs(candidates, self._rival_cost(variants))
+        chosen = self._choose(ranked(candidates), sure)
+        return self._to_explanation(chosen, sure) if chosen else None
 
     @cached_property
-    def _instead(self) -> float:
+    def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
         places = {label: place for place, label in enumerate(self.vocabulary)}
         return key_cost(order(self.exact, places)) if self.exact else weights.NOTHING
@@ -88,37 +88,37 @@ class _Case:
         """Nodes that an explanation may have."""
         return min(self.options.max_size, size(self.exact) - 1 if self.exact else self.options.max_size)
 
-    def _variants(self) -> Variants | None:
+    def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
-        within = self._instead - weights.NODE
+        within = self._exact_cost - weights.NODE
         room = RELABELINGS // max(1, len(self.examples))
         ways = [
-            relabelings(example, self.vocabulary, self.labels, self._left(example), self.rejected, within, room)
+            relabelings(example, self.vocabulary, self.labels, self._count_allowed(example), self.rejected, within, room)
             for example in self.examples
         ]
         if not any(len(some) > 1 for some in ways):
             return None
         return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.extremity)
 
-    def _left(self, example: Example) -> int:
+    def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
         if not any(hull.label for hull in example.mesh.hulls):
             return 0
         return self.options.eta - self.spent.get(example.name, 0)
 
-    def _candidates(self, variants: Variants) -> list[Candidate]:
+    def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL, self._limit)
-        found = list(matching(variants, above, self._instead, self.watch))
-        within = min([self._instead, *(one.cost + weights.RIVAL for one in found)])
+        found = list(matching(variants, above, self._exact_cost, self.watch))
+        within = min([self._exact_cost, *(one.cost + weights.RIVAL for one in found)])
         options = replace(self.options, max_size=self._limit)
         found += larger(self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.watch)
         return found
 
-    def _rival(self, variants: Variants) -> float:
+    def _rival_cost(self, variants: Variants) -> float:
         """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
-        return self._instead - sum(log(chance(some)) for some in variants.matched(self.exact))
+        return self._exact_cost - sum(log(chance(some)) for some in variants.relabelings_for(self.exact))
 
-    def _believed(self, candidates: Sequence[Candidate], sure: Mapping[Place, float]) -> Candidate | None:
+    def _choose(self, candidates: Sequence[Candidate], sure: Mapping[Place, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
         least = weights.BELIEVED if self.exact else weights.BELIEVED_WITHOUT
         for candidate in candidates:
@@ -128,13 +128,13 @@ class _Case:
                 return candidate
         return None
 
-    def _explained(self, chosen: Candidate, sure: Mapping[Place, float]) -> Explanation:
+    def _to_explanation(self, chosen: Candidate, sure: Mapping[Place, float]) -> Explanation:
         places = changes(chosen)
         rows = []
         for at, change in places:
             example = self.examples[at]
             hull = example.mesh.hulls[change[0]]
-            standing = self.labels.standing(example.name, hull)
+            standing = self.labels.odds_of(example.name, hull)
             assert standing, "only hulls with a standing are relabelled"
             most = weights.HUMAN_MOST if is_human(hull) else 1.0
             said = why(standing, change[1], chosen.extractor, len(places) == 1)

@@ -47,7 +47,7 @@ def larger(
         watch.check()
         if isinstance(answer, Hit) and (key := order(answer.extractor, places)) not in known and key[0] > above:
             known.add(key)
-            matched = variants.matched(answer.extractor)
+            matched = variants.relabelings_for(answer.extractor)
             candidate = Candidate(answer.extractor, key, tuple(map(tuple, matched)))
             within = min(within, candidate.cost + weights.RIVAL)
             yield candidate

@@ -105,4 +105,4 @@ def _add_cheapest(costs: dict[int, float], hits: Hits, rows: int) -> None:
 
 def _matches(level: Level, variant: Variant, among: int) -> int:
     """The rows of a level's terms that select on a variant exactly what was shown."""
-    return level.columns.avoiding(variant.avoid, level.columns.holding(variant.need, among))
+    return level.columns.rows_without(variant.avoid, level.columns.rows_with(variant.need, among))

@@ -63,7 +63,7 @@ def relabelled(example: Example, changes: Sequence[Change]) -> Example:
     if not changes:
         return example
     hulls = example.mesh.hulls
-    mesh = example.mesh.labelled({hulls[index].name: _label(hulls[index], to) for index, to in changes})
+    mesh = example.mesh.with_labels({hulls[index].name: _label(hulls[index], to) for index, to in changes})
     return Example(example.name, mesh, example.selection)
 
 

@@ -46,10 +46,10 @@ class Labels:
         self._names, meshes = [*demonstrated, *others], [*shown, *others.values()]
         self._counts, self._vocabulary = [len(mesh.hulls) for mesh in meshes], vocabulary
         self._hulls = [hull for mesh in meshes for hull in mesh.hulls]
-        self._said = said = alike(meshes, vocabulary)
-        self._surest = surest = _surest(self._hulls, said, vocabulary)
+        self._votes = said = alike(meshes, vocabulary)
+        self._accuracies = surest = _surest(self._hulls, said, vocabulary)
         places = [(name, hull) for name, mesh in demonstrated.items() for hull in mesh.hulls]
-        self._standings = {
+        self._odds_by_hull = {
             (name, hull.name): _standing(hull, said.chances[row], said.nearest[row], surest, vocabulary)
             for row, (name, hull) in enumerate(places)
         }
@@ -58,23 +58,23 @@ class Labels:
     def errors(self) -> Mapping[str, float]:
         """How many labels of each mesh are wrong or missing, as far as can be expected."""
         places = {label: place for place, label in enumerate(self._vocabulary)}
-        right = np.array([sureness(hull, self._surest) if hull.label in places else 0.0 for hull in self._hulls])
+        right = np.array([sureness(hull, self._accuracies) if hull.label in places else 0.0 for hull in self._hulls])
         codes = np.array([places.get(hull.label or "", 0) for hull in self._hulls], dtype=np.int64)
-        own = self._said.chances[np.arange(len(codes)), codes] if places else np.zeros(len(codes))
+        own = self._votes.chances[np.arange(len(codes)), codes] if places else np.zeros(len(codes))
         wrong = (1 - own) * (1 - right) / max(1, len(places) - 1)
         shares = np.where(right > 0, wrong / np.maximum(own * right + wrong, 1e-300), 1.0)
         ends = np.cumsum([0, *self._counts])
         sums = (float(shares[first:end].sum()) for first, end in pairwise(ends))
         return dict(zip(self._names, sums, strict=True))
 
-    def standing(self, asset: str, hull: Hull) -> Standing | None:
+    def odds_of(self, asset: str, hull: Hull) -> Standing | None:
         """Of a hull as a rule meets it; None for one that was made, or relabelled, on the way."""
-        found = self._standings.get((asset, hull.name))
+        found = self._odds_by_hull.get((asset, hull.name))
         return found if found and found.hull.annotation == hull.annotation and hull.parent is None else None
 
     def odds(self, asset: str, hull: Hull, to: str) -> float:
         """The odds for the hull's label against the label `to` [nats]; infinite where it has no standing."""
-        found = self.standing(asset, hull)
+        found = self.odds_of(asset, hull)
         return found.odds.get(to, math.inf) if found else math.inf
 
     def cost(self, asset: str, hull: Hull, to: str) -> float:

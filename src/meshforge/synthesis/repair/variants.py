@@ -82,7 +82,7 @@ class Variants:
             variants = [_variant(example, one, part) for one, part in zip(some, slices, strict=True)]
             self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
 
-    def matched(self, extractor: Extractor | None) -> list[list[Relabeling]]:
+    def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
         """Of each example the relabelings on which an extractor selects what was shown; on all of them for None."""
         found = None if extractor is None else self._groups.term(extractor).bits
         return [

@@ -41,7 +41,7 @@ class Hulls:
 
     def table(self, leaves: Sequence[Leaf], extremity: float) -> Bools:
         """Whether each leaf selects each hull: (leaves, hulls)."""
-        bases = self._bases([leaf for leaf in leaves if isinstance(leaf, All | Is)])
+        bases = self._base_masks([leaf for leaf in leaves if isinstance(leaf, All | Is)])
         touching: dict[Base, Bools] = {}
         extreme: dict[Base, Bools] = {}
         table = np.zeros((len(leaves), len(self._labels)), dtype=np.bool_)
@@ -51,15 +51,15 @@ class Hulls:
                     table[row] = bases[leaf]
                 case Attach(selected, anchor):
                     if anchor not in touching:
-                        touching[anchor] = self._touching(bases[anchor])
+                        touching[anchor] = self._contact_mask(bases[anchor])
                     table[row] = bases[selected] & touching[anchor]
                 case Geo(base, direction):
                     if base not in extreme:
-                        extreme[base] = self._extreme(bases[base], extremity)
+                        extreme[base] = self._extreme_masks(bases[base], extremity)
                     table[row] = extreme[base][DIRECTIONS.index(direction)]
         return table
 
-    def _bases(self, asked: Sequence[Base]) -> dict[Base, Bools]:
+    def _base_masks(self, asked: Sequence[Base]) -> dict[Base, Bools]:
         places: dict[str | None, list[int]] = {}
         for place, label in enumerate(self._labels):
             places.setdefault(label, []).append(place)
@@ -70,14 +70,14 @@ class Hulls:
                 found[base][places.get(base.label, [])] = True
         return found
 
-    def _touching(self, anchor: Bools) -> Bools:
+    def _contact_mask(self, anchor: Bools) -> Bools:
         """The hulls in contact with one of the anchor."""
         found = np.zeros_like(anchor)
         for here, there in ((0, 1), (1, 0)):
             found[self._contacts[anchor[self._contacts[:, there]], here]] = True
         return found
 
-    def _extreme(self, base: Bools, extremity: float) -> Bools:
+    def _extreme_masks(self, base: Bools, extremity: float) -> Bools:
         """For each direction, the hulls of a base that reach farthest along it on their mesh: (6, hulls)."""
         found = np.zeros((len(DIRECTIONS), len(base)), dtype=np.bool_)
         chosen = np.flatnonzero(base)

@@ -23,7 +23,7 @@ class Level:
         self.terms = tuple(sorted(terms, key=lambda term: term.key))
         self.columns = Columns([term.bits for term in self.terms], width)
 
-    def chosen(self, rows: int) -> Iterator[Term]:
+    def select_rows(self, rows: int) -> Iterator[Term]:
         """The terms of a set of rows, in order."""
         return (self.terms[k] for k in positions(rows))
 
@@ -55,10 +55,10 @@ class Bank:
     def level(self, size: int) -> Level:
         """The terms of that size, without those that select what a smaller one does."""
         while len(self._levels) < size:
-            self._levels.append(self._grown(len(self._levels) + 1))
+            self._levels.append(self._grow(len(self._levels) + 1))
         return self._levels[size - 1]
 
-    def _grown(self, size: int) -> Level:
+    def _grow(self, size: int) -> Level:
         if not self._merge:
             every = [joined(joint, x, y) for _, (_, joint, x, y) in self._drafts(size)]
             return Level([*self.leaves(size), *every], self._width)

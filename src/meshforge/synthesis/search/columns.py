@@ -19,7 +19,7 @@ class Columns:
         self.every = (1 << len(rows)) - 1
         self._columns = _transposed(rows, width)
 
-    def holding(self, need: int, among: int) -> int:
+    def rows_with(self, need: int, among: int) -> int:
         """The rows of `among` that have every bit of `need`."""
         for p in positions(need):
             if not among:
@@ -27,7 +27,7 @@ class Columns:
             among &= self._columns[p]
         return among
 
-    def avoiding(self, avoid: int, among: int) -> int:
+    def rows_without(self, avoid: int, among: int) -> int:
         """The rows of `among` that have no bit of `avoid`."""
         for p in positions(avoid):
             if not among:

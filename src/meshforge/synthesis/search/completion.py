@@ -29,27 +29,27 @@ class Goal:
 class Opening:
     """A set operator with one operand known, and the goal of the other; as_right: whether the known one is right."""
 
-    joint: Joint
+    operator: Joint
     known: Term
     rest: Goal
     as_right: bool = False
 
     def bits(self, other: int) -> int:
         """What the whole selects with an operand that selects `other` in its place."""
-        if self.joint is Union:
+        if self.operator is Union:
             return self.known.bits | other
-        if self.joint is Intersect:
+        if self.operator is Intersect:
             return self.known.bits & other
         return other & ~self.known.bits if self.as_right else self.known.bits & ~other
 
     def key(self, other: Key) -> Key:
         """The place of the whole in the order."""
         left, right = (other, self.known.key) if self.as_right else (self.known.key, other)
-        return joint_key(self.joint, left, right)
+        return joint_key(self.operator, left, right)
 
-    def closed(self, other: Term) -> Term:
+    def complete(self, other: Term) -> Term:
         """The whole, with the other operand in its place."""
-        return joined(self.joint, other, self.known) if self.as_right else joined(self.joint, self.known, other)
+        return joined(self.operator, other, self.known) if self.as_right else joined(self.operator, self.known, other)
 
 
 class Completion:
@@ -65,19 +65,19 @@ class Completion:
         self._known: dict[tuple[Goal, int], Term | None] = {}
         self.goals = 0
 
-    def first(self, goal: Goal, size: int) -> Term | None:
+    def find_first(self, goal: Goal, size: int) -> Term | None:
         """The first term of that size that meets the goal. Raises OutOfTime."""
         if not self._shortcuts.complete:
             return _first_in(self._bank.level(size), goal)
         leaves = [leaf for leaf in self._bank.leaves(size) if meets(leaf.bits, goal)]
         return first([*leaves, *self._compounds(goal, size)])
 
-    def _operand(self, goal: Goal, size: int) -> Term | None:
+    def _find_operand(self, goal: Goal, size: int) -> Term | None:
         self.goals += 1
         if size <= self._shortcuts.stored:
             return _first_in(self._bank.level(size), goal)
         if (goal, size) not in self._known:
-            self._known[goal, size] = self.first(goal, size)
+            self._known[goal, size] = self.find_first(goal, size)
         return self._known[goal, size]
 
     def _compounds(self, goal: Goal, size: int) -> Iterator[Term]:
@@ -85,9 +85,9 @@ class Completion:
         for small in range(1, (size - 1) // 2 + 1):
             self._watch.check()
             for opening in openings(self._bank.level(small), goal, self._shortcuts.help):
-                other = self._operand(opening.rest, size - 1 - small)
+                other = self._find_operand(opening.rest, size - 1 - small)
                 if other:
-                    yield opening.closed(other)
+                    yield opening.complete(other)
 
 
 def meets(bits: int, goal: Goal) -> bool:
@@ -98,7 +98,7 @@ def meets(bits: int, goal: Goal) -> bool:
 def meeting(level: Level, goal: Goal) -> Iterator[Term]:
     """The terms of a level that meet a goal, in order."""
     columns = level.columns
-    return level.chosen(columns.avoiding(goal.avoid, columns.holding(goal.need, columns.every)))
+    return level.select_rows(columns.rows_without(goal.avoid, columns.rows_with(goal.need, columns.every)))
 
 
 def _first_in(level: Level, goal: Goal) -> Term | None:
@@ -111,14 +111,14 @@ def openings(level: Level, goal: Goal, helpful: bool) -> Iterator[Opening]:
     helpful: only where the operand leaves less to need or to avoid; else the other one would meet the goal alone.
     """
     need, avoid, columns = goal.need, goal.avoid, level.columns
-    holding = columns.holding(need, columns.every)
-    clear = columns.avoiding(avoid, columns.every)
-    apart = columns.avoiding(need, columns.every)
-    for x in level.chosen(clear & ~apart if helpful else clear):
+    holding = columns.rows_with(need, columns.every)
+    clear = columns.rows_without(avoid, columns.every)
+    apart = columns.rows_without(need, columns.every)
+    for x in level.select_rows(clear & ~apart if helpful else clear):
         yield Opening(Union, x, Goal(need & ~x.bits, avoid))
-    for x in level.chosen(holding):
+    for x in level.select_rows(holding):
         if avoid & ~x.bits or not helpful:
             yield Opening(Intersect, x, Goal(need, avoid & x.bits))
         yield Opening(Diff, x, Goal(avoid & x.bits, need))
-    for x in level.chosen(apart & ~clear if helpful else apart):
+    for x in level.select_rows(apart & ~clear if helpful else apart):
         yield Opening(Diff, x, Goal(need, avoid & ~x.bits), as_right=True)

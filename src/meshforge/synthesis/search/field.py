@@ -35,7 +35,7 @@ class Field:
         self._groups = Groups(hulls, vocabulary, layers, extremity, group)
         spans = list(pairwise(hulls.starts.tolist()))
         self.groups = [self._groups.of[low:high] for low, high in spans]
-        self._looks = [self._groups.looks[low:high] for low, high in spans]
+        self._signatures = [self._groups.signatures[low:high] for low, high in spans]
         self.width, self.terms = self._groups.width, self._groups.terms
 
     def width_of(self, count: int) -> int:
@@ -51,7 +51,7 @@ class Field:
         """The hulls of one mesh that are in a set of groups, as a bit set."""
         return mask_of(hull for hull, group in enumerate(self.groups[mesh]) if bits >> group & 1)
 
-    def touched(self, selections: Sequence[int]) -> int:
+    def groups_in(self, selections: Sequence[int]) -> int:
         """The groups that selections of hulls, one for each of the first meshes, touch."""
         rows = zip(selections, self.groups, strict=False)
         return mask_of(group for mask, groups in rows for hull, group in enumerate(groups) if mask >> hull & 1)
@@ -64,14 +64,14 @@ class Field:
         """The groups that an extractor over the leaves selects."""
         return self.term(extractor).bits
 
-    def unlike(self, selections: Sequence[int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
+    def find_conflict(self, selections: Sequence[int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
         """Two hulls, each as (mesh, hull), that no extractor tells apart though only the first is selected.
 
         selections: of the first meshes, one bit set of hulls each. None where there are no such hulls.
         """
         first: dict[tuple[bytes, bool], tuple[int, int]] = {}
         for mesh, mask in enumerate(selections):
-            for hull, look in enumerate(self._looks[mesh]):
+            for hull, look in enumerate(self._signatures[mesh]):
                 first.setdefault((look, bool(mask >> hull & 1)), (mesh, hull))
         for (look, selected), place in first.items():
             if selected and (look, False) in first:

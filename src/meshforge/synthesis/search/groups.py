@@ -27,10 +27,10 @@ class Groups:
     ) -> None:
         chosen = leaves(vocabulary, layers)
         table = hulls.table(chosen, extremity)
-        self.looks = [column.tobytes() for column in np.packbits(table.T, axis=1)]
+        self.signatures = [column.tobytes() for column in np.packbits(table.T, axis=1)]
         numbers: dict[object, int] = {}
         firsts: list[int] = []
-        keys: Sequence[object] = self.looks if group else range(len(self.looks))
+        keys: Sequence[object] = self.signatures if group else range(len(self.signatures))
         self.of: list[int] = []
         for place, key in enumerate(keys):
             if key not in numbers:

@@ -56,7 +56,7 @@ def near_miss(extractor: Extractor, field: Field, examples: Sequence[Example]) -
 
 def lookalikes(field: Field, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
     """A sentence on two hulls that no extractor tells apart though only one of them was selected."""
-    found = field.unlike(selections)
+    found = field.find_conflict(selections)
     if not found:
         return None
     shown, other = (f"{examples[mesh].mesh.hulls[hull].name!r} of {examples[mesh].name}" for mesh, hull in found)

@@ -86,15 +86,15 @@ class Search:
         meshes = [*(example.mesh for example in examples), *batch]
         self.field = Field(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
         self.width = self.field.width_of(len(examples))
-        self.need = self.field.touched(self.selections)
+        self.need = self.field.groups_in(self.selections)
         self._exhausted = self._kept = self._goals = 0
 
     def run(self) -> Answer:
         """The answer, within the limits of the options and the watch."""
         try:
-            return self._hit() or self._miss()
+            return self._find_hit() or self._report_miss()
         except OutOfTime:
-            return Unfinished(self._nearest(min(self._exhausted, _HASTY), Watch(math.inf)), self.tried)
+            return Unfinished(self._find_nearest(min(self._exhausted, _HASTY), Watch(math.inf)), self.tried)
 
     @property
     def tried(self) -> Tried:
@@ -109,11 +109,11 @@ class Search:
         shown = [group for group in every if self.need >> group & 1][: few // 2]
         return tuple(sorted([*shown, *[g for g in every if not self.need >> g & 1][: few - len(shown)]]))
 
-    def _hit(self) -> Hit | None:
-        if self.options.shortcuts.group and self.field.unlike(self.selections):
+    def _find_hit(self) -> Hit | None:
+        if self.options.shortcuts.group and self.field.find_conflict(self.selections):
             return None
         while True:
-            extractor = self._smallest()
+            extractor = self._find_smallest()
             if extractor is None:
                 return None
             wrong = (self.field.bits(extractor) ^ self.need) & ((1 << self.width) - 1)
@@ -122,18 +122,18 @@ class Search:
             refuting = list(positions(wrong))[:_REFUTING]
             self.decisive = tuple(sorted({*self.decisive, *refuting}))
 
-    def _smallest(self) -> Extractor | None:
+    def _find_smallest(self) -> Extractor | None:
         """The first extractor that is right on the decisive groups."""
         groups, shortcuts = self.decisive, self.options.shortcuts
         whole = groups == tuple(range(self.width))
-        terms = [Term(_packed(t.bits, groups, whole), t.key, t.made) for t in self.field.terms]
+        terms = [Term(_packed(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
         bank = Bank(terms, len(groups), self.watch, shortcuts.merge)
         completion = Completion(bank, self.watch, shortcuts)
         need = _packed(self.need, groups, whole)
         goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
         try:
             for size in range(1 + self._exhausted, self.options.max_size + 1):
-                term = completion.first(goal, size)
+                term = completion.find_first(goal, size)
                 if term:
                     return term.extractor
                 self._exhausted = size
@@ -142,15 +142,15 @@ class Search:
             self._kept += sum(len(level.terms) for level in bank.levels)
             self._goals += completion.goals
 
-    def _miss(self) -> Miss:
+    def _report_miss(self) -> Miss:
         why = lookalikes(self.field, self.selections, self.examples)
-        nearest = self._nearest(NEAR_SIZE, self.watch)
+        nearest = self._find_nearest(NEAR_SIZE, self.watch)
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _nearest(self, size: int, watch: Watch) -> NearMiss | None:
+    def _find_nearest(self, size: int, watch: Watch) -> NearMiss | None:
         """The nearest miss among extractors of up to some size."""
-        terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.made) for t in self.field.terms]
+        terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
         bank = Bank(terms, self.width, watch)
         levels = [bank.level(k) for k in range(1, size + 1)]
         errors = Errors(self.field, self.selections, self.width)

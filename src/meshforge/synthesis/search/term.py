@@ -12,7 +12,7 @@ from meshforge.synthesis.search.order import Joint, Key, joint_key
 class Joined:
     """A set operator over two terms."""
 
-    joint: Joint
+    operator: Joint
     left: Term
     right: Term
 
@@ -26,13 +26,13 @@ class Term:
 
     bits: int
     key: Key
-    made: All | Is | Attach | Geo | Joined
+    form: All | Is | Attach | Geo | Joined
 
     @property
     def extractor(self) -> Extractor:
         """The term written out."""
-        made = self.made
-        return made.joint(made.left.extractor, made.right.extractor) if isinstance(made, Joined) else made
+        made = self.form
+        return made.operator(made.left.extractor, made.right.extractor) if isinstance(made, Joined) else made
 
     @property
     def size(self) -> int:

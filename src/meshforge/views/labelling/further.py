@@ -23,14 +23,14 @@ def arrangements(sitter: Sitter, left: Sequence[int]) -> Iterator[tuple[Arrangem
     """Ways to show hulls that are left, and how much each is liked."""
     group = tuple(_together(sitter, left))
     near = _about(sitter, group)
-    every = tuple(range(len(sitter.skins)))
+    every = tuple(range(len(sitter.render_meshes)))
     if near is not None:
         yield Arrangement(sitter, every, near, close=group), 1.0
         yield Arrangement(sitter, group, near, close=group), _FEW
     if near is None or len(group) < len(left):
         yield Arrangement(sitter, tuple(left), sitter.points), _FEW
     if len(every) > 1:
-        yield Arrangement.apart(sitter, _PUSH), _MOVED
+        yield Arrangement.explode(sitter, _PUSH), _MOVED
 
 
 def alone(sitter: Sitter, hull: int) -> Arrangement:
@@ -47,7 +47,7 @@ def best(
     values: list[tuple[float, int, View]] = []
     for k, (arrangement, liked) in enumerate(choices):
         for view in LIKED:
-            quality = arrangement.glimpse(view, shape).quality(least)[list(left)]
+            quality = arrangement.preview(view, shape).quality(least)[list(left)]
             value = (quality > 0).sum() + quality.sum()  # that a hull is seen at all is half of what there is to gain
             values.append((float(value) * liked * LIKED[view], k, view))
     _, k, view = max(values, key=lambda row: row[0])

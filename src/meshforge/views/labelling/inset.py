@@ -28,16 +28,16 @@ def inset(arrangement: Arrangement, view: View, size: int) -> Image:
     from PIL import ImageDraw
 
     sitter, side = arrangement.sitter, round(_SHARE * size)
-    whole, about = Arrangement.whole(sitter), Arrangement(sitter, arrangement.close, sitter.points)
+    whole, about = Arrangement.in_place(sitter), Arrangement(sitter, arrangement.close, sitter.points)
     camera = whole.camera(view, (side, side))
-    hits, shining = whole.seen(camera), about.seen(camera)
-    page = shaded(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.stage, camera)
+    hits, shining = whole.cast_solid(camera), about.cast_solid(camera)
+    page = shaded(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.view_frame, camera)
     drawn_over(page, ink(hits, 2), 0.6)
-    lit = shaded(shining, sitter.colors[list(arrangement.close)], whole.stage, camera)
+    lit = shaded(shining, sitter.colors[list(arrangement.close)], whole.view_frame, camera)
     page[shining.item >= 0] = lit[shining.item >= 0]
     image = framed(page, side, 0)
     draw = ImageDraw.Draw(image)
-    seen = camera.pixels(whole.stage.placed(Aabb.of_points(arrangement.frame).corners))
+    seen = camera.to_pixels(whole.view_frame.to_unit(Aabb.of_points(arrangement.frame).corners))
     low, high = seen.min(axis=0), seen.max(axis=0)
     grown = np.maximum(_LEAST - (high - low), 0) / 2
     draw.rectangle([*(low - grown).tolist(), *(high + grown).tolist()], None, INK, 2)

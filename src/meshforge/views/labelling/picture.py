@@ -38,36 +38,36 @@ class Easel:
     size: int
 
     @property
-    def room(self) -> tuple[int, int]:
+    def drawing_size(self) -> tuple[int, int]:
         """Width and height that words leave to the drawing [px]."""
-        return self.size, self.size - head_height(self.size) - self._key.height
+        return self.size, self.size - head_height(self.size) - self._legend.height
 
-    def drawn(self, arrangement: Arrangement, view: View) -> Shot:
+    def draw(self, arrangement: Arrangement, view: View) -> Shot:
         """The picture of an arrangement from one side."""
         from PIL import ImageDraw
 
         sitter, top = self.sitter, head_height(self.size)
-        camera = arrangement.camera(view, self.room)
-        hits = arrangement.seen(camera)
-        items = arrangement.items(hits)
-        drawing, faint = ink(hits, self._line), self._faint(arrangement, hits, camera)
+        camera = arrangement.camera(view, self.drawing_size)
+        hits = arrangement.cast_solid(camera)
+        items = arrangement.hull_pixels(hits)
+        drawing, faint = ink(hits, self._line_width), self._trace_faint(arrangement, hits, camera)
         colors = sitter.colors[list(arrangement.solid)]
-        marked = framed(self._page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
+        marked = framed(self._draw_page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
         taken: list[tuple[int, int, int, int]] = []
         if arrangement.close:
-            taken = [self._put_inset(marked, arrangement, view, items, top)]
+            taken = [self._paste_inset(marked, arrangement, view, items, top)]
             items = _covered(items, taken[0])
         draw = ImageDraw.Draw(marked)
-        numbered = self._number(draw, arrangement, items, camera, taken, top)
-        draw_head(draw, self.size, arrangement.name(view), camera, arrangement.stage.upright)
-        self._key.draw(draw, numbered, sitter.colors)
-        plain = self._visual(arrangement, camera)
+        numbered = self._write_numbers(draw, arrangement, items, camera, taken, top)
+        draw_head(draw, self.size, arrangement.describe(view), camera, arrangement.view_frame.upright)
+        self._legend.draw(draw, numbered, sitter.colors)
+        plain = self._draw_visual(arrangement, camera)
         if plain is None:
-            plain = self._page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
+            plain = self._draw_page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
         hulls = sitter.mesh.hulls
         counts = pixels_of(items, len(hulls)).tolist()
         return Shot(
-            arrangement.name(view),
+            arrangement.describe(view),
             marked,
             framed(plain, self.size, top),
             {hull.name: n for hull, n in zip(hulls, counts, strict=True)},
@@ -75,19 +75,19 @@ class Easel:
         )
 
     @cached_property
-    def _key(self) -> Key:
-        return Key(self.sitter.texts, self.size)
+    def _legend(self) -> Key:
+        return Key(self.sitter.number_texts, self.size)
 
     @cached_property
-    def _sizes(self) -> dict[int, dict[int, Size]]:
-        return type_sizes(self.sitter.texts, self.size)
+    def _number_sizes(self) -> dict[int, dict[int, Size]]:
+        return type_sizes(self.sitter.number_texts, self.size)
 
     @property
-    def _line(self) -> int:
+    def _line_width(self) -> int:
         """How wide lines are [px]."""
         return max(2, round(self.size / 512))
 
-    def _page(
+    def _draw_page(
         self,
         arrangement: Arrangement,
         hits: Hits,
@@ -97,28 +97,28 @@ class Easel:
         faint: Lines | None,
     ) -> Page:
         """The solid hulls in their colours, and their lines and those of the faint ones."""
-        page = shaded(hits, colors, arrangement.stage, camera)
+        page = shaded(hits, colors, arrangement.view_frame, camera)
         drawn_over(page, drawing)
         if faint is not None:
             drawn_over(page, faint, _FAINT)
         return page
 
-    def _faint(self, arrangement: Arrangement, hits: Hits, camera: Camera) -> Lines | None:
+    def _trace_faint(self, arrangement: Arrangement, hits: Hits, camera: Camera) -> Lines | None:
         """The lines (h, w) of hulls that are only hinted at, where nothing else is; None without such hulls."""
-        behind = arrangement.behind(camera)
-        return np.where(hits.item < 0, ink(behind, self._line), np.uint8(0)) if behind else None
+        behind = arrangement.cast_faint(camera)
+        return np.where(hits.item < 0, ink(behind, self._line_width), np.uint8(0)) if behind else None
 
-    def _visual(self, arrangement: Arrangement, camera: Camera) -> Page | None:
+    def _draw_visual(self, arrangement: Arrangement, camera: Camera) -> Page | None:
         """The visual mesh, where it can be shown."""
-        visual = arrangement.visual(camera)
+        visual = arrangement.cast_visual(camera)
         if visual is None:
             return None
         hits, steps = visual
-        page = shaded(hits, self.sitter.visuals[1], arrangement.stage, camera)
-        drawn_over(page, ink(hits, self._line, steps, self.sitter.smooth))
+        page = shaded(hits, self.sitter.visuals[1], arrangement.view_frame, camera)
+        drawn_over(page, ink(hits, self._line_width, steps, self.sitter.smooth))
         return page
 
-    def _put_inset(
+    def _paste_inset(
         self, marked: Image, arrangement: Arrangement, view: View, items: Ints, top: int
     ) -> tuple[int, int, int, int]:
         """Shows in a corner where a picture from close up is, and returns the box that this covers."""
@@ -127,7 +127,7 @@ class Easel:
         marked.paste(small, (column, row + top))
         return column, row, column + small.width, row + small.width
 
-    def _number(
+    def _write_numbers(
         self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera, taken: Sequence[Box], top: int
     ) -> list[int]:
         """Writes the numbers of hulls, and returns which have one; nothing is written on boxes that are taken."""
@@ -135,11 +135,11 @@ class Easel:
         if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST:
             (alone,) = arrangement.solid
             first, last = _ends(arrangement, camera)
-            draw.line([(column, row + top) for column, row in (first.tolist(), last.tolist())], INK, self._line)
+            draw.line([(column, row + top) for column, row in (first.tolist(), last.tolist())], INK, self._line_width)
             column, row = ((first + last) / 2).round().astype(int).tolist()
             known[alone] = Middle(column, row, 0.0)
-        places = placed(items, self._sizes, known, taken)
-        draw_numbers(draw, places, self.sitter.texts, self.sitter.colors, top)
+        places = placed(items, self._number_sizes, known, taken)
+        draw_numbers(draw, places, self.sitter.number_texts, self.sitter.colors, top)
         return sorted(place.item for place in places)
 
 
@@ -153,7 +153,7 @@ def _covered(items: Ints, box: tuple[int, int, int, int]) -> Ints:
 
 def _ends(arrangement: Arrangement, camera: Camera) -> tuple[Floats, Floats]:
     """Column and row (2,) of the two ends of a hull that is drawn alone and too thin for rays to meet it."""
-    points = camera.pixels(arrangement.stage.placed(arrangement.skins[arrangement.solid[0]].vertices))
+    points = camera.to_pixels(arrangement.view_frame.to_unit(arrangement.render_meshes[arrangement.solid[0]].vertices))
     first: Floats = points[np.argmax(np.linalg.norm(points - points[0], axis=1))]
     last: Floats = points[np.argmax(np.linalg.norm(points - first, axis=1))]
     return first, last

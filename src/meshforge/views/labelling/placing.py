@@ -66,7 +66,7 @@ def placed(
         smallest = {item: list(sizes[item].items())[-1] for item in led}
         page = _Page(items, places, [found[item] for item in led], max(w * h for _, (w, h) in smallest.values()))
         for item in led:
-            page.lead(item, found[item], *smallest[item])
+            page.place_beside(item, found[item], *smallest[item])
         places = page.places
     return places[len(taken) :]
 
@@ -107,20 +107,20 @@ class _Page:
         self._small = _summed((cells >= 0) & (counts[cells] < _SMALL * area))
         self._kept = np.array([(s.column - 4, s.row - 4, s.column + 4, s.row + 4) for s in kept], np.float64)
 
-    def lead(self, item: int, middle: Middle, height: int, size: Size) -> None:
+    def place_beside(self, item: int, middle: Middle, height: int, size: Size) -> None:
         """Places a number near its hull, on free paper if there is any; not at all where no room is."""
-        boxes, away = self._about(middle, size)
-        cost = _COVERED * self._share(self._taken, boxes) + _DISTANT * away / size[1]
-        cost += 2 * _COVERED * self._share(self._small, boxes)
+        boxes, away = self._candidate_boxes(middle, size)
+        cost = _COVERED * self._share_covered(self._taken, boxes) + _DISTANT * away / size[1]
+        cost += 2 * _COVERED * self._share_covered(self._small, boxes)
         order = np.argsort(cost, kind="stable")
         for few in np.split(order, range(_FEW, len(order), _FEW)):
-            free = few[~self._meets(boxes[few], middle)]
+            free = few[~self._is_blocked(boxes[few], middle)]
             if len(free):
                 left, top, right, bottom = boxes[free[0]].tolist()
                 self.places.append(Place(item, (left, top, right, bottom), height, (middle.column, middle.row)))
                 return
 
-    def _about(self, middle: Middle, size: Size) -> tuple[Floats, Floats]:
+    def _candidate_boxes(self, middle: Middle, size: Size) -> tuple[Floats, Floats]:
         """Boxes (n, 4) about a middle that lie in the picture, and how far away each is [px]."""
         away = np.repeat(_AWAY, len(_TURNS)) * size[1]
         turn = np.tile(_TURNS, len(_AWAY))
@@ -130,7 +130,7 @@ class _Page:
         inside = (boxes[:, :2] >= 0).all(axis=1) & (boxes[:, 2:] <= self._size).all(axis=1)
         return boxes[inside], away[inside]
 
-    def _meets(self, boxes: Floats, middle: Middle) -> Any:
+    def _is_blocked(self, boxes: Floats, middle: Middle) -> Any:
         """Which boxes (n, 4) cover a number or a spot, or are led to by a line that meets one or another line."""
         spot = np.array([middle.column, middle.row], np.float64)
         lines = np.column_stack([np.broadcast_to(spot, (len(boxes), 2)), (boxes[:, :2] + boxes[:, 2:]) / 2])
@@ -141,7 +141,7 @@ class _Page:
         bad |= crosses(lines, led).any(axis=1) | cuts(led, boxes).any(axis=0)
         return bad | overlaps(boxes, others, 0).any(axis=1)
 
-    def _share(self, summed: Ints, boxes: Floats) -> Floats:
+    def _share_covered(self, summed: Ints, boxes: Floats) -> Floats:
         """How much of each box (n, 4) is covered by what is summed up."""
         left, top, right, bottom = (boxes // _CELL).astype(int).T
         right, bottom = right + 1, bottom + 1

@@ -26,5 +26,5 @@ class Shot:
     name: str
     marked: Image
     plain: Image
-    seen: Mapping[str, int]
+    visible_pixels: Mapping[str, int]
     numbered: frozenset[str]

@@ -70,25 +70,25 @@ class _Session:
 
     def __init__(self, easel: Easel) -> None:
         self._easel, self._sitter = easel, easel.sitter
-        self._made: list[Shot] = []
+        self._pictures: list[Shot] = []
         self._clear: dict[int, int] = {}
         """How many pixels show each hull that is numbered, at best."""
 
     def run(self, most: int) -> list[Shot]:
-        whole = Arrangement.whole(self._sitter)
+        whole = Arrangement.in_place(self._sitter)
         wanted = list(self._sitter.wanted)
-        quality = {view: whole.glimpse(view, self._shape).quality(self._least)[wanted] for view in LIKED}
+        quality = {view: whole.preview(view, self._aspect).quality(self._least_share)[wanted] for view in LIKED}
         for view in chosen(quality, most):
-            self._keep(self._easel.drawn(whole, view))
+            self._keep(self._easel.draw(whole, view))
         self._show_poor(most)
         self._show_left()
-        return self._made
+        return self._pictures
 
     def _show_poor(self, most: int) -> None:
         """Takes pictures, `most` in all, that show hulls well of which little is seen so far, while that helps."""
-        while len(self._made) < most and (poor := self._below(_POOR)):
-            shot = self._further(poor)
-            if not any(pixels >= _POOR for pixels in self._numbered(shot, poor)):
+        while len(self._pictures) < most and (poor := self._below(_POOR)):
+            shot = self._draw_close_up(poor)
+            if not any(pixels >= _POOR for pixels in self._pixels_of_numbered(shot, poor)):
                 break
             self._keep(shot)
 
@@ -96,38 +96,38 @@ class _Session:
         """Takes pictures until each hull has its number."""
         lost: set[int] = set()
         while left := [k for k in self._sitter.wanted if k not in self._clear and k not in lost]:
-            shot = self._further(left)
-            if not self._numbered(shot, left):
+            shot = self._draw_close_up(left)
+            if not self._pixels_of_numbered(shot, left):
                 choice = [(alone(self._sitter, left[0]), 1.0)]
-                shot = self._easel.drawn(*best(choice, left[:1], self._least, self._shape))
+                shot = self._easel.draw(*best(choice, left[:1], self._least_share, self._aspect))
                 lost.add(left[0])
             self._keep(shot)
 
-    def _further(self, left: list[int]) -> Shot:
+    def _draw_close_up(self, left: list[int]) -> Shot:
         """A picture that shows many of the hulls that are left."""
-        return self._easel.drawn(*best(list(arrangements(self._sitter, left)), left, self._least, self._shape))
+        return self._easel.draw(*best(list(arrangements(self._sitter, left)), left, self._least_share, self._aspect))
 
     def _below(self, enough: int) -> list[int]:
         return [k for k in self._sitter.wanted if self._clear.get(k, 0) < enough]
 
-    def _numbered(self, shot: Shot, hulls: Iterable[int]) -> list[int]:
+    def _pixels_of_numbered(self, shot: Shot, hulls: Iterable[int]) -> list[int]:
         """How many pixels show each of these hulls that has its number in a picture."""
         names = (self._sitter.mesh.hulls[k].name for k in hulls)
-        return [shot.seen[name] for name in names if name in shot.numbered]
+        return [shot.visible_pixels[name] for name in names if name in shot.numbered]
 
     def _keep(self, shot: Shot) -> None:
-        self._made.append(shot)
+        self._pictures.append(shot)
         for name in shot.numbered:
             k = self._sitter.mesh.index[name]
-            self._clear[k] = max(self._clear.get(k, 0), shot.seen[name])
+            self._clear[k] = max(self._clear.get(k, 0), shot.visible_pixels[name])
 
     @property
-    def _shape(self) -> float:
-        width, height = self._easel.room
+    def _aspect(self) -> float:
+        width, height = self._easel.drawing_size
         return height / width
 
     @property
-    def _least(self) -> float:
+    def _least_share(self) -> float:
         """The share of a picture from which on a hull is likely to be numbered, as far as a glimpse can tell."""
-        width, height = self._easel.room
-        return max(2 * LEAST / (width * height), _GLIMPSED / (COARSE**2 * self._shape))
+        width, height = self._easel.drawing_size
+        return max(2 * LEAST / (width * height), _GLIMPSED / (COARSE**2 * self._aspect))

@@ -36,13 +36,13 @@ class Sitter:
     up: Up
 
     @cached_property
-    def skins(self) -> list[Skin]:
+    def render_meshes(self) -> list[Skin]:
         """Their triangles: fewer than other pictures have, since surfaces that bend are lit by the triangle."""
         count = sum(hull.shape.is_primitive for hull in self.mesh.hulls)
         return [skin(hull.shape, min(max(1200 // max(count, 1), 24), 64)) for hull in self.mesh.hulls]
 
     @cached_property
-    def middles(self) -> Floats:
+    def box_centers(self) -> Floats:
         """The middle (n, 3) [m] of each hull's box."""
         low, high = self.mesh.corners
         return (low + high) / 2
@@ -55,7 +55,7 @@ class Sitter:
         return colors
 
     @cached_property
-    def texts(self) -> dict[int, str]:
+    def number_texts(self) -> dict[int, str]:
         """What is written on each wanted hull."""
         return {k: str(k) for k in self.wanted}
 
@@ -69,7 +69,7 @@ class Sitter:
         kept = [s for s in shown if len(s.faces) and (s.rgba is None or s.rgba[3] > _CLEAR)]
         colors = [NEUTRAL if s.rgba is None else np.clip(s.rgba[:3], 0, _LIGHTEST) for s in kept]
         if not kept and self.opaque:
-            every = [*self.skins, *self.opaque]
+            every = [*self.render_meshes, *self.opaque]
             return every, np.tile(NEUTRAL, (len(every), 1))
         return [skin(s) for s in kept], np.array(colors).reshape(-1, 3)
 
@@ -87,27 +87,27 @@ class Sitter:
     @cached_property
     def points(self) -> Floats:
         """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any sight."""
-        return outermost(framed(self.skins, [*self.visuals[0], *self.opaque]), self.up)
+        return outermost(framed(self.render_meshes, [*self.visuals[0], *self.opaque]), self.up)
 
     @cached_property
-    def stage(self) -> Stage:
+    def view_frame(self) -> Stage:
         """The frame that the whole mesh is drawn in."""
         return Stage(Aabb.of_points(self.points), upright(self.up))
 
-    def visual(self, stage: Stage) -> Scene:
+    def visual_scene(self, stage: Stage) -> Scene:
         """The visual mesh, ready to be drawn in a frame."""
-        return self._whole_visual if stage is self.stage else self._visual(stage)
+        return self._whole_visual_scene if stage is self.view_frame else self._build_visual_scene(stage)
 
     @cached_property
-    def _whole_visual(self) -> Scene:
-        return self._visual(self.stage)
+    def _whole_visual_scene(self) -> Scene:
+        return self._build_visual_scene(self.view_frame)
 
-    def _visual(self, stage: Stage) -> Scene:
+    def _build_visual_scene(self, stage: Stage) -> Scene:
         return seen_from(assembled(self.visuals[0], stage.bounds.center, stage.unit), None)
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """The corners (n, 3) [m] of some hulls."""
-        return np.concatenate([self.skins[k].vertices for k in hulls])
+        return np.concatenate([self.render_meshes[k].vertices for k in hulls])
 
     @cached_property
     def diagonal(self) -> float:

@@ -32,12 +32,12 @@ def test_an_answer_is_counted_and_kept_and_not_asked_for_again(tmp_path: Path) -
         one = client(server, tmp_path, input_price=2.0, output_price=10.0)
         reply = one.ask(question())
         assert (reply.text, reply.cached) == ("leg", False)
-        assert one.bill.usage == Usage(server.usage["input"], server.usage["output"])
-        assert one.bill.cost == pytest.approx((2 * server.usage["input"] + 10 * server.usage["output"]) / 1e6)
+        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
+        assert one.usage.cost == pytest.approx((2 * server.usage["input"] + 10 * server.usage["output"]) / 1e6)
         again = client(server, tmp_path, input_price=2.0, output_price=10.0)
         known = again.ask(question())
         assert (known.text, known.cached, known.usage, known.cost) == ("leg", True, reply.usage, reply.cost)
-        assert (again.bill.cached, again.bill.answered, again.bill.cost) == (1, 0, 0.0)
+        assert (again.usage.cached, again.usage.answered, again.usage.cost) == (1, 0, 0.0)
         assert len(server.answered) == 1
 
 
@@ -105,10 +105,10 @@ def test_faults_that_pass_are_tried_again_and_cost_nothing(fault: Fault) -> None
     with serving(lambda asked: "leg", fault=first(fault, fault), slow=0.4) as server:
         one = client(server, timeout=0.2, input_price=1.0, output_price=1.0)
         assert one.ask(question()).text == "leg"
-        assert (one.bill.retries, one.bill.answered) == (2, 2)
-        assert one.bill.usage == Usage(server.usage["input"], server.usage["output"])
+        assert (one.usage.retries, one.usage.answered) == (2, 2)
+        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
         lost = fault.kind != "status"
-        assert (one.bill.lost, one.bill.perhaps > 0) == (2 * lost, lost)
+        assert (one.usage.lost, one.usage.perhaps > 0) == (2 * lost, lost)
 
 
 def test_a_question_that_gets_no_answer_does_not_end_the_others() -> None:
@@ -197,7 +197,7 @@ def test_a_refused_question_is_asked_without_its_schema_and_then_given_up() -> N
         with pytest.raises(RefusedError, match=r"the server refused the question \(400\): too long"):
             one.ask(question("a long one", schema=SCHEMA))
         assert one.end is None
-        assert one.bill.retries == 0
+        assert one.usage.retries == 0
 
 
 def test_the_key_is_in_no_message_and_in_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, key: str) -> None:
@@ -274,7 +274,7 @@ def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path, kept: bool)
         with ThreadPoolExecutor(4) as pool:
             assert set(pool.map(ask, range(4))) == {"leg"}
         assert len(server.answered) == 1
-        assert (one.bill.answered, one.bill.cached) == (2, 3)  # the question about the red picture is one, too
+        assert (one.usage.answered, one.usage.cached) == (2, 3)  # the question about the red picture is one, too
 
 
 def test_repeats_are_told_apart(tmp_path: Path) -> None:
@@ -322,7 +322,7 @@ def test_damaged_knowledge_of_a_server_is_found_out_again(tmp_path: Path) -> Non
 def test_tokens_come_back_from_disk_as_they_were(tmp_path: Path) -> None:
     with serving(lambda asked: "Füße und €", logprobs="given") as server:
         asked = client(server, tmp_path).ask(question())
-        known = client(server, tmp_path).known(question())
+        known = client(server, tmp_path).find_answer(question())
         assert known and known.tokens == asked.tokens and known.tokens
 
 
@@ -330,8 +330,8 @@ def test_a_server_that_tells_no_tokens_is_told_to_be_estimated() -> None:
     with serving(lambda asked: "leg", tells=False) as server:
         one = client(server)
         one.ask(question("word " * 300))
-        assert one.bill.usage.estimated
-        assert 300 < one.bill.usage.input < 3000
+        assert one.usage.usage.estimated
+        assert 300 < one.usage.usage.input < 3000
 
 
 def test_a_stop_ends_the_asking_before_and_between_attempts() -> None:
@@ -359,8 +359,8 @@ def test_garbage_that_tells_what_it_cost_is_counted() -> None:
         server._completion = completion  # type: ignore[method-assign]
         one = client(server)
         assert one.ask(question()).text == "leg"
-        assert one.bill.usage == Usage(server.usage["input"], server.usage["output"])
-        assert (one.bill.retries, one.bill.lost) == (1, 0)
+        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
+        assert (one.usage.retries, one.usage.lost) == (1, 0)
 
 
 def test_without_the_sdk_the_message_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:

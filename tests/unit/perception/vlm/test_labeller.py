@@ -203,11 +203,11 @@ def test_dense_meshes_are_asked_about_in_groups_of_few_marks() -> None:
 def test_the_groups_do_not_change_when_some_hulls_have_a_label_by_then() -> None:
     shown = table(legs=30)
     with labelling(right(shown), "balanced") as (labeller, _):
-        all_of_it = {look.question.digests: look for look in labeller.looks(shown)}
-        some = list(labeller.looks(shown, ["top", "leg29"]))
+        all_of_it = {look.question.digests: look for look in labeller.build_questions(shown)}
+        some = list(labeller.build_questions(shown, ["top", "leg29"]))
         assert 0 < len(some) < len(all_of_it)
         assert all(look == all_of_it[look.question.digests] for look in some)
-        assert not list(labeller.looks(shown, []))
+        assert not list(labeller.build_questions(shown, []))
 
 
 def test_a_hull_within_another_is_asked_about_all_the_same() -> None:
@@ -232,7 +232,7 @@ def test_the_answers_come_out_the_same_however_many_are_under_way(tmp_path: Path
     for concurrency in (1, 8):
         with labelling(by_numbers, "exact", concurrency=concurrency, delay=0.005) as (labeller, _):
             pending = [labeller.begin(one) for one in shown]
-            outcomes.append([one.said().labels for one in reversed(pending)])
+            outcomes.append([one.result().labels for one in reversed(pending)])
     assert outcomes[0] == outcomes[1]
 
 
@@ -254,7 +254,7 @@ def test_a_question_without_answer_leaves_its_hulls_open_and_the_others_are_labe
 def test_examples_are_shown_with_their_answers() -> None:
     shown = table()
     known: Mapping[str, Label] = {name: Label(label) for name, label in true_names(shown).items() if name != "leg0"}
-    example = shown.labelled(known)
+    example = shown.with_labels(known)
     with labelling(right(table(legs=5)), examples=[example]) as (labeller, server):
         labeller.label(table(legs=5))
         messages = server.answered[0].body["messages"]

@@ -41,7 +41,7 @@ def test_no_more_is_spent_than_may_be(tmp_path: Path, most: float, concurrency: 
         one = client(server, tmp_path, max_cost=most, concurrency=concurrency, **PRICES)
         answered = ask_all(one, 40)
         assert spent(server) <= most
-        assert one.bill.cost == pytest.approx(spent(server))
+        assert one.usage.cost == pytest.approx(spent(server))
         assert isinstance(one.end, EndError)
         assert f"of ${most:g} are spent" in one.end.message
         assert answered == len(server.answered) < 40
@@ -55,7 +55,7 @@ def test_with_faults_the_limit_holds_even_if_lost_attempts_are_charged(tmp_path:
     with serving(lambda asked: "leg " * 60, fault=sometimes(0.3, FAULTS), slow=0.3) as server:
         one = client(server, tmp_path, max_cost=12.0, concurrency=4, timeout=0.15, **PRICES)
         ask_all(one, 60)
-        bill = one.bill
+        bill = one.usage
         assert bill.cost == pytest.approx(spent(server))
         assert bill.cost is not None and bill.cost + bill.perhaps <= 12.0
         assert bill.lost > 0
@@ -78,5 +78,5 @@ def test_without_prices_tokens_are_counted_and_no_cost_is_told() -> None:
     with serving(lambda asked: "leg") as server:
         one = client(server)
         one.ask(question())
-        assert one.bill.cost is None
-        assert one.bill.usage.input == server.usage["input"]
+        assert one.usage.cost is None
+        assert one.usage.usage.input == server.usage["input"]

@@ -55,7 +55,7 @@ def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -
         before, asked = project.labels("t001.obj").labels, len(server.asked)
         again = project.label_with_vlm(settings(server))
         assert [report.same for report in again.reports] == [6] * 4
-        assert (again.bill.answered, again.bill.cost, len(server.asked)) == (0, 0.0, asked)
+        assert (again.usage.answered, again.usage.cost, len(server.asked)) == (0, 0.0, asked)
         assert project.labels("t001.obj").labels == before
 
 
@@ -126,10 +126,10 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
         faults = sum(not whole for asked, _, whole in server.asked if asked.asset not in hopeless)
         assert faults > 0.1 * MANY
         assert max(Counter(asked.raw for asked in server.answered).values()) == 1  # nothing asked twice
-        assert found.bill.cost == pytest.approx(charged(server))
-        assert (found.bill.usage.input, found.bill.usage.output) == (server.usage["input"], server.usage["output"])
+        assert found.usage.cost == pytest.approx(charged(server))
+        assert (found.usage.usage.input, found.usage.usage.output) == (server.usage["input"], server.usage["output"])
         broken = sum(not whole for _, _, whole in server.asked)  # slow ones may be under way there still
-        assert found.bill.retries + len(hopeless) >= broken
+        assert found.usage.retries + len(hopeless) >= broken
 
 
 def test_what_a_person_or_a_file_says_stays_and_so_does_what_is_surer(tmp_path: Path) -> None:
@@ -213,7 +213,7 @@ def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) ->
         how = settings(server, max_cost=0.02, concurrency=2)
         found = project.label_with_vlm(how)
         assert charged(server) <= 0.02
-        assert found.bill.cost == pytest.approx(charged(server))
+        assert found.usage.cost == pytest.approx(charged(server))
         assert found.ended and "of $0.02 are spent" in found.ended
         done = [report.asset for report in found.reports]
         assert done and len(done) + len(found.unasked) == 12
@@ -323,7 +323,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
         assert "The objects are: small tables." in asked.text
         assert asked.body["top_k"] == 1
         assert json.loads(asked.body["messages"][2]["content"])["hulls"][-1] == {"number": 5, "label": "top"}
-        assert found.bill.cost is None
+        assert found.usage.cost is None
     project.set_vocabulary([*WORDS, "handle"])  # a change of another setting leaves the table alone
     assert project.settings.vlm.descriptions == {"misc": "what fell off"}
 
@@ -374,7 +374,7 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
         with pytest.raises(MeshForgeError, match="does not accept the key"):
             project.label_with_vlm(settings(server))
         assert len(server.asked) == 1
-    assert not project.layout.kept_for("labels")
+    assert not project.layout.ids_with("labels")
 
 
 def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ def create_gltf(asset: Asset, name: str) -> Output:
     native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
     """
     is_binary = PurePosixPath(name).suffix.lower() == ".glb"
-    return _Creator(asset, "plain" if _is_plain(asset) else "khr", is_binary).output(PurePosixPath(name).stem)
+    return _Creator(asset, "plain" if _is_plain(asset) else "khr", is_binary).build_output(PurePosixPath(name).stem)
 
 
 def _is_plain(asset: Asset) -> bool:
@@ -46,33 +46,33 @@ def _is_plain(asset: Asset) -> bool:
 class _Creator:
     def __init__(self, asset: Asset, convention: Convention, is_binary: bool) -> None:
         self.asset, self.convention, self.is_binary = asset, convention, is_binary
-        tree = self._bodies()
+        tree = self._build_tree()
         self.nodes: dict[str, int] = {node["name"]: k for k, node in enumerate(tree.get("nodes", []))}
         self.draft = new_draft(tree, asset.path, is_binary)
 
-    def output(self, stem: str) -> Output:
+    def build_output(self, stem: str) -> Output:
         seen, lost = shown(self.asset) if self.convention == "khr" else ([], [])
         style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not seen)
         for geom in self.asset.geoms:
-            style.make(geom, self._own(geom), self.nodes.get(geom.body), None)
+            style.add_hull(geom, self._own_name(geom), self.nodes.get(geom.body), None)
         for piece in self.asset.opaque:
-            self._opaque(style, piece)
+            self._add_opaque(style, piece)
         if not self.draft.expected:
             raise AssetError("there is no hull to write", where=str(self.asset.path))
         for body, surface in seen:
-            self._show(body, surface)
-        renamed = self._renamed()
+            self._add_visual(body, surface)
+        renamed = self._assign_names()
         main, made = packed_new(self.draft, stem, self.is_binary)
         return Output(main, made, names=renamed, lost=tuple(lost))
 
-    def _renamed(self) -> dict[str, str]:
+    def _assign_names(self) -> dict[str, str]:
         """The hulls that read back under other names, with these."""
         bodies = tuple((node, body) for body, node in self.nodes.items())
         names = settle(self.draft, GltfDocument(b"", self.convention, (), bodies), renames=True)
         hulls = {geom.name for geom in self.asset.geoms}
         return {old: now for old, now in names.items() if old in hulls}
 
-    def _bodies(self) -> Json:
+    def _build_tree(self) -> Json:
         """A tree with a node for each body but the one that all formats without bodies have."""
         tree = bare_tree()
         if self.convention == "plain":
@@ -88,19 +88,19 @@ class _Creator:
             tree["nodes"] = nodes
         return tree
 
-    def _own(self, thing: Geom | Opaque) -> str:
+    def _own_name(self, thing: Geom | Opaque) -> str:
         return thing.name.removeprefix(f"{thing.body}/") if self.nodes else thing.name
 
-    def _opaque(self, style: PlainStyle | PhysicsStyle, piece: Opaque) -> None:
+    def _add_opaque(self, style: PlainStyle | PhysicsStyle, piece: Opaque) -> None:
         """A piece as its triangles, or as a plane; one that is neither is told in the report."""
         if piece.plane is not None and isinstance(style, PhysicsStyle):
-            style.make_plane(piece, self._own(piece), self.nodes.get(piece.body))
+            style.add_plane(piece, self._own_name(piece), self.nodes.get(piece.body))
         elif piece.surface is not None and len(piece.surface.faces):
-            style.make_opaque(piece, piece.surface, self._own(piece), self.nodes.get(piece.body))
+            style.add_opaque(piece, piece.surface, self._own_name(piece), self.nodes.get(piece.body))
 
-    def _show(self, body: str, surface: Surface) -> None:
+    def _add_visual(self, body: str, surface: Surface) -> None:
         """A node that shows a surface."""
         holder, name = self.nodes.get(body), f"{body}-visual"
         points = self.draft.points_in(np.asarray(surface.vertices), holder)
-        mesh, middle = self.draft.surface_mesh(points, surface.faces, name, material(self.draft.tree, surface.rgba))
+        mesh, middle = self.draft.add_surface_mesh(points, surface.faces, name, material(self.draft.tree, surface.rgba))
         self.draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)

@@ -26,7 +26,7 @@ def create_named(asset: Asset, name: str, engine: EngineNames) -> Output:
     """
     path = PurePosixPath(name)
     found = families(asset, engine, path.stem)
-    main, made, names = _Maker(asset, found, engine, path.suffix.lower() == ".glb").files(path.stem)
+    main, made, names = _Maker(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
     return Output(main, made, names=names, lost=found.lost, notes=found.notes)
 
 
@@ -41,45 +41,45 @@ class _Maker:
         tree["nodes"] = [{"name": family.name, **place_keys(family.body.pose)} for family in found.each]
         self.draft = new_draft(tree, asset.path, is_binary)
 
-    def files(self, stem: str) -> tuple[bytes, dict[str, bytes], dict[str, str]]:
+    def build_files(self, stem: str) -> tuple[bytes, dict[str, bytes], dict[str, str]]:
         """The main file, the one of its buffer, and the names of hulls in it."""
         for node, family in enumerate(self.found.each):
             if family.surfaces:
-                self.draft.node(node)["mesh"] = self._seen(family, node)
-            self._collide(family, node)
+                self.draft.node(node)["mesh"] = self._add_visuals(family, node)
+            self._add_collision(family, node)
         document = GltfDocument(b"", self.engine.engine, ())
         misread = settle(self.draft, document, renames=False)  # by the names of the asset
         known = {geom: name for geom, name in misread.items() if geom in self.found.names}
         return *packed_new(self.draft, stem, self.is_binary), known
 
-    def _seen(self, family: Family, node: int) -> int:
+    def _add_visuals(self, family: Family, node: int) -> int:
         """One mesh of all that is seen of a body, a part for each surface."""
         draft, parts = self.draft, []
         for surface in family.surfaces:
             points = draft.points_in(np.asarray(surface.vertices), node)
-            parts.append(draft.part_of(points, surface.faces, material(draft.tree, surface.rgba)))
+            parts.append(draft.build_primitive(points, surface.faces, material(draft.tree, surface.rgba)))
         return draft.add_mesh({"name": family.name, "primitives": parts})
 
-    def _collide(self, family: Family, node: int) -> None:
+    def _add_collision(self, family: Family, node: int) -> None:
         """The nodes of what collides of a body."""
         if not family.hulls and not family.opaque:
             return
         above = self.engine.holder(family.name)
         holder = node if above is None else self.draft.add_node({"name": above}, node)
         for name, geom in family.hulls.items():
-            hull = self.draft.in_holder(geom.shape, node).tessellated()
-            self._add(name, hull.vertices, hull.faces, holder, geom.name)
+            hull = self.draft.shape_in(geom.shape, node).tessellate()
+            self._add_node(name, hull.vertices, hull.faces, holder, geom.name)
         for name, piece in family.opaque.items():
             assert isinstance(piece.surface, Surface)  # no other is in a family
             points = self.draft.points_in(np.asarray(piece.surface.vertices), node)
-            self._add(name, points, piece.surface.faces, holder, piece.name)
+            self._add_node(name, points, piece.surface.faces, holder, piece.name)
 
-    def _add(self, name: str, points: Floats, faces: Ints, holder: int, known: str) -> None:
+    def _add_node(self, name: str, points: Floats, faces: Ints, holder: int, known: str) -> None:
         """A node with a mesh; known: the name of the piece in the asset."""
         middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
         if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
             middle = np.zeros(3)
-        mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.part_of(points - middle, faces)]})
+        mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.build_primitive(points - middle, faces)]})
         node: Json = {"name": name, "mesh": mesh}
         placed = {"translation": middle.tolist()} if middle.any() else {}
         self.draft.expected[self.draft.add_node({**node, **placed}, holder)] = (known,)

@@ -33,7 +33,7 @@ def read_gltf(path: Path) -> Asset:
     with damage_at(str(path)):
         scene = Scene.of(source, path)
         reader = Reader(scene)
-        sources = reader.sources()
+        sources = reader.read()
         bodies = named_bodies(scene)
         fixed = _is_fixed(scene, reader.convention, sources, bodies)
         notes = [*scene_notes(scene, reader.convention), *reader.notes]

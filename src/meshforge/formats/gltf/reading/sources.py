@@ -49,24 +49,24 @@ class Reader:
     _pieces: dict[int, list[Piece]] = field(default_factory=dict)
     _colliding: frozenset[int] = frozenset()  # in files for Unity
 
-    def sources(self) -> list[Source]:
+    def read(self) -> list[Source]:
         """All nodes with collision, in the order of the scene."""
         self.convention = convention_of(self.scene)
         self._colliding = below_colliders(self.scene)
         read: dict[Convention, Callable[[Placement], Source | None]] = {
-            "unreal": self._unreal,
-            "godot": self._godot,
-            "unity": self._unity,
-            "plain": self._plain,
+            "unreal": self._read_unreal,
+            "godot": self._read_godot,
+            "unity": self._read_unity,
+            "plain": self._read_plain,
         }
-        each = read.get(self.convention, self._physics)
+        each = read.get(self.convention, self._read_physics)
         found = [
-            self._many(placement, each) if is_instanced(placement.node) else each(placement)
+            self._read_instances(placement, each) if is_instanced(placement.node) else each(placement)
             for placement in self.scene.placements.values()
         ]
         return [source for source in found if source is not None and source.parts]
 
-    def _many(self, placement: Placement, each: Callable[[Placement], Source | None]) -> Source | None:
+    def _read_instances(self, placement: Placement, each: Callable[[Placement], Source | None]) -> Source | None:
         """A node that stands for many: one piece, of all instances of what it collides with."""
         extensions = {name: own for name, own in placement.node["extensions"].items() if name != INSTANCING}
         alone = {key: value for key, value in placement.node.items() if key != "skin"} | {"extensions": extensions}
@@ -82,7 +82,7 @@ class Reader:
         surface = placed(*many, placement.linear, placement.offset)
         return Source(placement.index, one.name, [MeshPart(None, reason, surface)])
 
-    def _physics(self, placement: Placement) -> Source | None:
+    def _read_physics(self, placement: Placement) -> Source | None:
         if not has_collider(placement.node, self.convention, self.scene.tree):
             return None
         name, collider = (
@@ -90,15 +90,15 @@ class Reader:
             collider_of(placement, self.convention, self.scene),
         )
         if collider.shape is not None:
-            return self._described(placement, name, collider.shape)
+            return self._place_shape(placement, name, collider.shape)
         if not isinstance(collider.mesh, int) or collider.mesh < 0:
             return Source(placement.index, name, [MeshPart(None, "its collider names no mesh")])
         mesh = self.scene.mesh(collider.mesh), placement.linear, placement.offset
         if collider.convex:
-            return Source(placement.index, name, [self._hull(*mesh)])
-        return self._pieced(placement.index, name, collider.mesh, *mesh)
+            return Source(placement.index, name, [self._hull_part(*mesh)])
+        return self._read_pieces(placement.index, name, collider.mesh, *mesh)
 
-    def _described(self, placement: Placement, name: str | None, found: Described) -> Source:
+    def _place_shape(self, placement: Placement, name: str | None, found: Described) -> Source:
         """A shape of an extension, in its place."""
         if found.shape is None:
             plane = rigid(placement) @ Z_TO_Y if found.is_plane else None
@@ -107,46 +107,46 @@ class Reader:
             self.notes.append(f"the collider of {name or f'node {placement.index}'!r} is tapered: it is read as a hull")
         if _flattens(placement.linear):
             return Source(placement.index, name, [MeshPart(None, "it is scaled to nothing")])
-        shape = found.shape.mapped(placement.linear, placement.offset)
+        shape = found.shape.transform(placement.linear, placement.offset)
         if isinstance(found.shape, Sphere) and not isinstance(shape, Sphere):
             egg = Ellipsoid(Pose.identity(), np.full(3, found.shape.radius))
-            shape = egg.mapped(placement.linear, placement.offset)
+            shape = egg.transform(placement.linear, placement.offset)
         return Source(placement.index, name, [MeshPart(shape)])
 
-    def _unreal(self, placement: Placement) -> Source | None:
+    def _read_unreal(self, placement: Placement) -> Source | None:
         name = source_name(self.scene, placement, "unreal")
         if name is None:
             return None
-        mesh = self.scene.placed(placement)
+        mesh = self.scene.place_mesh(placement)
         if not len(mesh[0].faces):
             return None
-        part = self._hull(*mesh)
+        part = self._hull_part(*mesh)
         if part.shape is not None:
             shape, note = unreal_shape(name, part.shape)
             self.notes += [note] if note else []
             part = MeshPart(shape)
         return Source(placement.index, name, [part])
 
-    def _godot(self, placement: Placement) -> Source | None:
+    def _read_godot(self, placement: Placement) -> Source | None:
         name = source_name(self.scene, placement, "godot")
         kind = godot_kind(name)
         if kind is None:
             return None
-        mesh = self.scene.placed(placement)
+        mesh = self.scene.place_mesh(placement)
         if kind in ("convcol", "convcolonly") and len(mesh[0].faces):
-            return Source(placement.index, name, [self._hull(*mesh)])
-        return self._pieced(placement.index, name, placement.node["mesh"], *mesh)
+            return Source(placement.index, name, [self._hull_part(*mesh)])
+        return self._read_pieces(placement.index, name, placement.node["mesh"], *mesh)
 
-    def _plain(self, placement: Placement) -> Source | None:
+    def _read_plain(self, placement: Placement) -> Source | None:
         if "mesh" not in placement.node:
             return None
         name = source_name(self.scene, placement, "plain")
-        return self._pieced(placement.index, name, placement.node["mesh"], *self.scene.placed(placement))
+        return self._read_pieces(placement.index, name, placement.node["mesh"], *self.scene.place_mesh(placement))
 
-    def _unity(self, placement: Placement) -> Source | None:
-        return self._plain(placement) if placement.index in self._colliding else None
+    def _read_unity(self, placement: Placement) -> Source | None:
+        return self._read_plain(placement) if placement.index in self._colliding else None
 
-    def _pieced(
+    def _read_pieces(
         self, node: int, name: str | None, index: int, mesh: Triangles, linear: Floats, offset: Floats
     ) -> Source:
         """A mesh as its connected pieces."""
@@ -168,7 +168,7 @@ class Reader:
             self._pieces[index] = _taken_apart(mesh, name)
         return self._pieces[index]
 
-    def _hull(self, mesh: Triangles, linear: Floats, offset: Floats) -> MeshPart:
+    def _hull_part(self, mesh: Triangles, linear: Floats, offset: Floats) -> MeshPart:
         """A whole mesh as one hull, as engines take it."""
         if not len(mesh.faces):
             return MeshPart(None, "the mesh holds no triangles")
@@ -176,7 +176,7 @@ class Reader:
             return _opaque(mesh, linear, offset, "it is scaled to nothing")
         points = mesh.vertices[np.unique(mesh.faces)]
         try:
-            return MeshPart(convex_hull(points).mapped(linear, offset))
+            return MeshPart(convex_hull(points).transform(linear, offset))
         except GeometryError:
             return _opaque(mesh, linear, offset, "flat")
 

@@ -34,7 +34,7 @@ class SceneSurfaces(LazySurfaces):
             scene = Scene.of(self._source, self._path)
             found = []
             for index in visible(scene, convention_of(scene)):
-                mesh, linear, offset = scene.placed(scene.placements[index])
+                mesh, linear, offset = scene.place_mesh(scene.placements[index])
                 body = self._bodies.get(index)
                 for part, rgba in coloured(scene, scene.placements[index].node["mesh"], mesh):
                     found.append(replace(placed(part.vertices, part.faces, linear, offset, body), rgba=rgba))

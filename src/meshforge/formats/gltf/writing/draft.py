@@ -34,18 +34,18 @@ class Draft:
         """A node of the edited tree."""
         return entry(self.tree, "nodes", index)
 
-    def empty(self, index: int) -> None:
+    def empty_node(self, index: int) -> None:
         """Take the triangles from a node, and the node from the tree where nothing else hangs on it.
 
         It stays in the list of nodes, so that no other gets its number.
         """
-        self.without_mesh(index)
+        self.remove_mesh(index)
         node = self.node(index)
         needed = node.get("children") or node.get("extensions") or {"camera", "mesh"} & node.keys()
         if not needed and index not in self.referred.nodes:
-            self._take_out(index)
+            self._remove_node(index)
 
-    def without_mesh(self, index: int) -> Json:
+    def remove_mesh(self, index: int) -> Json:
         """Take the mesh from a node but for its points and lines; what belonged to it is returned.
 
         Raises AssetError: an animation morphs it.
@@ -58,7 +58,7 @@ class Draft:
                 remedy="Leave the hull as it is, or take the animation out of the file.",
             )
         gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
-        strokes = self._strokes(gone["mesh"]) if "mesh" in gone else []
+        strokes = self._lines_and_points(gone["mesh"]) if "mesh" in gone else []
         if strokes:
             mesh = {**entry(self.scene.tree, "meshes", gone["mesh"]), "primitives": strokes}
             node |= {**gone, "mesh": self.add_mesh(mesh, gone["mesh"])}
@@ -76,7 +76,7 @@ class Draft:
             self._scene().setdefault("nodes", []).append(index)
         return index
 
-    def uses(self, extension: str) -> None:
+    def declare_extension(self, extension: str) -> None:
         """Say that the file uses an extension."""
         used: list[Any] = self.tree.setdefault("extensionsUsed", [])
         if extension not in used:
@@ -92,23 +92,23 @@ class Draft:
         meshes.append(mesh)
         return len(meshes) - 1
 
-    def made_mesh(self, shape: Shape, name: str, material: int | None = None) -> tuple[int, Floats]:
+    def add_shape_mesh(self, shape: Shape, name: str, material: int | None = None) -> tuple[int, Floats]:
         """A new mesh of a shape, about the middle of its box, so that single precision is fine; and that middle."""
-        polytope = shape.tessellated()
-        return self.surface_mesh(polytope.vertices, polytope.faces, name, material)
+        polytope = shape.tessellate()
+        return self.add_surface_mesh(polytope.vertices, polytope.faces, name, material)
 
-    def surface_mesh(self, points: Floats, faces: Ints, name: str, material: int | None = None) -> tuple[int, Floats]:
+    def add_surface_mesh(self, points: Floats, faces: Ints, name: str, material: int | None = None) -> tuple[int, Floats]:
         """The same of vertices (n, 3) and faces (m, 3)."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        return self.add_mesh({"name": name, "primitives": [self.part_of(points - middle, faces, material)]}), middle
+        return self.add_mesh({"name": name, "primitives": [self.build_primitive(points - middle, faces, material)]}), middle
 
-    def part_of(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
+    def build_primitive(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
         """A primitive of vertices (n, 3) and faces (m, 3), where they are."""
-        part: Json = {"attributes": {"POSITION": self.geometry.points(points)}}
-        part["indices"] = self.geometry.triangles(faces)
+        part: Json = {"attributes": {"POSITION": self.geometry.add_points(points)}}
+        part["indices"] = self.geometry.add_triangles(faces)
         return part if material is None else {**part, "material": material}
 
-    def parted(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
+    def extract_pieces(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
         """A mesh of some pieces only: with the vertices, attributes and materials of the whole.
 
         strokes: whether its points and lines, which are no part of a piece, stay in it.
@@ -127,18 +127,18 @@ class Draft:
             patch, start = whole[k]
             own = stays[start : start + len(patch.faces)]
             if own.any():
-                parts.append(part if own.all() else self._fewer(part, patch.faces[own], patch.decoded))
+                parts.append(part if own.all() else self._keep_faces(part, patch.faces[own], patch.decoded))
         return {**mesh, "primitives": parts}
 
-    def _strokes(self, index: int) -> list[Json]:
+    def _lines_and_points(self, index: int) -> list[Json]:
         """The primitives of a mesh that are no triangles."""
         solid = {patch.index for patch in self.scene.mesh(index).patches}
         parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
         return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]
 
-    def _fewer(self, part: Json, faces: Ints, decoded: Any) -> Json:
+    def _keep_faces(self, part: Json, faces: Ints, decoded: Any) -> Json:
         """A primitive with some of its triangles; one that Draco compressed is written plainly."""
-        part = {**part, "indices": self.geometry.triangles(faces)}
+        part = {**part, "indices": self.geometry.add_triangles(faces)}
         part.pop("mode", None)
         if decoded is not None:
             unpacked(part, decoded.attributes, self.tree, self.geometry)
@@ -154,21 +154,21 @@ class Draft:
         if source is not None:
             below = source == body or source in self.referred.animated
             holder = source if below else self.scene.placements[source].parent
-        if holder is not None and (self._bodies.get(holder) != body or self.flattened(holder)):
+        if holder is not None and (self._bodies.get(holder) != body or self.is_degenerate(holder)):
             return body
         return holder if holder is not None else body
 
-    def flattened(self, index: int) -> bool:
+    def is_degenerate(self, index: int) -> bool:
         """Whether a node leaves no volume to what is below it."""
         stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
         return bool(stretch[-1] <= 1e-9 * stretch[0])
 
-    def in_holder(self, shape: Shape, holder: int | None) -> Shape:
+    def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""
         if holder is None:
             return shape
         inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
-        return shape.mapped(inverse[:3, :3], inverse[:3, 3])
+        return shape.transform(inverse[:3, :3], inverse[:3, 3])
 
     def points_in(self, points: Floats, holder: int | None) -> Floats:
         """Points (n, 3) of the root frame in the space of a node."""
@@ -180,7 +180,7 @@ class Draft:
     def _scene(self) -> Json:
         return entry(self.tree, "scenes", self.tree.get("scene", 0))
 
-    def _take_out(self, index: int) -> None:
+    def _remove_node(self, index: int) -> None:
         parent = self.scene.placements[index].parent
         holders = [(self.node(parent), "children")] if parent is not None else []
         holders += [(scene, "nodes") for scene in entries(self.tree, "scenes")]
@@ -199,7 +199,7 @@ def unpacked(part: Json, attributes: dict[str, Any], tree: Json, geometry: NewGe
         accessor = entry(tree, "accessors", part["attributes"][name])
         kind = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]]
         rows = values.astype(kind)
-        part["attributes"][name] = geometry.vertex_data(
+        part["attributes"][name] = geometry.add_vertex_data(
             rows, bounds=name == "POSITION", normalized=bool(accessor.get("normalized"))
         )
     extensions = {key: value for key, value in part["extensions"].items() if key != "KHR_draco_mesh_compression"}

@@ -43,18 +43,18 @@ class NewGeometry:
         before = self.before or b""
         return before + b"\0" * (self._start - len(before)) + bytes(self.added)
 
-    def triangles(self, faces: Ints) -> int:
+    def add_triangles(self, faces: Ints) -> int:
         """The accessor of triangles (m, 3)."""
         kind = "<u2" if faces.max(initial=0) < 65535 else "<u4"
-        return self._accessor(faces.ravel().astype(kind)[:, None], _INDICES)
+        return self._add_accessor(faces.ravel().astype(kind)[:, None], _INDICES)
 
-    def points(self, points: Floats) -> int:
+    def add_points(self, points: Floats) -> int:
         """The accessor of vertices (n, 3) in single precision."""
-        return self.vertex_data(points.astype("<f4"), bounds=True)
+        return self.add_vertex_data(points.astype("<f4"), bounds=True)
 
-    def vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False, normalized: bool = False) -> int:
+    def add_vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False, normalized: bool = False) -> int:
         """The accessor of a vertex attribute (n, k); bounds: with the least and the largest of each column."""
-        index = self._accessor(rows, _VERTICES)
+        index = self._add_accessor(rows, _VERTICES)
         accessor = self.tree["accessors"][index]
         if bounds:
             accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
@@ -76,7 +76,7 @@ class NewGeometry:
             uri = "data:application/octet-stream;base64," + base64.b64encode(self.added).decode()
         self.tree.setdefault("buffers", []).append({"uri": uri, "byteLength": len(self.added)})
 
-    def _accessor(self, rows: npt.NDArray[Any], target: int) -> int:
+    def _add_accessor(self, rows: npt.NDArray[Any], target: int) -> int:
         row = rows.dtype.itemsize * rows.shape[1]
         stride = row + -row % 4 if target == _VERTICES else row
         padded = np.zeros((len(rows), stride), np.uint8)

@@ -64,7 +64,7 @@ def _of_object(text: str, end: int, items: Sequence[_Item], new: dict[str, Any])
     added = {key: value for key, value in new.items() if key not in there}
     style = _Style.of(text, items, end)
     yield from _additions(
-        items, kept, [f"{json.dumps(k)}{style.colon}{style.shown(v)}" for k, v in added.items()], style
+        items, kept, [f"{json.dumps(k)}{style.colon}{style.format(v)}" for k, v in added.items()], style
     )
 
 
@@ -73,13 +73,13 @@ def _of_array(text: str, end: int, items: Sequence[_Item], new: Sequence[Any]) -
     if len(new) < len(items):
         kept = _subsequence([item.value for item in items], new)
         if kept is None:
-            yield _Change(items[0].start, items[-1].end, style.between.join(style.shown(value) for value in new))
+            yield _Change(items[0].start, items[-1].end, style.between.join(style.format(value) for value in new))
         else:
             yield from _removals(items, kept)
         return
     for item, value in zip(items, new, strict=False):
         yield from _changes(text, item.at, item.end, item.value, value)
-    yield from _additions(items, [True], [style.shown(value) for value in new[len(items) :]], style)
+    yield from _additions(items, [True], [style.format(value) for value in new[len(items) :]], style)
 
 
 def _subsequence(old: Sequence[Any], new: Sequence[Any]) -> list[bool] | None:
@@ -134,7 +134,7 @@ class _Style:
         line_end = "\r\n" if text[: first.start - len(before)].endswith("\r\n") else "\n"
         return _Style(f",{line_end}{before}", colon, line_end + before, step or "  ")
 
-    def shown(self, value: Any) -> str:
+    def format(self, value: Any) -> str:
         """A value laid out alike."""
         if self.lead is None:
             return json.dumps(value, separators=(self.between, self.colon))

@@ -42,9 +42,9 @@ class PhysicsStyle(Style):
         node = self.draft.node(element.node)
         _without_collider(node)
         if is_drawn(node) or "mesh" not in node:
-            self.draft.empty(element.node)
+            self.draft.empty_node(element.node)
 
-    def part(self, element: Authored, kept: Sequence[int]) -> None:
+    def keep_pieces(self, element: Authored, kept: Sequence[int]) -> None:
         """Each piece that is left becomes a collider of its own, on a node below."""
         draft = self.draft
         assert element.owner is not None  # only meshes have several pieces
@@ -52,44 +52,44 @@ class PhysicsStyle(Style):
         mesh = collider_of(source, self.convention, draft.scene).mesh
         for at, k in enumerate(kept):
             own = element.names[k].removeprefix(f"{element.body}/")
-            parted = draft.add_mesh({**draft.parted(mesh, element.owner, [k]), "name": own})
+            parted = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, [k]), "name": own})
             index = draft.add_node({"name": own}, element.node, at)
-            self._collide(
+            self._set_collider(
                 index, source.node, geometry_of(draft, self.convention, parted, None, hulled=False, like=source.node)
             )
             draft.expected[index] = (element.names[k],)
         _without_collider(draft.node(element.node))
 
-    def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
+    def add_hull(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
         draft = self.draft
         holder = draft.holder_of(body, parent.node if parent else None)
-        shape = draft.in_holder(geom.shape, holder)
+        shape = draft.shape_in(geom.shape, holder)
         like = draft.scene.placements[parent.node].node if parent else {}
         drawn = self.drawn or is_drawn(like)
         node: Json = {"name": own}
         if isinstance(shape, Box | Sphere | Cylinder | Capsule):
             if drawn:
-                node["mesh"], _ = draft.made_mesh(shape.moved(place_of(shape).inverse()), own)
+                node["mesh"], _ = draft.add_shape_mesh(shape.move(place_of(shape).inverse()), own)
             node |= place_keys(place_of(shape))
-            self._add(node, drawn, holder, like, add_shape(draft, self.convention, shape), geom.name)
+            self._add_node(node, drawn, holder, like, add_shape(draft, self.convention, shape), geom.name)
         else:
-            mesh, middle = draft.made_mesh(shape, own)
+            mesh, middle = draft.add_shape_mesh(shape, own)
             node["translation"] = middle.tolist()
             self._add_mesh(node, drawn, holder, like, mesh, geom.name)
 
-    def make_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
+    def add_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
         """Add a surface that is no hull."""
         points = self.draft.points_in(np.asarray(surface.vertices), body)
-        mesh, middle = self.draft.surface_mesh(points, surface.faces, own)
+        mesh, middle = self.draft.add_surface_mesh(points, surface.faces, own)
         node: Json = {"name": own, "translation": middle.tolist()}
         self._add_mesh(node, self.drawn, body, {}, mesh, piece.name, hulled=False)
 
-    def make_plane(self, piece: Opaque, own: str, body: int | None) -> None:
+    def add_plane(self, piece: Opaque, own: str, body: int | None) -> None:
         """Add an endless plane."""
         assert piece.plane is not None
         above = rigid(self.draft.scene.placements[body]) if body is not None else Pose.identity()
         node = {"name": own, **place_keys(above.inverse() @ piece.plane @ Z_TO_Y.inverse())}
-        self._add(node, False, body, {}, add_plane(self.draft), piece.name)
+        self._add_node(node, False, body, {}, add_plane(self.draft), piece.name)
 
     def _add_mesh(
         self, node: Json, drawn: bool, holder: int | None, like: Json, mesh: int, name: str, *, hulled: bool = True
@@ -100,19 +100,19 @@ class PhysicsStyle(Style):
             node["mesh"] = mesh
             self.draft.tree.setdefault("nodes", [])
         geometry = geometry_of(self.draft, self.convention, mesh, own, hulled=hulled, like=like)
-        self._add(node, drawn, holder, like, geometry, name)
+        self._add_node(node, drawn, holder, like, geometry, name)
 
-    def _add(self, node: Json, drawn: bool, holder: int | None, like: Json, geometry: Any, name: str) -> None:
+    def _add_node(self, node: Json, drawn: bool, holder: int | None, like: Json, geometry: Any, name: str) -> None:
         if drawn:
             node["extras"] = copy.deepcopy(DRAWN)
         index = self.draft.add_node(node, holder)
-        self._collide(index, like, geometry)
+        self._set_collider(index, like, geometry)
         self.draft.expected[index] = (name,)
 
-    def _collide(self, index: int, like: Json, geometry: Any) -> None:
+    def _set_collider(self, index: int, like: Json, geometry: Any) -> None:
         """Give a node a collider with that geometry, and all else of the collider of another node."""
         extensions = self.draft.node(index).setdefault("extensions", {})
-        self.draft.uses({"khr": KHR, "omi": OMI}.get(self.convention, OMI_COLLIDER))
+        self.draft.declare_extension({"khr": KHR, "omi": OMI}.get(self.convention, OMI_COLLIDER))
         match self.convention:
             case "khr":
                 old = (extension(like, KHR) or {}).get("collider", {})

@@ -92,7 +92,7 @@ def _added(draft: Draft, convention: Convention, kind: str, own: Json) -> Any:
 def _appended(draft: Draft, name: str, key: str, value: Json) -> int:
     found: list[Any] = _extensions(draft).setdefault(name, {}).setdefault(key, [])
     found.append(value)
-    draft.uses(name)
+    draft.declare_extension(name)
     return len(found) - 1
 
 

@@ -29,20 +29,20 @@ class Style(ABC):
         """Take the collision of a node away, all else of it stays."""
 
     @abstractmethod
-    def part(self, element: Authored, kept: Sequence[int]) -> None:
+    def keep_pieces(self, element: Authored, kept: Sequence[int]) -> None:
         """Leave some pieces of a node only."""
 
     @abstractmethod
-    def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
+    def add_hull(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
         """Add a hull; own: its name without the body; body: the node of that; parent: the node it comes after."""
 
-    def split(self, element: Authored, kept: Sequence[int], mesh: int, own: Sequence[str]) -> list[int]:
+    def split_node(self, element: Authored, kept: Sequence[int], mesh: int, own: Sequence[str]) -> list[int]:
         """Give a node that lost its mesh a child for each kept piece of that, ahead of others; own: their names."""
-        draft, gone = self.draft, self.draft.without_mesh(element.node)
+        draft, gone = self.draft, self.draft.remove_mesh(element.node)
         assert element.owner is not None  # only meshes have several pieces
         made: list[int] = []
         for k, name in zip(kept, own, strict=True):
-            parted = draft.add_mesh(draft.parted(mesh, element.owner, [k]), mesh)
+            parted = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
             made.append(draft.add_node({"name": name, **gone, "mesh": parted}, element.node, at=len(made)))
             draft.expected[made[-1]] = (element.names[k],)
         return made

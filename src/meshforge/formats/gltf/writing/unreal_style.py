@@ -19,20 +19,20 @@ class UnrealStyle(Style):
     lacks = "Unreal has no"
 
     def remove(self, element: Authored) -> None:
-        self.draft.empty(element.node)
+        self.draft.empty_node(element.node)
 
-    def part(self, element: Authored, kept: Sequence[int]) -> None:
+    def keep_pieces(self, element: Authored, kept: Sequence[int]) -> None:
         raise AssertionError("Unreal's nodes have one piece each")
 
-    def make(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
+    def add_hull(self, geom: Geom, own: str, body: int | None, parent: Authored | None) -> None:
         draft = self.draft
         holder = draft.holder_of(body, parent.node if parent else None)
-        name = self._free(geom, parent)
-        mesh, middle = draft.made_mesh(draft.in_holder(geom.shape, holder), name)
+        name = self._next_name(geom, parent)
+        mesh, middle = draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name)
         node = draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
         draft.expected[node] = (geom.name,)
 
-    def _free(self, geom: Geom, parent: Authored | None) -> str:
+    def _next_name(self, geom: Geom, parent: Authored | None) -> str:
         """The next name of a collision node of the mesh that the parent stands for."""
         nodes, meshes = entries(self.draft.tree, "nodes"), entries(self.draft.tree, "meshes")
         names = [str(thing.get("name", "")) for thing in (*nodes, *meshes)]

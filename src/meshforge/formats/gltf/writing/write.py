@@ -85,7 +85,7 @@ def _settle_pieces(style: Style, element: Authored, kept: list[int]) -> None:
     if len(kept) == len(element.names):
         style.draft.expected[element.node] = element.names
     elif kept:
-        style.part(element, kept)
+        style.keep_pieces(element, kept)
     else:
         style.remove(element)
 
@@ -98,7 +98,7 @@ def _place(style: Style, geom: Geom, document: GltfDocument, path: Path) -> None
         raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
     parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
     own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
-    style.make(geom, own, nodes.get(geom.body), parent)
+    style.add_hull(geom, own, nodes.get(geom.body), parent)
 
 
 def _as_hulls(style: Style, made: Sequence[Geom]) -> list[str]:

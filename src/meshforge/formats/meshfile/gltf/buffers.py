@@ -34,20 +34,20 @@ class Buffers:
         accessor = entry(self.tree, "accessors", index)
         count, width, kind = _layout(accessor)
         if "bufferView" in accessor:
-            values = self._strided(accessor["bufferView"], accessor, count, kind, width)
+            values = self._read_strided(accessor["bufferView"], accessor, count, kind, width)
         elif count > _MOST_ZEROS:
             raise ValueError(f"accessor {index} has {count:,} values and no buffer")
         else:
             values = np.zeros((count, width), kind)
         if "sparse" in accessor:
-            values = self._mended(values, accessor["sparse"])
+            values = self._apply_sparse(values, accessor["sparse"])
         if kind.kind == "f":
             return as_doubles(values)
         if accessor.get("normalized"):
             return np.maximum(values.astype(np.float64) / np.iinfo(kind).max, -1.0)
         return values
 
-    def written(self, index: Any) -> npt.NDArray[Any]:
+    def geometry(self, index: Any) -> npt.NDArray[Any]:
         """The same of an accessor that must have values of its own: geometry of all zeros is lost, never meant."""
         if not {"bufferView", "sparse"} & entry(self.tree, "accessors", index).keys():
             raise ValueError(f"the values of accessor {index}, geometry of a mesh, are not in it")
@@ -66,7 +66,7 @@ class Buffers:
         """The bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it says."""
         if index not in self._held:
             buffer = entry(self.tree, "buffers", index)
-            data = self._fetched(buffer, index)
+            data = self._fetch(buffer, index)
             if len(data) < buffer.get("byteLength", 0):
                 raise ValueError(f"a buffer is cut short: number {index}")
             self._held[index] = data
@@ -77,7 +77,7 @@ class Buffers:
         uris = [b.get("uri") for b in entries(self.tree, "buffers") if isinstance(b, dict)]
         return [self._beside(uri) for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
 
-    def _fetched(self, buffer: Json, index: int) -> bytes:
+    def _fetch(self, buffer: Json, index: int) -> bytes:
         uri = buffer.get("uri")
         if uri is None:
             if self.chunk is None or index > 0:
@@ -109,19 +109,19 @@ class Buffers:
     def _beside(self, uri: str) -> Path:
         return self.path.parent / unquote(uri).replace("\\", "/")
 
-    def _mended(self, values: npt.NDArray[Any], sparse: Json) -> npt.NDArray[Any]:
+    def _apply_sparse(self, values: npt.NDArray[Any], sparse: Json) -> npt.NDArray[Any]:
         """Values (count, width) with those of a sparse accessor in their places."""
         count = sparse["count"]
         if not isinstance(count, int) or count < 0:
             raise ValueError(f"a sparse accessor of {count!r} values")
         kind = np.dtype(_TYPES[sparse["indices"]["componentType"]])
-        at = self._strided(sparse["indices"]["bufferView"], sparse["indices"], count, kind, 1).ravel()
-        new = self._strided(sparse["values"]["bufferView"], sparse["values"], count, values.dtype, values.shape[1])
+        at = self._read_strided(sparse["indices"]["bufferView"], sparse["indices"], count, kind, 1).ravel()
+        new = self._read_strided(sparse["values"]["bufferView"], sparse["values"], count, values.dtype, values.shape[1])
         values = values.copy()
         values[at] = new
         return values
 
-    def _strided(self, index: Any, source: Json, count: int, kind: np.dtype[Any], width: int) -> npt.NDArray[Any]:
+    def _read_strided(self, index: Any, source: Json, count: int, kind: np.dtype[Any], width: int) -> npt.NDArray[Any]:
         """So many rows of a buffer view, from the byte offset of `source` on."""
         data, view = self.view(index), entry(self.tree, "bufferViews", index)
         start, row = source.get("byteOffset", 0), kind.itemsize * width

@@ -57,8 +57,8 @@ def _patch(index: int, part: Json, buffers: Buffers) -> Patch | None:
         unpacked = decoded(buffers.view(packed["bufferView"]), packed["attributes"])
         points = unpacked.attributes["POSITION"].astype(np.float64)
         return _checked(Patch(index, unpacked.faces, points, unpacked))
-    points = buffers.written(attributes["POSITION"]).astype(np.float64)
-    order: Any = buffers.written(part["indices"]).ravel() if "indices" in part else np.arange(len(points))
+    points = buffers.geometry(attributes["POSITION"]).astype(np.float64)
+    order: Any = buffers.geometry(part["indices"]).ravel() if "indices" in part else np.arange(len(points))
     if order.dtype.kind not in "iu":
         raise ValueError("the indices of a mesh are no whole numbers")
     return _checked(Patch(index, _as_triangles(order.astype(np.int64), mode), points))

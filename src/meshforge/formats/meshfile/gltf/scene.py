@@ -99,7 +99,7 @@ class Scene:
         """The places (k, 4, 4) of the instances of a node, in its space."""
         return instances(placement.node, self.buffers)
 
-    def placed(self, placement: Placement) -> tuple[Triangles, Floats, Floats]:
+    def place_mesh(self, placement: Placement) -> tuple[Triangles, Floats, Floats]:
         """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
 
         A skinned mesh is put in place by its joints, as the file has them; of an instanced one it is all instances.

@@ -24,6 +24,6 @@ def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
 
 def _surface(scene: Scene, placement: Placement) -> Iterator[RawSurface]:
     if "mesh" in placement.node:
-        mesh, linear, offset = scene.placed(placement)
+        mesh, linear, offset = scene.place_mesh(placement)
         name = placement.node.get("name") or entry(scene.tree, "meshes", placement.node["mesh"]).get("name")
         yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces)

@@ -37,35 +37,35 @@ class Folders:
 
     def find(self, tree: Tree, node: Node, attribute: str = "file") -> Path:
         """Where the file of an attribute is, or would be."""
-        beside = self.beside(tree, node, attribute)
+        beside = self.path_beside_include(tree, node, attribute)
         reference = str(beside or node.attributes[attribute].replace("\\", "/"))
         if self.strip:
             reference = Path(reference).name
-        return self._joined(self._folder(node), reference)
+        return self._join(self._folder(node), reference)
 
     def place(self, tree: Tree, node: Node, attribute: str = "file") -> str | None:
         """Where the file of an attribute goes beside a main file in another folder, None for an absolute place.
 
         As references say, not as the disk is: `../cup/a.stl` stays so, whatever the main file's folder is called.
         """
-        if beside := self.beside(tree, node, attribute):
+        if beside := self.path_beside_include(tree, node, attribute):
             return relative_name(beside, self.main)
         folder, reference = (text.replace("\\", "/") for text in (self._folder(node), node.attributes[attribute]))
         if Path(folder).is_absolute() or (Path(reference).is_absolute() and not self.strip):
             return None
         return posixpath.normpath(posixpath.join(folder, posixpath.basename(reference) if self.strip else reference))
 
-    def beside(self, tree: Tree, node: Node, attribute: str) -> Path | None:
+    def path_beside_include(self, tree: Tree, node: Node, attribute: str) -> Path | None:
         """The path of a file beside the included file that refers to it, None where the usual place counts."""
         reference = node.attributes[attribute].replace("\\", "/")
-        if not node.source or Path(reference).is_absolute() or tree.has(self._joined(self._folder(node), reference)):
+        if not node.source or Path(reference).is_absolute() or tree.has(self._join(self._folder(node), reference)):
             return None
         return Path(os.path.normpath(tree.sources[node.source].path.parent / reference))
 
     def _folder(self, node: Node) -> str:
         return {"mesh": self.mesh, "texture": self.texture, "": ""}[_REFERRING.get(node.tag, "")]
 
-    def _joined(self, folder: str, reference: str) -> Path:
+    def _join(self, folder: str, reference: str) -> Path:
         return Path(os.path.normpath(self.main / folder / reference))
 
 

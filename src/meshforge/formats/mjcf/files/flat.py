@@ -23,7 +23,7 @@ class Flat:
     text: bytes
     nodes: tuple[Node, ...]
 
-    def node(self, info: str) -> Node | None:
+    def node_at(self, info: str) -> Node | None:
         """The element that MuJoCo means by `line 7`; None where that is a line of another file."""
         line = int(info.removeprefix("line ")) if info.startswith("line ") and info[5:].isdigit() else 0
         return self.nodes[line - 1] if 0 < line <= len(self.nodes) else None
@@ -68,7 +68,7 @@ def _start_tag(tree: Tree, folders: Folders, node: Node, attributes: Mapping[str
     for name, value in attributes.items():
         if name in _FUSING.get(node.tag, ()):
             continue
-        if node.source and name.startswith("file") and (path := folders.beside(tree, node, name)):
+        if node.source and name.startswith("file") and (path := folders.path_beside_include(tree, node, name)):
             value = os.fspath(path)
         parts.append(b' %s="%s"' % (name.encode(), escaped(value)))
     return b"".join([*parts, b">"])

@@ -94,7 +94,7 @@ def gather(main: Path, files: Mapping[Path, bytes] | None = None) -> Tree:
     An include is searched from the main file's folder, then from that of the file it stands in.
     Raises AssetError with `file:line`: a file that cannot be read, is not well formed, or is included twice.
     """
-    return _Gatherer(plain_path(main), {plain_path(p): data for p, data in (files or {}).items()}).tree()
+    return _Gatherer(plain_path(main), {plain_path(p): data for p, data in (files or {}).items()}).read()
 
 
 class _Gatherer:
@@ -105,11 +105,11 @@ class _Gatherer:
         self.sources: list[Source] = []
         self.faults: list[str] = []
 
-    def tree(self) -> Tree:
-        root = self._parsed(self.main, "")
-        return Tree(self._node(root, 0), tuple(self.sources), tuple(self.faults), self.files)
+    def read(self) -> Tree:
+        root = self._parse(self.main, "")
+        return Tree(self._build_node(root, 0), tuple(self.sources), tuple(self.faults), self.files)
 
-    def _parsed(self, path: Path, reference: str) -> Element:
+    def _parse(self, path: Path, reference: str) -> Element:
         raw = self.files[path] if path in self.files else contents(path)
         absolute = bool(reference) and Path(reference).is_absolute()
         place = None if absolute else relative_name(path, self.main.parent)
@@ -119,21 +119,21 @@ class _Gatherer:
             self.faults.append(f"{path.name} is text in UTF-16")
         return parsed(text.data, str(path))
 
-    def _node(self, element: Element, source: int, depth: int = 0) -> Node:
+    def _build_node(self, element: Element, source: int, depth: int = 0) -> Node:
         top = Node(element, source)
         waiting = [top]
         while waiting:
             node = waiting.pop()
             for child in node.element.children:
                 if child.tag == "include":
-                    made = self._included(child, node.source, depth)
+                    made = self._resolve_include(child, node.source, depth)
                 else:
                     made = [Node(child, node.source)]
                     waiting.extend(made)
                 node.children += made
         return top
 
-    def _included(self, include: Element, source: int, depth: int) -> list[Node]:
+    def _resolve_include(self, include: Element, source: int, depth: int) -> list[Node]:
         """What stands in the place of an `<include>`."""
         where = f"{self.sources[source].path}:{include.line}"
         reference = include.attributes.get("file", "").strip()
@@ -141,7 +141,7 @@ class _Gatherer:
             raise AssetError("this <include> names no file", where=where)
         path = self._find(reference, source)
         if path is None:
-            looked = " and ".join(dict.fromkeys(str(p) for p in self._candidates(reference, source)))
+            looked = " and ".join(dict.fromkeys(str(p) for p in self._list_candidates(reference, source)))
             raise AssetError(
                 f"the included file {reference!r} is not there", where=where, remedy=f"Looked for {looked}."
             )
@@ -151,15 +151,15 @@ class _Gatherer:
                 where=where,
                 remedy="MuJoCo includes a file at most once; take this <include> away.",
             )
-        root = self._parsed(path, reference)
+        root = self._parse(path, reference)
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")
-        return self._node(root, len(self.sources) - 1, depth + 1).children
+        return self._build_node(root, len(self.sources) - 1, depth + 1).children
 
     def _find(self, reference: str, source: int) -> Path | None:
-        return next((p for p in self._candidates(reference, source) if p in self.files or is_file(p)), None)
+        return next((p for p in self._list_candidates(reference, source) if p in self.files or is_file(p)), None)
 
-    def _candidates(self, reference: str, source: int) -> list[Path]:
+    def _list_candidates(self, reference: str, source: int) -> list[Path]:
         """Where an included file may be: from the main file's folder, from that of the file which includes it."""
         folders = (self.main.parent, self.sources[source].path.parent)
         return [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]

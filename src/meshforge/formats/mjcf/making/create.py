@@ -24,7 +24,7 @@ def create_mjcf(asset: Asset, name: str) -> Output:
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
     geoms or meshes, one a file; opaque pieces and visuals geoms that do not collide.
     """
-    return _Creator(asset, Path(name).stem).output()
+    return _Creator(asset, Path(name).stem).build_output()
 
 
 class _Creator:
@@ -40,8 +40,8 @@ class _Creator:
         self.lost: list[Loss] = []
         self.notes: dict[str, list[str]] = {}
 
-    def output(self) -> Output:
-        body = list(self._lines())
+    def build_output(self) -> Output:
+        body = list(self._body_lines())
         head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
         defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
         meshes, files = self.made.meshes, self.made.files
@@ -49,9 +49,9 @@ class _Creator:
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
         lost = (*self.made.losses(), *self.lost)
-        return Output(main, dict(meshes.files.made), files.copies, self._told(), names, lost)
+        return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost)
 
-    def _lines(self) -> Iterator[bytes]:
+    def _body_lines(self) -> Iterator[bytes]:
         """The `<worldbody>`, bodies nested in it."""
         below: dict[str, list[str]] = {}
         for body in self.tree.order:
@@ -59,7 +59,7 @@ class _Creator:
                 below.setdefault(self._place_of(body), []).append(body)
         yield b"  <worldbody>"
         if self.bodies.get(WORLD) == WORLD:
-            yield from self._inside(WORLD, b"    ")
+            yield from self._element_lines(WORLD, b"    ")
         waiting: list[tuple[str, int] | bytes] = [(body, 2) for body in reversed(below.get("", []))]
         while waiting:
             entry = waiting.pop()
@@ -69,7 +69,7 @@ class _Creator:
             body, depth = entry
             lead = b"  " * depth
             yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(self._pose(body))}, closed=False)
-            yield from self._inside(body, lead + b"  ")
+            yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
         yield b"  </worldbody>"
@@ -87,29 +87,29 @@ class _Creator:
         place = self._place_of(body)
         return self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]
 
-    def _inside(self, body: str, lead: bytes) -> Iterator[bytes]:
+    def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
         """Joints, mass, geoms and visuals of a body."""
         top = not self._place_of(body)
-        joints = [part for joint in self.tree.joints[body] for part in self._parts(joint, top)]
+        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
-        yield from (lead + text for text in self._mass(body, bool(joints), sum(geom.shape.volume for geom in own)))
-        yield from (lead + self.made.hull(geom) for geom in own)
+        yield from (lead + text for text in self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own)))
+        yield from (lead + self.made.make_hull(geom) for geom in own)
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
-        yield from (lead + text for piece in pieces if piece.plane for text in self.made.plane(piece, piece.plane))
-        yield from (lead + text for text in self.made.visuals_of(body))
+        yield from (lead + text for piece in pieces if piece.plane for text in self.made.make_plane(piece, piece.plane))
+        yield from (lead + text for text in self.made.make_visuals(body))
         yield from (
-            lead + text for piece in pieces if piece.surface for text in self.made.surface(piece, piece.surface)
+            lead + text for piece in pieces if piece.surface for text in self.made.make_surface(piece, piece.surface)
         )
 
-    def _parts(self, joint: Joint, top: bool) -> Sequence[Joint]:
+    def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
         parts = parts_of(joint, top, self.joint_names)
         if len(parts) > 1:
             how = f"{listed([part.name for part in parts])} together move as {joint.kind} {joint.name or joint.child}"
             self.notes.setdefault(how, [])
         return parts
 
-    def _mass(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
+    def _mass_lines(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
         """The mass of a body, whose hulls have a volume [m^3]; one that is to move has some mass in any case."""
         inertial = self.inertials.get(body)
         if self.bodies[body] == WORLD:
@@ -126,7 +126,7 @@ class _Creator:
             self.notes.setdefault(_LIGHT, []).append(body)
             yield light_tag()
 
-    def _told(self) -> tuple[str, ...]:
+    def _collect_notes(self) -> tuple[str, ...]:
         notes = [f"{text} ({listed(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
             roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]

@@ -24,12 +24,12 @@ class MeshAssets:
         self._elements: list[bytes] = []
         self._shown: dict[tuple[str, tuple[float, ...]], str] = {}
 
-    def hull(self, name: str, shape: Polytope) -> str:
+    def add_hull(self, name: str, shape: Polytope) -> str:
         """The name of the mesh of a hull, whose file is made."""
         extra = {"inertia": "shell"} if shape.volume < _TINY else {}
         return self._add(self.files.add(name, "", shape.vertices, shape.faces), extra)
 
-    def shown(self, file: str, scale: Floats) -> str:
+    def add_visual(self, file: str, scale: Floats) -> str:
         """The name of the mesh of a visual file under scales (3,); nothing of it counts for masses or collisions."""
         key = file, tuple(scale.tolist())
         if key not in self._shown:

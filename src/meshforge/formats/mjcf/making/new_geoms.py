@@ -31,55 +31,55 @@ class NewGeoms:
         self.files.gather(self.shown)
         self.lost: list[Loss] = []
 
-    def hull(self, geom: Geom) -> bytes:
+    def make_hull(self, geom: Geom) -> bytes:
         """The geom of a hull."""
-        named = self._name(geom.name)
+        named = self._name_attribute(geom.name)
         class_ = {"class": "collision"} if self.shown else {}
         body_t_root = self.poses[geom.body].inverse()
-        shape = geom.shape.moved(body_t_root)
+        shape = geom.shape.move(body_t_root)
         if isinstance(shape, Native):
             return tag("geom", {**named, **class_, **geom_attributes(shape)})
         middle = shape.aabb.center
         place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
-        mesh = self.meshes.hull(geom.name, shape.moved(place.inverse()).tessellated())
+        mesh = self.meshes.add_hull(geom.name, shape.move(place.inverse()).tessellate())
         return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, place)})
 
-    def _name(self, piece: str) -> dict[str, str]:
+    def _name_attribute(self, piece: str) -> dict[str, str]:
         return {"name": self.names[piece]} if self.names[piece] else {}
 
-    def visuals_of(self, body: str) -> Iterator[bytes]:
+    def make_visuals(self, body: str) -> Iterator[bytes]:
         """The geoms that show what a body shows."""
         for own, visual in self.shown:
-            if own != body or (seen := self.files.shown(body, visual, self.poses[body])) is None:
+            if own != body or (seen := self.files.add_visual(body, visual, self.poses[body])) is None:
                 continue
             if isinstance(seen.what, Native):
                 yield _visual(geom_attributes(seen.what), seen.rgba)
             elif isinstance(seen.what, str):
-                mesh = self.meshes.shown(seen.what, seen.scale)
+                mesh = self.meshes.add_visual(seen.what, seen.scale)
                 yield _visual(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
             else:
                 file = self.meshes.files.add(f"{body}-visual", "", seen.what.vertices, seen.what.faces)
-                yield _visual(mesh_geom_attributes(self.meshes.shown(file, np.ones(3)), Pose.identity()), seen.rgba)
+                yield _visual(mesh_geom_attributes(self.meshes.add_visual(file, np.ones(3)), Pose.identity()), seen.rgba)
 
-    def plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
+    def make_plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
         """An endless plane."""
         if not self.tree.is_static(piece.body):
             self.lost.append(Loss(What.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only"))
             return
         said = pose_attributes(self.poses[piece.body].inverse() @ plane)
-        yield tag("geom", {**self._name(piece.name), "type": "plane", "size": "0 0 1", **said})
+        yield tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **said})
 
-    def surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
+    def make_surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
         """An opaque surface to look at, where its body shows nothing else."""
         why = "MuJoCo would collide with the convex hull"
         if any(body == piece.body for body, _ in self.shown):
             self.lost.append(Loss(What.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
             return
-        seen = self.files.shown(piece.name, surface, self.poses[piece.body])
+        seen = self.files.add_visual(piece.name, surface, self.poses[piece.body])
         assert seen is not None  # only files may be unreadable
         assert isinstance(seen.what, str)
         self.lost.append(Loss(What.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
-        yield _visual(mesh_geom_attributes(self.meshes.shown(seen.what, seen.scale), seen.pose), None)
+        yield _visual(mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
 
     def losses(self) -> tuple[Loss, ...]:
         """What is lost, visuals without a file that can be read included."""

@@ -103,7 +103,7 @@ def _refuse_unplaced(
     for kind, of_kind in (("body", bodies), ("geom", geoms)):
         for thing in of_kind:
             if problem := _unplaced(thing):
-                node = flat.node(thing.info)
+                node = flat.node_at(thing.info)
                 where = tree.where(node) if node else str(tree.main.path)
                 told = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
                 raise AssetError(problem.format(told), where=where)
@@ -160,7 +160,7 @@ def _heard(warnings: list[str]) -> Iterator[None]:
 
 def _told(message: str, tree: Tree, flat: Flat) -> AssetError:
     """MuJoCo's message in one line, about the authored file and line."""
-    lines = [node for number in _LINE.findall(message) if (node := flat.node(f"line {number}"))]
+    lines = [node for number in _LINE.findall(message) if (node := flat.node_at(f"line {number}"))]
     where = tree.where(lines[-1]) if lines else str(tree.main.path)
     return AssetError(f"MuJoCo refuses this file: {_plain(message)}", where=where)
 

@@ -25,12 +25,12 @@ class GeomMentions:
 
     def of(self, k: int) -> Mentions:
         """What is said of the k-th geom."""
-        geom, shown = self.geoms[k], self._shown.get(self.bodies[k], [])
+        geom, shown = self.geoms[k], self._visual_names.get(self.bodies[k], [])
         kind = geom.classname.name if geom.classname else ""
         return mentions(_named(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
 
     @cached_property
-    def _shown(self) -> dict[str, list[Named]]:
+    def _visual_names(self) -> dict[str, list[Named]]:
         """What each body has to be looked at alone."""
         found: dict[str, list[Named]] = {}
         for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):

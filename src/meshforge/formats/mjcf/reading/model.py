@@ -35,12 +35,12 @@ class Reading:
         self.body_names = body_names([body.name for body in made.bodies])
         self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]
         self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, made.geoms, strict=True)])
-        self.elements = [flat.node(geom.info) for geom in made.geoms]
-        self.collides = self._collides()
+        self.elements = [flat.node_at(geom.info) for geom in made.geoms]
+        self.collides = self._find_colliding()
         self.body_poses = body_poses(self.model)
         self.geom_poses = geom_poses(self.model, self.body_poses)
 
-    def pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
+    def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
         import mujoco
 
@@ -49,7 +49,7 @@ class Reading:
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
                 continue
-            part = shapes.part(k, pose)
+            part = shapes.part_of(k, pose)
             if part.shape is not None:
                 contact = contact_attributes(self.model, k)
                 geoms.append(Geom(name, body, part.shape, contact=contact, mentions=said.of(k)))
@@ -61,11 +61,11 @@ class Reading:
     @cached_property
     def bodies(self) -> tuple[MjcfBody, ...]:
         """The bodies in MuJoCo's order, the world first."""
-        return tuple(self._body(k) for k in range(self.model.nbody))
+        return tuple(self._read_body(k) for k in range(self.model.nbody))
 
-    def _body(self, k: int) -> MjcfBody:
+    def _read_body(self, k: int) -> MjcfBody:
         model, body = self.model, self.spec_bodies[k]
-        node = self.flat.node(body.info)
+        node = self.flat.node_at(body.info)
         return MjcfBody(
             name=self.body_names[k],
             parent=self.body_names[int(model.body_parentid[k])] if k else None,
@@ -78,16 +78,16 @@ class Reading:
             explicit=bool(body.explicitinertial),
         )
 
-    def authored(self) -> tuple[Authored, ...]:
+    def geom_records(self) -> tuple[Authored, ...]:
         """The elements that geoms were made of, in document order; geoms without one each for itself, at the end."""
         order = {id(node): k for k, node in enumerate(self.flat.nodes)}
         copies: dict[int, list[int]] = {}
         for k, node in enumerate(self.elements):
             copies.setdefault(len(order) + k if node is None else order[id(node)], []).append(k)
-        inside = self._inside()
-        return tuple(self._entry(copies[key], inside) for key in sorted(copies))
+        inside = self._reasons_against_edit()
+        return tuple(self._record_geom(copies[key], inside) for key in sorted(copies))
 
-    def _inside(self) -> dict[int, str]:
+    def _reasons_against_edit(self) -> dict[int, str]:
         """Why what stands inside some elements cannot be edited, by the identity of its nodes."""
         found: dict[int, str] = {}
         for top in self.flat.nodes:
@@ -95,7 +95,7 @@ class Reading:
                 found |= {id(node): _INSIDE[top.tag] for node in top.walk() if id(node) not in found}
         return found
 
-    def _entry(self, copies: list[int], inside: dict[int, str]) -> Authored:
+    def _record_geom(self, copies: list[int], inside: dict[int, str]) -> Authored:
         node = self.elements[copies[0]]
         fixed = _ATTACHED if node is None else inside.get(id(node), "")
         return Authored(
@@ -107,7 +107,7 @@ class Reading:
             fixed=fixed,
         )
 
-    def _collides(self) -> list[bool]:
+    def _find_colliding(self) -> list[bool]:
         touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
         touching[self.model.pair_geom1] = True
         touching[self.model.pair_geom2] = True

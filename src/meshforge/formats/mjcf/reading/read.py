@@ -30,14 +30,14 @@ def read_mjcf(path: Path) -> Asset:
     refuse_excess(tree)
     flat, made, stand_ins, refusal = _compiled(tree)
     reading = Reading(tree, flat, made)
-    geoms, opaque = reading.pieces()
+    geoms, opaque = reading.read_pieces()
     files, missing = referenced(tree)
     return Asset(
         path=path,
         format="mjcf",
         bodies=tuple(Body(body.name, body.pose) for body in reading.bodies),
         geoms=geoms,
-        document=MjcfDocument(tree.sources, reading.authored(), reading.bodies, refusal),
+        document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
         opaque=opaque,
         visuals=read_visuals(reading, made.spec, stand_ins),
         files=files,

@@ -125,7 +125,7 @@ def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
     geoms = [
         geom
         for geom in geoms_of(spec.bodies)
-        if geom.meshname in lost and flat.node(geom.info) and _collides(geom, spec)
+        if geom.meshname in lost and flat.node_at(geom.info) and _collides(geom, spec)
     ]
     if geoms:
         first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
@@ -142,7 +142,7 @@ def _refuse_missing(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
 def _refuse_lookalikes(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
     folders = Folders.of(tree)
-    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _collides(geom, spec)):
         node = nodes.get(name)
         path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
@@ -153,7 +153,7 @@ def _refuse_lookalikes(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> None:
 def _lost(tree: Tree, flat: Flat, spec: mujoco.MjSpec) -> dict[str, Node]:
     """The meshes whose files are not there, by name."""
     folders = Folders.of(tree)
-    nodes = {mesh.name: flat.node(mesh.info) for mesh in spec.meshes}
+    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     return {
         name: node
         for name, node in nodes.items()

@@ -33,7 +33,7 @@ class Shapes:
         self.model = model
         self._hulls: dict[int, Polytope | str] = {}
 
-    def part(self, geom: int, pose: Pose) -> MeshPart:
+    def part_of(self, geom: int, pose: Pose) -> MeshPart:
         """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
         import mujoco
 
@@ -42,7 +42,7 @@ class Shapes:
         data = int(self.model.geom_dataid[geom])
         match kind:
             case kinds.mjGEOM_MESH:
-                return self._mesh(data, pose)
+                return self._mesh_part(data, pose)
             case kinds.mjGEOM_PLANE:
                 return MeshPart(None, "a plane has no end")
             case kinds.mjGEOM_HFIELD:
@@ -50,10 +50,10 @@ class Shapes:
             case kinds.mjGEOM_SDF:
                 surface = mesh_surface(self.model, data, pose) if data >= 0 else None
                 return MeshPart(None, "a signed distance field is no convex hull", surface)
-        shape = self.primitive(geom, pose)
+        shape = self.primitive_of(geom, pose)
         return MeshPart(shape) if shape else MeshPart(None, f"{kind.name} is no geometry that is known")
 
-    def primitive(self, geom: int, pose: Pose) -> Shape | None:
+    def primitive_of(self, geom: int, pose: Pose) -> Shape | None:
         """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
         import mujoco
 
@@ -72,7 +72,7 @@ class Shapes:
                 return Ellipsoid(pose, size)
         return None
 
-    def _mesh(self, mesh: int, pose: Pose) -> MeshPart:
+    def _mesh_part(self, mesh: int, pose: Pose) -> MeshPart:
         if mesh not in self._hulls:
             try:
                 self._hulls[mesh] = convex_hull(_corners(self.model, mesh))
@@ -81,7 +81,7 @@ class Shapes:
         hull = self._hulls[mesh]
         if isinstance(hull, str):
             return MeshPart(None, hull, mesh_surface(self.model, mesh, pose))
-        return MeshPart(hull.moved(pose))
+        return MeshPart(hull.move(pose))
 
 
 def _corners(model: mujoco.MjModel, mesh: int) -> Floats:

@@ -47,11 +47,11 @@ class _Visuals:
         is_mesh = mesh >= 0 and model.geom_type[k] != self.field
         if rgba[3] <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
             return None
-        if (shape := self.shapes.primitive(k, pose)) is not None:
+        if (shape := self.shapes.primitive_of(k, pose)) is not None:
             return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
         if not is_mesh:
             return None
-        if path := self._file(mesh):
+        if path := self._find_file(mesh):
             placed = pose @ mesh_frame(model, mesh).inverse()
             refpos, refquat = self._reference(mesh)
             linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of(refquat).T
@@ -65,9 +65,9 @@ class _Visuals:
         red, green, blue, alpha = (float(share) for share in colour)
         return red, green, blue, alpha
 
-    def _file(self, mesh: int) -> Path | None:
+    def _find_file(self, mesh: int) -> Path | None:
         """The file of a mesh that can be read again, None where there is none."""
-        node = self.reading.flat.node(self.meshes[mesh].info) if mesh in self.meshes else None
+        node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
         if node is None or not node.attributes.get("file"):
             return None
         path = self.folders.find(self.reading.tree, node)

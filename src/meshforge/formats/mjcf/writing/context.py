@@ -30,7 +30,7 @@ class Context:
         for top in self._classes[MAIN]:
             self._add_classes(top)
 
-    def around(self, node: Node) -> Iterator[Node]:
+    def ancestors_of(self, node: Node) -> Iterator[Node]:
         """The elements around an element, the nearest first."""
         while id(node) in self._parents:
             node = self._parents[id(node)]
@@ -38,15 +38,15 @@ class Context:
 
     def class_of(self, node: Node) -> str:
         """The default class of a geom: its own, or that of the children of what is around it."""
-        said = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.around(node))]
+        said = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.ancestors_of(node))]
         return next((name for name in said if name), MAIN)
 
-    def inside(self, node: Node) -> str:
+    def class_inside(self, node: Node) -> str:
         """The default class of what stands in an element without a class of its own."""
-        said = (n.attributes.get("childclass") for n in (node, *self.around(node)))
+        said = (n.attributes.get("childclass") for n in (node, *self.ancestors_of(node)))
         return next((name for name in said if name), MAIN)
 
-    def set_by(self, name: str, kind: str = "geom") -> dict[str, str]:
+    def defaults_of(self, name: str, kind: str = "geom") -> dict[str, str]:
         """The attributes that a default class sets for a kind of element, those it inherits included."""
         found: dict[str, str] = {}
         for default in (*self._classes[MAIN], *(self._classes.get(name, ()) if name != MAIN else ())):
@@ -58,13 +58,13 @@ class Context:
     def body_t_frame(self, node: Node) -> Pose:
         """The pose of the frames around a geom, one in another, in their body."""
         frames = []
-        for outer in self.around(node):
+        for outer in self.ancestors_of(node):
             if outer.tag in _BODIES:
                 break
             frames.append(outer)
-        return self._posed([f for f in reversed(frames) if f.tag == "frame"])
+        return self._compile_frames([f for f in reversed(frames) if f.tag == "frame"])
 
-    def _posed(self, frames: list[Node]) -> Pose:
+    def _compile_frames(self, frames: list[Node]) -> Pose:
         """MuJoCo's own answer for frames in one another, from a model of nothing else."""
         said = [{k: v for k, v in f.attributes.items() if k not in ("name", "childclass")} for f in frames]
         if not any(said):

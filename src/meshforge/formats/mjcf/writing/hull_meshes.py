@@ -32,7 +32,7 @@ class HullMeshes:
         self.elements: list[bytes] = []
         self.main = self.tree.main.path.parent
         self._meshes = dict(_named_meshes(self.tree.root))
-        self._usual = self._first_folder()
+        self._usual = self._find_first_folder()
         self.files.taken |= {path.stem.lower() for path in (self.tree.main.path, *asset.files)}
         self.files.taken |= {name.lower() for name in self._meshes}
 
@@ -41,26 +41,26 @@ class HullMeshes:
 
         parent_mesh: the mesh whose file it joins; shell: whether its mass is that of its surface.
         """
-        inside = self._inside(self._meshes[parent_mesh]) if parent_mesh in self._meshes else None
+        inside = self._folder_inside(self._meshes[parent_mesh]) if parent_mesh in self._meshes else None
         folder = self._usual if inside is None else inside
-        place = self._place(folder)
+        place = self._place_of(folder)
         self.files.taken |= self._stems_in(place)
         file = posixpath.basename(self.files.add(name, place, shape.vertices, shape.faces))
         said = {"name": posixpath.splitext(file)[0], "file": f"{folder}{file}"}
         if Path(self.folders.mesh).is_absolute():  # a file of the output has no name from there
             self.files.made.popitem()
             said = {"name": said["name"], "vertex": shown(shape.vertices.ravel())}
-        set_by_default = self.context.set_by(MAIN, "mesh")
+        set_by_default = self.context.defaults_of(MAIN, "mesh")
         said |= {key: value for key, value in _NEUTRAL.items() if key in set_by_default}
         if shell or shape.volume < _LEAST_VOLUME:
             said["inertia"] = "shell"
         self.elements.append(tag("mesh", said))
         return said["name"]
 
-    def _first_folder(self) -> str:
+    def _find_first_folder(self) -> str:
         """The folder, as references have it, of the first mesh that lies with the main file, else the main file's."""
         for node in self._meshes.values():
-            inside = self._inside(node)
+            inside = self._folder_inside(node)
             if inside is not None:
                 return inside
         mesh = self.folders.mesh
@@ -69,16 +69,16 @@ class HullMeshes:
         up = relative_name(self.main, Path(os.path.normpath(self.main / mesh)))
         return "" if up == "." else f"{up}/"
 
-    def _inside(self, node: Node) -> str | None:
+    def _folder_inside(self, node: Node) -> str | None:
         """The folder of a mesh file as its reference has it, None where it lies outside of the main file's folder."""
         reference = node.attributes.get("file", "").replace("\\", "/")
-        if not reference or Path(reference).is_absolute() or self.folders.beside(self.tree, node, "file"):
+        if not reference or Path(reference).is_absolute() or self.folders.path_beside_include(self.tree, node, "file"):
             return None
         if not self.folders.find(self.tree, node).is_relative_to(self.main):
             return None
         return "" if self.folders.strip else reference[: reference.rfind("/") + 1]
 
-    def _place(self, folder: str) -> str:
+    def _place_of(self, folder: str) -> str:
         """Where a folder of references is, seen from the main file, with a final slash."""
         place = posixpath.normpath(posixpath.join(self.folders.mesh.replace("\\", "/"), folder))
         return "" if place == "." else f"{place}/"

@@ -29,47 +29,47 @@ class Maker:
     def __init__(self, context: Context, meshes: HullMeshes) -> None:
         self.context, self.meshes = context, meshes
 
-    def beside(self, geom: Geom, root_t_body: Pose, parent: Node, parent_volume: float) -> Slot:
+    def make_beside(self, geom: Geom, root_t_body: Pose, parent: Node, parent_volume: float) -> Slot:
         """The element of a hull that stands right after that of its parent, in the same frame."""
         name = self.context.class_of(parent)
-        set_by_class = self.context.set_by(name)
-        said = self._geometry(geom, root_t_body, parent, self.context.body_t_frame(parent))
+        set_by_class = self.context.defaults_of(name)
+        said = self._geometry_attributes(geom, root_t_body, parent, self.context.body_t_frame(parent))
         if "fromto" in set_by_class:
-            return self._without_class(geom, parent, said, parent_volume)
-        said = self._settled(geom, said, {**set_by_class, **_own(parent)}, set_by_class, parent_volume)
+            return self._spell_out_class(geom, parent, said, parent_volume)
+        said = self._settle_attributes(geom, said, {**set_by_class, **_own(parent)}, set_by_class, parent_volume)
         data = self.context.tree.sources[parent.source].text.data
         changed = [key for key in (*_GEOMETRY, "mass", "shellinertia") if said.get(key) != parent.attributes.get(key)]
         edits = tuple(attribute(data, parent.element, key, said.get(key), last=True) for key in changed)
         return Slot(geom.body, (geom.name,), None, parent.element, edits, copy=True)
 
-    def apart(self, geom: Geom, root_t_body: Pose, body: Node, parent: Node | None, parent_volume: float) -> Slot:
+    def make_apart(self, geom: Geom, root_t_body: Pose, body: Node, parent: Node | None, parent_volume: float) -> Slot:
         """The element of a hull at the end of its body, with what it inherits from a parent that stands elsewhere."""
-        said = self._geometry(geom, root_t_body, parent, Pose.identity())
+        said = self._geometry_attributes(geom, root_t_body, parent, Pose.identity())
         if parent is None:
-            set_by_class = self.context.set_by(self.context.inside(body))
+            set_by_class = self.context.defaults_of(self.context.class_inside(body))
             if "fromto" in set_by_class:
                 raise _not_undone(geom, self.context, body)
-            said = self._settled(geom, said, set_by_class, set_by_class, 0.0)
+            said = self._settle_attributes(geom, said, set_by_class, set_by_class, 0.0)
             if set_by_class.get("contype") == "0" == set_by_class.get("conaffinity"):  # a class of visual geoms
                 said |= {"contype": "1", "conaffinity": "1"}
             return Slot(geom.body, (geom.name,), text=tag("geom", said))
-        return self._without_class(geom, parent, said, parent_volume)
+        return self._spell_out_class(geom, parent, said, parent_volume)
 
-    def _geometry(self, geom: Geom, root_t_body: Pose, parent: Node | None, body_t_frame: Pose) -> dict[str, str]:
+    def _geometry_attributes(self, geom: Geom, root_t_body: Pose, parent: Node | None, body_t_frame: Pose) -> dict[str, str]:
         """The geometry of a hull in the frame in which its element stands."""
         frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
         shape = geom.shape
         if isinstance(shape, Box | Capsule | Cylinder | Ellipsoid | Sphere):
             return geom_attributes(replace(shape, pose=frame_t_body @ body_t_root @ shape.pose))
-        shape = shape.moved(body_t_root)
+        shape = shape.move(body_t_root)
         own = _own(parent) if parent else {}
-        said = {**(self.context.set_by(self.context.class_of(parent)) if parent else {}), **own}
+        said = {**(self.context.defaults_of(self.context.class_of(parent)) if parent else {}), **own}
         centre = _far_centre(shape)
-        shape = shape.moved(centre.inverse())
+        shape = shape.move(centre.inverse())
         mesh = self.meshes.add(geom.name, shape, said.get("mesh"), said.get("shellinertia") == "true")
         return mesh_geom_attributes(mesh, frame_t_body @ centre)
 
-    def _settled(
+    def _settle_attributes(
         self,
         geom: Geom,
         said: Mapping[str, str],
@@ -98,13 +98,13 @@ class Maker:
             found["shellinertia"] = "false"
         return found
 
-    def _without_class(self, geom: Geom, parent: Node, said: Mapping[str, str], parent_volume: float) -> Slot:
+    def _spell_out_class(self, geom: Geom, parent: Node, said: Mapping[str, str], parent_volume: float) -> Slot:
         """A hull's element that spells out what its parent has from its class."""
-        main = self.context.set_by(MAIN)
+        main = self.context.defaults_of(MAIN)
         if "fromto" in main:
             raise _not_undone(geom, self.context, parent)
-        inherited = {**self.context.set_by(self.context.class_of(parent)), **_own(parent)}
-        settled = self._settled(geom, said, inherited, main, parent_volume)
+        inherited = {**self.context.defaults_of(self.context.class_of(parent)), **_own(parent)}
+        settled = self._settle_attributes(geom, said, inherited, main, parent_volume)
         dropped = (*_GEOMETRY, "mass", "shellinertia")
         rest = {key: value for key, value in inherited.items() if key not in dropped and value != main.get(key)}
         return Slot(geom.body, (geom.name,), text=tag("geom", {"class": MAIN, **settled, **rest}))

@@ -30,7 +30,7 @@ class Plan:
         self.nodes = {(n.source, n.element.start): n for n in self.tree.root.walk()}
         self.body_poses = dict(zip(authored.body_names, authored.body_poses, strict=True))
         kept = kept_names(asset)
-        self.places = [self._place(entry, kept) for entry in document.authored]
+        self.places = [self._place_geom(entry, kept) for entry in document.authored]
         self.owner = {name: place for place in self.places for name in place.authored.names}
         self.ends: dict[str, list[Slot]] = {}
         self.made: dict[int, Geom] = {}
@@ -38,15 +38,15 @@ class Plan:
         self._refuse_fixed(kept)
         for geom in asset.geoms:
             if geom.parent is not None or geom.name not in self.owner:
-                self._place_made(geom)
+                self._place_new(geom)
 
     @property
-    def touched(self) -> list[str]:
+    def bodies_to_change(self) -> list[str]:
         """The bodies whose geoms change."""
         gone = [place.authored.body for place in self.places if place.own is None]
         return list(dict.fromkeys([*gone, *(geom.body for geom in self.made.values())]))
 
-    def expected(self) -> list[Kept | Made]:
+    def predict_geoms(self) -> list[Kept | Made]:
         """The geoms that MuJoCo shall make of the output, in its order."""
         copies: dict[tuple[str, int], list[int]] = {}
         for k, name in enumerate(self.reading.names):
@@ -65,17 +65,17 @@ class Plan:
             found += [Made(slot, self.made[id(slot)]) for slot in self.ends.get(body, [])]
         return found
 
-    def made_slots(self) -> list[Slot]:
+    def new_slots(self) -> list[Slot]:
         """The new elements."""
-        return [entry.slot for entry in self.expected() if isinstance(entry, Made)]
+        return [entry.slot for entry in self.predict_geoms() if isinstance(entry, Made)]
 
-    def splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
+    def build_splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
         """The edits of one of the files; masses: the `<inertial>` of bodies whose elements hold nothing yet."""
         data = self.tree.sources[source].text.data
         found = []
         for place in self.places:
             slots = [*([place.own] if place.own else []), *place.after]
-            untouched = len(slots) == 1 and slots[0].untouched
+            untouched = len(slots) == 1 and slots[0].is_untouched
             if place.node is not None and place.node.source == source and not untouched:
                 found.append(in_place(data, place.node.element, slots))
         for body, slots in self.ends.items():
@@ -93,7 +93,7 @@ class Plan:
         entry = next((entry for entry in self.document.bodies if entry.name == body), None)
         return self.nodes.get((entry.source, entry.start)) if entry else None
 
-    def _place(self, entry: Authored, kept: Container[str]) -> Place:
+    def _place_geom(self, entry: Authored, kept: Container[str]) -> Place:
         node = self.nodes.get((entry.source, entry.start))
         if removed_names(entry, kept):
             return Place(entry, node, None)
@@ -115,11 +115,11 @@ class Plan:
                 removed.append((name, hull))
         refuse_mentioned(self.tree, removed)
 
-    def _place_made(self, geom: Geom) -> None:
+    def _place_new(self, geom: Geom) -> None:
         """A new element after that of its parent, or else at the end of its body."""
         body = self._body_of(geom)
         parent = self.owner.get(geom.parent or "")
-        pose, volume = self.body_poses[geom.body], self._volume(geom)
+        pose, volume = self.body_poses[geom.body], self._parent_volume(geom)
         node = parent.node if parent else None
         if parent is not None and node is None:
             raise AssetError(
@@ -127,17 +127,17 @@ class Plan:
                 where=str(self.asset.path),
             )
         if parent is not None and node is not None and parent.authored.body == geom.body and not parent.authored.fixed:
-            slot = self.maker.beside(geom, pose, node, volume)
+            slot = self.maker.make_beside(geom, pose, node, volume)
             parent.after.append(slot)
         else:
-            slot = self.maker.apart(geom, pose, body, node, volume)
+            slot = self.maker.make_apart(geom, pose, body, node, volume)
             self.ends.setdefault(geom.body, []).append(slot)
         self.made[id(slot)] = geom
 
     def _body_of(self, geom: Geom) -> Node:
         """The element of a made hull's body."""
         body = self.body_node(geom.body)
-        outer = (body, *self.maker.context.around(body)) if body is not None else ()
+        outer = (body, *self.maker.context.ancestors_of(body)) if body is not None else ()
         why = next((why for node in outer if (why := _changed_by(node))), "")
         if body is not None and not why:
             return body
@@ -150,12 +150,12 @@ class Plan:
             remedy=f"The nearest name of a body is {like!r}." if like else None,
         )
 
-    def _volume(self, geom: Geom) -> float:
+    def _parent_volume(self, geom: Geom) -> float:
         """The volume that has the mass of a hull's parent: its own, or that of all hulls in its place."""
         if geom.parent not in self.owner:
             return 0.0
         number = self.reading.names.index(geom.parent)
-        shape = self._shapes.part(number, self.reading.geom_poses[number]).shape
+        shape = self._shapes.part_of(number, self.reading.geom_poses[number]).shape
         if shape is not None:
             return shape.volume
         return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)

@@ -33,7 +33,7 @@ def made_amiss(before: Reading, after: Reading, made: dict[int, Made]) -> Iterat
     origins = {name: pose.translation for name, pose in zip(after.body_names, after.body_poses, strict=True)}
     for k, entry in made.items():
         hull = entry.geom
-        shape = shapes.part(k, after.geom_poses[k]).shape
+        shape = shapes.part_of(k, after.geom_poses[k]).shape
         if after.body_of[k] != hull.body or not _is(shape, hull.shape, origins[hull.body]):
             yield f"the geometry of hull {hull.name!r}"
         if hull.parent in before.names:
@@ -50,7 +50,7 @@ def _is(found: Shape | None, wanted: Shape, origin: Floats) -> bool:
     away = float(np.linalg.norm(wanted.aabb.center - origin))
     if not found.is_primitive:
         return _farthest(found, wanted) <= _SINGLE * (size + min(away, 1000.0 * size)) + _POSE * away
-    corners, others = (shape.tessellated().vertices for shape in (found, wanted))  # each about its own axes
+    corners, others = (shape.tessellate().vertices for shape in (found, wanted))  # each about its own axes
     return bool(np.abs(corners - others).max() <= _POSE * (size + away))
 
 

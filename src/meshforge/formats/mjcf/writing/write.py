@@ -48,7 +48,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
             bodies = listed([authored.body_names[k] for k in edit.weighs], 3)
             notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
     names = _checked(edit, before, mass)
-    return _output(tree, edit.texts(), meshes.files.made, copies, notes, names)
+    return _output(tree, edit.build_texts(), meshes.files.made, copies, notes, names)
 
 
 def _checked(edit: Edit, before: Reading, mass: Mass) -> dict[str, str]:
@@ -59,7 +59,7 @@ def _checked(edit: Edit, before: Reading, mass: Mass) -> dict[str, str]:
     try:
         after, names = edit.name_geoms()
         if mass == "recompute":  # a free body may stand on its centre of mass
-            before, after = edit.authored, edit.plain_reading()
+            before, after = edit.authored, edit.read_back_unscaled()
     except AssetError as error:
         remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
         raise AssetError(

@@ -25,16 +25,16 @@ class ModelResolver(Resolver):
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
-            yield self._joined(self.folder, rest)
+            yield self._join(self.folder, rest)
         yield from Resolver.candidates(self, reference)
         if model := _MODEL.fullmatch(reference):
-            yield self._joined(self.folder, model[2])
+            yield self._join(self.folder, model[2])
 
     def place(self, reference: str) -> str | None:
         """Where the file goes in an output: what is in the model's own folder stays there."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
-        if rest != reference and not rest.startswith("/") and self.find(reference) == self._joined(self.folder, rest):
+        if rest != reference and not rest.startswith("/") and self.find(reference) == self._join(self.folder, rest):
             return posixpath.normpath(rest)
         model = _MODEL.fullmatch(reference)
         if model and self._is_own(model[1], model[2]):
@@ -45,10 +45,10 @@ class ModelResolver(Resolver):
         """Whether a model's file is, or is to be, in the folder itself."""
         found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if is_file(path)), None)
         if found is not None:
-            return found == self._joined(self.folder, rest)
+            return found == self._join(self.folder, rest)
         return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))
 
-    def model_file(self, reference: str) -> Path | None:
+    def find_model_file(self, reference: str) -> Path | None:
         """The file of a model that an `<include>` names: a file, or the folder of a model; None where it is not there.
 
         Raises AssetError: the folder's `model.config` is no XML.
@@ -61,7 +61,7 @@ class ModelResolver(Resolver):
                 return path
         return None
 
-    def model_advice(self, reference: str) -> str:
+    def advise_on_model(self, reference: str) -> str:
         """Where the model of an `<include>` was looked for, and what to do about it."""
         is_folder = reference.strip().startswith("model:") and not _MODEL.fullmatch(reference.strip())
         return self.advice(f"{reference.strip()}/model.sdf" if is_folder else reference)

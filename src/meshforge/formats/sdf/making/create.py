@@ -40,7 +40,7 @@ def create_sdf(asset: Asset, name: str) -> Output:
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, opaque pieces meshes as they are. `model.sdf` gets a `model.config` beside it.
     """
-    return _Creator(asset, name).output()
+    return _Creator(asset, name).build_output()
 
 
 class _Creator:
@@ -59,18 +59,18 @@ class _Creator:
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
         self.chain: Chain = chain_of(asset, bare, Rules(_KINDS, world=True))
         self.links = self._link_names(bare)
-        self.slots = self._slots()
-        self.shown = {link: self._visuals(link) for link in self.links}
+        self.slots = self._build_slots()
+        self.shown = {link: self._build_visuals(link) for link in self.links}
 
-    def output(self) -> Output:
+    def build_output(self) -> Output:
         settled = settle([slot for own in self.slots.values() for slot in own])
         names = {was: settled.pop(name, name) for was, name in self.renamed.items()} | settled
-        inside = [line for link in self.links for line in self._link(link)]
+        inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
             still = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
             inside += joint_lines(still, WORLD, self.links[WORLD])
         for joint in self.chain.joints:
-            inside += self._joint(joint)
+            inside += self._joint_lines(joint)
         model = named("model", self.model, *inside)
         head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
         main = b"\n".join([*head, *(STEP + line for line in model), b"</sdf>", b""])
@@ -79,8 +79,8 @@ class _Creator:
             self.lost.append(Loss(What.VISUALS, refused, "their files cannot be read"))
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
-            made[CONFIG] = self._config()
-        return Output(main, made, self.visuals.copies, self._notes(), names, (*self.chain.lost, *self.lost))
+            made[CONFIG] = self._config_text()
+        return Output(main, made, self.visuals.copies, self._collect_notes(), names, (*self.chain.lost, *self.lost))
 
     def _link_names(self, bare: set[str]) -> dict[str, str]:
         """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
@@ -90,14 +90,14 @@ class _Creator:
             names = {WORLD: free_name(f"{WORLD}_link", taken), **names}
         return {link: _plain(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
 
-    def _slots(self) -> dict[str, list[Slot]]:
+    def _build_slots(self) -> dict[str, list[Slot]]:
         slots: dict[str, list[Slot]] = {link: [] for link in self.links}
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.slot(geom, self.chain.frames[link], None, _LEAD))
+            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
         for piece in self.asset.opaque:
             link = self.chain.of_body[piece.body]
-            slots[link] += self._opaque(piece, self.chain.frames[link])
+            slots[link] += self._build_opaque(piece, self.chain.frames[link])
         for link, own in slots.items():
             for slot in own:
                 self._rename(slot, self.links[link])
@@ -111,7 +111,7 @@ class _Creator:
             self.renamed |= dict(zip(slot.names, names, strict=True))
             slot.body, slot.names = link, names
 
-    def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
         """The collision of an opaque piece; none where it has no surface."""
         surface, link_t_root = piece.surface, root_t_link.inverse()
         if piece.plane is not None:
@@ -127,24 +127,24 @@ class _Creator:
         kind = mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
         return [Slot(piece.body, (piece.name,), text=fresh(Pose.identity(), kind, _LEAD, b"\n"))]
 
-    def _visuals(self, link: str) -> list[bytes]:
+    def _build_visuals(self, link: str) -> list[bytes]:
         lines: list[bytes] = []
         count = 0
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:
-                shown = self.visuals.shown(body, visual, self.chain.frames[link])
+                shown = self.visuals.add_visual(body, visual, self.chain.frames[link])
                 if shown is not None:
-                    lines += visual_lines(f"visual{count}", shown, self._mesh_of(body, shown))
+                    lines += visual_lines(f"visual{count}", shown, self._add_mesh(body, shown))
                     count += 1
         return lines
 
-    def _mesh_of(self, body: str, shown: Shown) -> str | None:
+    def _add_mesh(self, body: str, shown: Shown) -> str | None:
         """The file of a shown shape that SDF lacks."""
         if isinstance(shown.what, str | Native) or not isinstance(shown.what, Shape):
             return None
         return self.maker.files.add(f"{body}-visual", "", shown.what.vertices, shown.what.faces)
 
-    def _link(self, link: str) -> list[bytes]:
+    def _link_lines(self, link: str) -> list[bytes]:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
         inertial = self.inertials.get(body) if body else LIGHT if link in self.chain.light else None
         frame = self.chain.frames[link]
@@ -152,10 +152,10 @@ class _Creator:
         inside = [pose_leaf(pose)]
         inside += inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
         inside += self.shown[link]
-        inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.written(b"").split(b"\n")]
+        inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.to_bytes(b"").split(b"\n")]
         return named("link", self.links[link], *inside)
 
-    def _joint(self, made: LinkJoint) -> list[bytes]:
+    def _joint_lines(self, made: LinkJoint) -> list[bytes]:
         """The lines of a joint; none for one that leaves its link free."""
         if made.joint is not None and made.joint.kind == "floating":
             name = made.joint.name
@@ -164,13 +164,13 @@ class _Creator:
             return []
         return joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
 
-    def _config(self) -> bytes:
+    def _config_text(self) -> bytes:
         """The `model.config` that makes the folder a Gazebo model."""
         version = ".".join(map(str, _VERSION)).encode()
         lines = nested("model", leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escaped(self.name)))
         return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
 
-    def _notes(self) -> tuple[str, ...]:
+    def _collect_notes(self) -> tuple[str, ...]:
         """What Gazebo makes of what is not told in the file."""
         notes = list(self.chain.notes) + self.maker.notes
         renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]

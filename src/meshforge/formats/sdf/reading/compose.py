@@ -45,7 +45,7 @@ def compose(path: Path, roots: tuple[Path, ...]) -> Composed:
 
     Raises AssetError with `file:line`: text that is not understood, a model that is not there or includes itself.
     """
-    return _Composer(path, roots).composed
+    return _Composer(path, roots).models
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,29 +62,29 @@ class _Composer:
         self.roots, self.count = roots, 0
         self.files: dict[Path, _File] = {}
         self.sources: list[Source] = []
-        main = self._file(path, path.name, "")
+        main = self._open_file(path, path.name, "")
         world = main.root.first("world")
         around = Scope("", world or main.root, 0, str(path), main.version, is_world=True)
-        self.composed = Composed(around, self.sources)
+        self.models = Composed(around, self.sources)
         if world is not None:
-            self.composed.worlds = [w.attributes.get("name", "") for w in main.root.each("world")]
+            self.models.worlds = [w.attributes.get("name", "") for w in main.root.each("world")]
             self._add_frames(around, world)
         models = [model for holder in (main.root, *main.root.each("world")) for model in holder.each("model")]
         includes = [include for holder in main.root.each("world") for include in holder.each("include")]
         alone = len(models) == 1 and not includes
         for element in sorted((*models, *includes), key=lambda e: e.start):
             if element.tag == "include":
-                self._include(around, element, [path])
+                self._add_include(around, element, [path])
             else:
-                self._model(around, element, main, None, [path], "" if alone else None)
+                self._add_model(around, element, main, None, [path], "" if alone else None)
         if not around.inner:
             raise AssetError("there is no <model> in it", where=str(path))
-        for scope in self.composed.scopes():
-            self._mend_old(scope)
+        for scope in self.models.scopes():
+            self._repair_old_frames(scope)
         if len(models) > 1 and world is None:
-            self.composed.notes.append(f"it holds {len(models)} models, of which new Gazebo takes the first alone")
+            self.models.notes.append(f"it holds {len(models)} models, of which new Gazebo takes the first alone")
 
-    def _file(self, path: Path, place: str | None, reference: str) -> _File:
+    def _open_file(self, path: Path, place: str | None, reference: str) -> _File:
         if path in self.files:
             number = self.files[path].number
             self.sources[number] = replace(self.sources[number], count=self.sources[number].count + 1)
@@ -95,7 +95,7 @@ class _Composer:
         self.files[path] = _File(len(self.sources) - 1, root, version)
         return self.files[path]
 
-    def _model(
+    def _add_model(
         self,
         around: Scope,
         element: Element,
@@ -118,12 +118,12 @@ class _Composer:
         self._add_frames(scope, element)
         for child in element.children:
             if child.tag == "model":
-                self._model(scope, child, file, None, files, None)
+                self._add_model(scope, child, file, None, files, None)
             elif child.tag == "include":
-                self._include(scope, child, files)
+                self._add_include(scope, child, files)
         around.inner.append(scope)
         if merged:
-            around.pour(scope)
+            around.merge_names(scope)
         elif name:
             around.frames.setdefault(name, frame)
 
@@ -149,28 +149,28 @@ class _Composer:
             )
             raise AssetError(problem, where=f"{where}:{element.line}", remedy="No model is made of so many.")
 
-    def _include(self, around: Scope, include: Element, files: list[Path]) -> None:
+    def _add_include(self, around: Scope, include: Element, files: list[Path]) -> None:
         where = f"{files[-1]}:{include.line}"
         uri = text_of(include, "uri")
         if not uri:
             raise AssetError("this <include> names no model: it has no <uri>", where=where)
         outer = self.sources[around.source]
-        path = None if is_address(uri) else outer.resolver.model_file(uri)
+        path = None if is_address(uri) else outer.resolver.find_model_file(uri)
         if path is None:
             problem = f"the included model {uri!r} is not there"
-            raise AssetError(problem, where=where, remedy=outer.resolver.model_advice(uri))
+            raise AssetError(problem, where=where, remedy=outer.resolver.advise_on_model(uri))
         if path in files:
             raise AssetError(f"{uri!r} includes itself", where=where, remedy="Take this <include> away.")
         try:
-            file = self._file(path, _placed(outer, uri, path), uri)
+            file = self._open_file(path, _placed(outer, uri, path), uri)
         except AssetError as error:
             problem = f"the included model {uri!r} cannot be read: {error.sentence}"
             raise AssetError(problem, where=where) from error
         models = list(file.root.each("model"))
         if not models:
-            self.composed.notes.append(f"the included file {uri!r} has no model: passed over")
+            self.models.notes.append(f"the included file {uri!r} has no model: passed over")
             return
-        self._model(around, models[0], file, include, [*files, path], None)
+        self._add_model(around, models[0], file, include, [*files, path], None)
 
     def _add_links(self, scope: Scope) -> None:
         for link in scope.element.each("link"):
@@ -181,7 +181,7 @@ class _Composer:
                 problem = f"link {name!r} is there twice, first on line {scope.links[name].line}"
                 raise AssetError(problem, where=place, remedy="Rename one of them.")
             scope.links[name] = link
-            self._add(scope, name, link, "", True)
+            self._add_frame(scope, name, link, "", True)
 
     def _add_frames(self, scope: Scope, element: Element) -> None:
         """The frames of joints and of `<frame>` elements."""
@@ -189,21 +189,21 @@ class _Composer:
             name = child.attributes.get("name", "")
             if child.tag == "joint" and name:
                 end = text_of(child, "child")
-                self._add(scope, name, child, "" if end == WORLD else end, False)
+                self._add_frame(scope, name, child, "" if end == WORLD else end, False)
             elif child.tag == "frame" and name and scope.version >= RELATIVE:
-                self._add(scope, name, child, child.attributes.get("attached_to", ""), False)
+                self._add_frame(scope, name, child, child.attributes.get("attached_to", ""), False)
             elif child.tag == "frame" and name:
-                self._add(scope, name, child, "", False)
+                self._add_frame(scope, name, child, "", False)
 
-    def _mend_old(self, scope: Scope) -> None:
+    def _repair_old_frames(self, scope: Scope) -> None:
         """Let frames of old files whose `frame`, which few readers saw, is not there count from their usual base."""
         if scope.version < RELATIVE:
             for name, frame in scope.frames.items():
-                if not scope.knows(frame.base):
-                    self.composed.notes.append(f"the pose of {name!r} counts from {frame.base!r}, which is not there")
-                    frame.base = frame.attached if scope.knows(frame.attached) else ""
+                if not scope.has(frame.base):
+                    self.models.notes.append(f"the pose of {name!r} counts from {frame.base!r}, which is not there")
+                    frame.base = frame.attached if scope.has(frame.attached) else ""
 
-    def _add(self, scope: Scope, name: str, element: Element, attached: str, link: bool) -> None:
+    def _add_frame(self, scope: Scope, name: str, element: Element, attached: str, link: bool) -> None:
         at = pose_of(element, scope.where)
         frame = Frame(scope, at.pose, at.base or attached, f"{scope.where}:{at.line}", link, attached)
         scope.frames.setdefault(name, frame)

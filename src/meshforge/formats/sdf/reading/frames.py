@@ -54,7 +54,7 @@ class Scope:
     through: dict[str, Scope] = field(default_factory=dict)
     inner: list[Scope] = field(default_factory=list)
 
-    def path(self, name: str, where: str) -> list[Frame]:
+    def resolve(self, name: str, where: str) -> list[Frame]:
         """The frames, each in the scope of the one before, that lead from this scope to a name.
 
         Raises AssetError at `where`: there is no such frame.
@@ -62,19 +62,19 @@ class Scope:
         found: list[Frame] = []
         scope, rest = self, name
         while rest and rest != MODEL and not (scope.is_world and rest in (WORLD, "__root__")):
-            frame, rest, scope = scope._step(rest) or _refuse(self, name, where)
+            frame, rest, scope = scope._take_step(rest) or _refuse(self, name, where)
             found.append(frame)
         return found
 
-    def knows(self, name: str) -> bool:
+    def has(self, name: str) -> bool:
         """Whether a name leads to a frame."""
         try:
-            self.path(name, "")
+            self.resolve(name, "")
         except AssetError:
             return False
         return True
 
-    def _step(self, name: str) -> tuple[Frame, str, Scope] | None:
+    def _take_step(self, name: str) -> tuple[Frame, str, Scope] | None:
         """The frame that a name leads to first, the rest of the name, and the scope in which that counts."""
         head, _, tail = name.partition("::")
         if name in self.frames:
@@ -86,7 +86,7 @@ class Scope:
         inside = self.frames[head].inside if tail and head in self.frames else None
         return (self.frames[head], tail, inside) if inside else None
 
-    def pour(self, inner: Scope) -> None:
+    def merge_names(self, inner: Scope) -> None:
         """Make the names of a merged model known in this scope."""
         for name in (*inner.frames, *inner.through):
             self.through.setdefault(name, inner)
@@ -105,7 +105,7 @@ class Places:
         self._own: dict[Frame, Pose] = {}
         self._scopes: dict[Scope, Pose] = {}
 
-    def scope(self, scope: Scope) -> Pose:
+    def pose_of_scope(self, scope: Scope) -> Pose:
         """root_T_model of a scope; the outermost one is the root."""
         chain = []
         at: Scope | None = scope
@@ -114,21 +114,21 @@ class Places:
             at = at.frame.scope if at.frame else None
         pose = self._scopes[at] if at is not None else Pose.identity()
         for inner in reversed(chain):
-            pose = pose @ self._within(inner.frame) if inner.frame else pose
+            pose = pose @ self._pose_in_scope(inner.frame) if inner.frame else pose
             self._scopes[inner] = pose
         return pose
 
-    def of(self, scope: Scope, name: str, where: str) -> Pose:
+    def pose_of(self, scope: Scope, name: str, where: str) -> Pose:
         """root_T_frame of a name in a scope. Raises AssetError: it is not there, or counts from itself."""
-        return self.scope(scope) @ self._along(scope.path(name, where))
+        return self.pose_of_scope(scope) @ self._chain_poses(scope.resolve(name, where))
 
-    def _along(self, path: Sequence[Frame]) -> Pose:
+    def _chain_poses(self, path: Sequence[Frame]) -> Pose:
         pose = Pose.identity()
         for frame in path:
-            pose = pose @ self._within(frame)
+            pose = pose @ self._pose_in_scope(frame)
         return pose
 
-    def _within(self, wanted: Frame) -> Pose:
+    def _pose_in_scope(self, wanted: Frame) -> Pose:
         """scope_T_frame, after all that it counts from. Raises AssetError for a ring of frames."""
         open_: dict[Frame, None] = {}
         waiting = [wanted]
@@ -137,8 +137,8 @@ class Places:
             if frame in self._own:
                 waiting.pop()
                 continue
-            base = frame.scope.path(frame.base, frame.where)
-            placement = frame.inside.path(frame.placement, frame.where) if frame.inside else []
+            base = frame.scope.resolve(frame.base, frame.where)
+            placement = frame.inside.resolve(frame.placement, frame.where) if frame.inside else []
             needed = [other for other in (*base, *placement) if other not in self._own]
             if needed:
                 if frame in open_:
@@ -146,6 +146,6 @@ class Places:
                 open_[frame] = None
                 waiting += needed
                 continue
-            pose = self._along(base) @ frame.pose
-            self._own[frame] = pose @ self._along(placement).inverse() if placement else pose
+            pose = self._chain_poses(base) @ frame.pose
+            self._own[frame] = pose @ self._chain_poses(placement).inverse() if placement else pose
         return self._own[wanted]

@@ -72,16 +72,16 @@ def links_of(composed: Composed) -> Links:
 def place_in(places: Places, link: Link, element: Element) -> Pose:
     """root_T_element of something in a link, whose pose counts from the link or from a frame of its model."""
     at = pose_of(element, link.where)
-    if not at.base or (link.scope.version < RELATIVE and not link.scope.knows(at.base)):
+    if not at.base or (link.scope.version < RELATIVE and not link.scope.has(at.base)):
         return link.pose @ at.pose
     scope = link.scope
     while at.base == MODEL and scope.merged and scope.frame is not None:  # as libsdformat has it
         scope = scope.frame.scope
-    return places.of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
+    return places.pose_of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
 
 
 def _links(composed: Composed, places: Places) -> Iterator[Link]:
     for scope in composed.scopes():
         for name, element in scope.links.items():
-            pose = places.of(scope, name, f"{scope.where}:{element.line}")
+            pose = places.pose_of(scope, name, f"{scope.where}:{element.line}")
             yield Link(f"{scope.prefix}{name}", scope, name, element, pose)

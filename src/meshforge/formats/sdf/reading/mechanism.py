@@ -88,7 +88,7 @@ def _body(scope: Scope, name: str, links: Links) -> str | None:
     at, rest = scope, name
     while True:
         try:
-            path = at.path(rest, "")
+            path = at.resolve(rest, "")
         except AssetError:
             return None
         frame = path[-1] if path else None
@@ -115,7 +115,7 @@ def _joints(scope: Scope, element: Element, name: str, parent: str, child: str, 
     type_ = element.attributes["type"]
     own, where = element.attributes.get("name", ""), f"{scope.where}:{element.line}"
     try:
-        pose = links.places.of(scope, own, where) if own in scope.frames else links.by_body[child].pose
+        pose = links.places.pose_of(scope, own, where) if own in scope.frames else links.by_body[child].pose
     except AssetError:
         pose = links.by_body[child].pose
     kinds = _KINDS[type_]
@@ -152,8 +152,8 @@ def _axis(scope: Scope, axis: Element | None, pose: Pose, links: Links) -> Float
     if axis is not None and xyz is not None:
         in_model = is_true(text_of(axis, "use_parent_model_frame", "1" if scope.version < AXIS_IN_JOINT else "0"))
         frame = xyz.attributes.get("expressed_in", "") or ("__model__" if in_model else "")
-        if frame and scope.knows(frame):
-            turn = links.places.of(scope, frame, scope.where).rotation
+        if frame and scope.has(frame):
+            turn = links.places.pose_of(scope, frame, scope.where).rotation
     told: Floats = turn @ (np.array([0.0, 0.0, 1.0]) if direction is None else direction)
     return told
 

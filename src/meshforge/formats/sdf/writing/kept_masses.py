@@ -15,7 +15,7 @@ def kept_masses(asset: Asset, document: SdfDocument, plan: Plan) -> list[Splice]
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
     """
-    edited = {slot.body for _, slots in plan.places for slot in slots if not slot.untouched}
+    edited = {slot.body for _, slots in plan.places for slot in slots if not slot.is_untouched}
     edited |= {one.link for one, (_, slots) in zip(plan.authored, plan.places, strict=True) if not slots}
     edited |= plan.ends.keys()
     known = {inertial.body: inertial for inertial in asset.mechanism.inertials}

@@ -36,21 +36,21 @@ class Maker:
     notes: list[str] = field(default_factory=list)
     _pieces: dict[tuple[str, tuple[str, ...]], list[Piece]] = field(default_factory=dict)
 
-    def slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
-        shape = geom.shape.moved(root_t_link.inverse())
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+        shape = geom.shape.move(root_t_link.inverse())
         if isinstance(shape, Native) and (self.version >= ROUND or not isinstance(shape, Capsule | Ellipsoid)):
             pose, kind = shape.pose, native_lines(shape)
         else:
-            pose, kind = Pose.identity(), mesh_lines(self._file(geom, shape, template))
+            pose, kind = Pose.identity(), mesh_lines(self._add_mesh(geom, shape, template))
         if template is None:
             slot = Slot(geom.body, (geom.name,), text=fresh(pose, kind, lead, self.line_end))
         else:
-            edits = reshaped(self.data, template, pose, self._indented(kind, template))
+            edits = reshaped(self.data, template, pose, self._fit_lines(kind, template))
             slot = Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         slot.name = attribute_for(slot)  # SDF asks for one
         return slot
 
-    def part(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         mesh, resolver = geometry_of(element), self.files.resolver
         assert mesh is not None and resolver is not None and self.meshes is not None  # only meshes have several pieces
         reference, part = mesh_uri(mesh), mesh_part(mesh)
@@ -61,13 +61,13 @@ class Maker:
         made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
         return refiled(self.data, mesh, made)
 
-    def _indented(self, kind: Sequence[bytes], template: Element) -> Sequence[bytes]:
+    def _fit_lines(self, kind: Sequence[bytes], template: Element) -> Sequence[bytes]:
         """The lines of a shape; all in one where the template has its own in one."""
         old = geometry_of(template)
         assert old is not None  # only elements with pieces are copied
         return kind if b"\n" in self.data[old.start : old.end] else [b"".join(line.strip() for line in kind)]
 
-    def _file(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+    def _add_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
         """The reference to the mesh file of a hull, which is made."""
         if not isinstance(shape, Polytope):
             version = ".".join(map(str, self.version))

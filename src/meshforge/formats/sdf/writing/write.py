@@ -32,9 +32,9 @@ def write_sdf(asset: Asset, document: SdfDocument, name: str, mass: Mass) -> Out
     _refuse_strangers(asset, document)
     edit = _Edit(asset, document, Path(name).stem)
     names = settle([slot for plan in edit.plans for slot in plan.slots])
-    texts = [edit.written(number, mass) for number in range(len(document.sources))]
+    texts = [edit.build_text(number, mass) for number in range(len(document.sources))]
     copies, notes = copies_of(document.sources, texts, name)
-    made = edit.made
+    made = edit.mesh_files
     for source, text in zip(document.sources[1:], texts[1:], strict=True):
         if source.place is not None:
             made[source.place] = text
@@ -63,10 +63,10 @@ class _Edit:
         self.plans: list[Plan] = []
         self.makers: list[Maker] = []
         for number in range(len(document.sources)):
-            self._plan(number)
+            self._plan_source(number)
 
     @property
-    def made(self) -> dict[str, bytes]:
+    def mesh_files(self) -> dict[str, bytes]:
         """The mesh files of all files' hulls, from the main one."""
         found: dict[str, bytes] = {}
         for maker, source in zip(self.makers, self.document.sources, strict=True):
@@ -78,7 +78,7 @@ class _Edit:
     def notes(self) -> list[str]:
         return [note for maker in self.makers for note in maker.notes]
 
-    def written(self, number: int, mass: Mass) -> bytes:
+    def build_text(self, number: int, mass: Mass) -> bytes:
         """The text of a file. Raises AssetError where it cannot be edited."""
         plan, source = self.plans[number], self.document.sources[number]
         edits = plan.splices
@@ -88,9 +88,9 @@ class _Edit:
         if mass == "keep":
             edits += kept_masses(self.asset, self.document, plan)
         data = spliced(plan.maker.data, edits)
-        return source.raw if data == plan.maker.data else source.text.encoded(data)
+        return source.raw if data == plan.maker.data else source.text.encode(data)
 
-    def _plan(self, number: int) -> None:
+    def _plan_source(self, number: int) -> None:
         source = self.document.sources[number]
         data = source.text.data
         root, version = root_of(data, str(source.path))

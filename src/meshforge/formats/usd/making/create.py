@@ -36,7 +36,7 @@ def create_usd(asset: Asset, name: str) -> Output:
     is part of no moving body collides without one. Hulls are hidden, unless the asset shows nothing else.
     """
     with usd(name):
-        return _Creator(asset, PurePosixPath(name)).output()
+        return _Creator(asset, PurePosixPath(name)).build_output()
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,28 +58,28 @@ class _Creator:
         self.lost: list[Loss] = []
         self.drawn = not len(asset.visuals)
 
-    def output(self) -> Output:
-        self._head()
+    def build_output(self) -> Output:
+        self._write_header()
         for link, pose in self.links.poses.items():
-            self._body(link, pose)
+            self._add_body(link, pose)
         for geom in self.asset.geoms:
-            self._hull(geom)
+            self._add_hull(geom)
         for piece in self.asset.opaque:
-            self._opaque(piece)
-        self._visuals()
-        self._joints()
+            self._add_opaque(piece)
+        self._add_visuals()
+        self._add_joints()
         suffix, stem = self.name.suffix.lower(), self.name.stem
         main = layer_bytes(self.layer, crate=wants_crate(suffix, None))
         main = packed({f"{stem}.usdc": main}) if suffix == ".usdz" else main
-        return Output(main, notes=tuple(self._told()), names=self.names, lost=tuple(self.lost))
+        return Output(main, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
 
-    def _head(self) -> None:
+    def _write_header(self) -> None:
         self.layer.defaultPrim = self.root.name
         for key, said in (("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0), ("upAxis", "Z")):
             self.layer.pseudoRoot.SetInfo(key, said)
 
-    def _body(self, link: str, pose: Pose) -> None:
-        spec = new_prim(self.root, prim_name(link, self._children(self.root)), "Xform")
+    def _add_body(self, link: str, pose: Pose) -> None:
+        spec = new_prim(self.root, prim_name(link, self._child_names(self.root)), "Xform")
         place(spec, pose.translation, pose.rotation)
         apply_schemas(spec, ["PhysicsRigidBodyAPI"])
         self.bodies[link] = spec
@@ -89,8 +89,8 @@ class _Creator:
         if inertial is not None and inertial.mass > 0:
             author(spec, inertial, self._space(link), _Metric())
 
-    def _hull(self, geom: Geom) -> None:
-        holder, name = self._place(geom.name, geom.body)
+    def _add_hull(self, geom: Geom) -> None:
+        holder, name = self._find_holder(geom.name, geom.body)
         space = self._space(geom.body)
         spec, approximation = native(holder, name, geom.shape, space), None
         if spec is None:
@@ -103,20 +103,20 @@ class _Creator:
         if read != geom.name:
             self.names[geom.name] = read
 
-    def _opaque(self, piece: Opaque) -> None:
+    def _add_opaque(self, piece: Opaque) -> None:
         """A piece as its triangles, or as a plane; one that is neither is told in the report."""
         if piece.plane is not None:  # which USD does not let move
-            spec = new_prim(self.root, prim_name(piece.name.rsplit("/", 1)[-1], self._children(self.root)), "Plane")
+            spec = new_prim(self.root, prim_name(piece.name.rsplit("/", 1)[-1], self._child_names(self.root)), "Plane")
             place(spec, piece.plane.translation, piece.plane.rotation)
             collider(spec, None)
             return
-        holder, name = self._place(piece.name, piece.body)
+        holder, name = self._find_holder(piece.name, piece.body)
         space = self._space(piece.body)
         if piece.surface is not None and len(piece.surface.faces):
             spec = mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
             collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
 
-    def _place(self, name: str, body: str) -> tuple[Any, str]:
+    def _find_holder(self, name: str, body: str) -> tuple[Any, str]:
         """The spec below which a hull goes, and its name there; what its name has of folders becomes scopes."""
         holder = self.bodies.get(body, self.root)
         *above, own = name.removeprefix(f"{body}/").split("/")
@@ -126,41 +126,41 @@ class _Creator:
                 own = "_".join([*above[k:], own])
                 break
             holder = found or new_prim(holder, prim_name(part, ()), "Scope")
-        return holder, prim_name(own, self._children(holder))
+        return holder, prim_name(own, self._child_names(holder))
 
-    def _visuals(self) -> None:
+    def _add_visuals(self) -> None:
         refused = []
         for body, visual in visuals_of(self.asset):
             surfaces = [s for s in (visual.surfaces() if isinstance(visual, Visual) else [visual]) if len(s.faces)]
             holder = self.bodies.get(body, self.root)
             for surface in surfaces:
-                show(holder, prim_name("visual", self._children(holder)), surface, visual.rgba, self._space(body))
+                show(holder, prim_name("visual", self._child_names(holder)), surface, visual.rgba, self._space(body))
             if not surfaces:
                 refused.append(body)
         if refused:
             self.lost.append(Loss(What.VISUALS, tuple(dict.fromkeys(refused)), "their files cannot be read"))
 
-    def _joints(self) -> None:
+    def _add_joints(self) -> None:
         paths = {link: str(spec.path) for link, spec in self.bodies.items()}
         joints = [j for j in self.links.joints if not (j.kind == "floating" and j.parent not in paths)]
         if not joints:
             return
-        holder = new_prim(self.root, prim_name("joints", self._children(self.root)), "Scope")
+        holder = new_prim(self.root, prim_name("joints", self._child_names(self.root)), "Scope")
         for joint in joints:
-            name = prim_name(joint.name or f"{joint.child}_joint", self._children(holder))
+            name = prim_name(joint.name or f"{joint.child}_joint", self._child_names(holder))
             spec = joint_prim(holder, name, joint, paths, dict(self.links.poses))
-            if joint.kind == "fixed" and joint.parent not in paths and self._moves(joint.child):
+            if joint.kind == "fixed" and joint.parent not in paths and self._has_children(joint.child):
                 apply_schemas(spec, ["PhysicsArticulationRootAPI"])
         held = {joint.child for joint in joints}
         for link in self.bodies.keys() - held:
-            if self._moves(link):
+            if self._has_children(link):
                 apply_schemas(self.bodies[link], ["PhysicsArticulationRootAPI"])
 
-    def _moves(self, link: str) -> bool:
+    def _has_children(self, link: str) -> bool:
         """Whether something hangs on a link."""
         return any(joint.parent == link for joint in self.links.joints)
 
-    def _told(self) -> Iterator[str]:
+    def _collect_notes(self) -> Iterator[str]:
         held = {joint.child for joint in self.links.joints if joint.kind != "floating"}
         loose = [link for link in self.bodies if link not in held]
         if loose:
@@ -183,5 +183,5 @@ class _Creator:
         return Space(pose.rotation, pose.translation) if pose else _ROOT
 
     @staticmethod
-    def _children(spec: Any) -> list[str]:
+    def _child_names(spec: Any) -> list[str]:
         return [child.name for child in spec.nameChildren]

@@ -19,7 +19,7 @@ class Bodies:
         self.scene = scene
         found = [prim for prim in scene.prims() if physics and _is_body(scene, prim)]
         self.prims: dict[str, Any] = {str(prim.GetPath()): prim for prim in found}
-        names = unique_names([BODY, *(scene.short(path) for path in self.prims)])[1:]
+        names = unique_names([BODY, *(scene.shorten_path(path) for path in self.prims)])[1:]
         self.names = dict(zip(self.prims, names, strict=True))
         self.used = not self.prims
 
@@ -35,7 +35,7 @@ class Bodies:
         own = body_of(self.scene, prim)
         return self.names.get(str(own.GetPath()), BODY) if own else BODY
 
-    def all(self) -> tuple[Body, ...]:
+    def list_bodies(self) -> tuple[Body, ...]:
         """The body of the root frame where something is part of it, then the rigid ones."""
         fixed = [Body(BODY, Pose.identity())] if self.used else []
         return (*fixed, *(Body(self.names[path], self.scene.pose(prim)) for path, prim in self.prims.items()))
@@ -43,7 +43,7 @@ class Bodies:
     def hull_name(self, path: str, body: str) -> str:
         """The name of what a prim collides with: its path below its body, after the body's name where there are any."""
         of_body = next((own for own, name in self.names.items() if name == body), "")
-        own = self.scene.short(path, of_body)
+        own = self.scene.shorten_path(path, of_body)
         return f"{body}/{own}" if self.names else own
 
 

@@ -81,7 +81,7 @@ class _Count:
 
     def refuse_many(self, root: str) -> None:
         """Raise AssetError where there are more prims than are read."""
-        count = self._prim(root, "/", 0)
+        count = self._count_prims(root, "/", 0)
         if count > _MOST_PRIMS:
             raise AssetError(
                 f"it refers to itself or others so often that it has more than {_MOST_PRIMS:,} prims",
@@ -89,7 +89,7 @@ class _Count:
                 remedy="Read a part of it.",
             )
 
-    def _prim(self, layer: str, path: str, depth: int) -> int:
+    def _count_prims(self, layer: str, path: str, depth: int) -> int:
         """The prims at and below a place in a layer, arcs followed; what is in a circle counts once."""
         key = layer, path
         if key in self.known:
@@ -99,19 +99,19 @@ class _Count:
             return 0
         self.inside.add(key)
         total = 1
-        for target in self._targets(layer, spec):
-            total += self._prim(*target, depth + 1)
+        for target in self._composition_targets(layer, spec):
+            total += self._count_prims(*target, depth + 1)
         for child in _children(spec):
-            total += self._prim(layer, str(child.path), depth + 1)
+            total += self._count_prims(layer, str(child.path), depth + 1)
         if path == "/":
             for sub in self.layers[layer].subLayerPaths:
                 if other := self._key(layer, sub):
-                    total += self._prim(other, "/", depth + 1)
+                    total += self._count_prims(other, "/", depth + 1)
         self.inside.discard(key)
         self.known[key] = min(total, _MOST_PRIMS + 1)
         return self.known[key]
 
-    def _targets(self, layer: str, spec: Any) -> Iterator[tuple[str, str]]:
+    def _composition_targets(self, layer: str, spec: Any) -> Iterator[tuple[str, str]]:
         """What a prim is composed of besides its own opinions; instances are shared and count once."""
         if spec.path.IsAbsoluteRootPath():
             return

@@ -49,7 +49,7 @@ def read_usd(path: Path) -> Asset:
     source = contents(path)
     with usd(str(path)) as told:
         refuse_harmful_layers(path, source)
-        scene = Scene.opened(path)
+        scene = Scene.open(path)
         asset = _asset(scene, source)
     with usd(str(path)):  # which tells of missing files once more
         files, missing = files_of(path)
@@ -69,7 +69,7 @@ def _asset(scene: Scene, source: bytes) -> Asset:
     return Asset(
         path=scene.path,
         format="usd",
-        bodies=bodies.all(),
+        bodies=bodies.list_bodies(),
         geoms=geoms,
         document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
         opaque=tuple(_opaque(authored, sources)),

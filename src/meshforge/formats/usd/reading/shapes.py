@@ -68,9 +68,9 @@ def _whole(how: str, points: Floats, linear: Floats, offset: Floats) -> MeshPart
     low, high = points.min(axis=0), points.max(axis=0)
     middle, half = (low + high) / 2, (high - low) / 2
     if how == "convexHull" or half.min() <= 0:
-        return MeshPart(convex_hull(points).mapped(linear, offset))
+        return MeshPart(convex_hull(points).transform(linear, offset))
     if how == "boundingCube":
-        return MeshPart(Box(Pose.of_translation(middle), half).mapped(linear, offset))
+        return MeshPart(Box(Pose.of_translation(middle), half).transform(linear, offset))
     radius = float(np.linalg.norm(points - middle, axis=1).max() * np.linalg.norm(linear, axis=0).max())
     return MeshPart(Sphere(Pose.of_translation(linear @ middle + offset), radius))
 
@@ -82,7 +82,7 @@ def _primitive(scene: Scene, prim: Any, kind: str, linear: Floats, offset: Float
     if np.abs(turn.T @ turn - np.eye(3)).max() > _SHEAR:
         notes.append(f"{prim.GetPath()} is sheared: engines read it each in its own way, here it is a hull")
         shape = _described(scene, prim, kind, np.eye(3), np.zeros(3), np.ones(3))
-        return shape if shape.shape is None else MeshPart(shape.shape.tessellated().mapped(linear, offset))
+        return shape if shape.shape is None else MeshPart(shape.shape.tessellate().transform(linear, offset))
     along = scales @ np.abs(_axis(scene, prim))  # of the shape's own axes
     across = scales if kind == "Sphere" else along[:2]
     if kind not in ("Cube",) and np.ptp(across) > _SHEAR * across.max():

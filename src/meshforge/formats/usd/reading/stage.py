@@ -25,7 +25,7 @@ class Scene:
     _placed: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)
 
     @staticmethod
-    def opened(path: Path) -> Scene:
+    def open(path: Path) -> Scene:
         """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
         from pxr import Usd
 
@@ -98,7 +98,7 @@ class Scene:
         prim = self.stage.GetDefaultPrim()
         return str(prim.GetPath()) if prim else "/"
 
-    def short(self, path: str, base: str = "") -> str:
+    def shorten_path(self, path: str, base: str = "") -> str:
         """A path as names have it: below another one, or the default prim; that prim's own name for itself."""
         base = base or self.base
         if path == base:

@@ -38,7 +38,7 @@ class StageSurfaces(LazySurfaces):
     def _make(self) -> list[Surface]:
         try:
             with usd(str(self._path)):
-                scene = Scene.opened(self._path)
+                scene = Scene.open(self._path)
                 return [surface for path, body in self._bodies.items() for surface in _shown(scene, path, body)]
         except MeshForgeError:
             return []

@@ -20,7 +20,7 @@ def patched(text: str, before: str, after: str) -> str | None:
     """
     try:
         source, old, new = scanned(text), scanned(before), scanned(after)
-        splices = sorted(_Patch(text, before, after).block(source, old, new, ""), key=lambda splice: splice[:2])
+        splices = sorted(_Patch(text, before, after).patch_block(source, old, new, ""), key=lambda splice: splice[:2])
     except (UnscannableError, KeyError, RecursionError):
         return None
     parts, at = [], 0
@@ -43,16 +43,16 @@ class _Patch:
     def __init__(self, text: str, before: str, after: str) -> None:
         self.text, self.before, self.after = text, before, after
 
-    def block(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
+    def patch_block(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
         """The splices of a prim, or of the whole text; lead: the blanks before what stands in it."""
         was, now = self.before[old.start : old.open], self.after[new.start : new.open]
         if was != now:
             outer = _lead(self.text, source.start)
             yield source.start, source.open, _indented(now, _lead(self.after, new.start), outer)
-        yield from self._properties(source, old, new, lead)
-        yield from self._children(source, old, new, lead)
+        yield from self._patch_properties(source, old, new, lead)
+        yield from self._patch_children(source, old, new, lead)
 
-    def _properties(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
+    def _patch_properties(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
         added = []
         for key, (start, end) in new.own.items():
             text = self.after[start:end]
@@ -67,14 +67,14 @@ class _Patch:
             at = max((end for _, end in source.own.values()), default=source.open + 1)
             yield at, at, "".join(f"\n{lead}{text}" for text in added)
 
-    def _children(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
+    def _patch_children(self, source: Block, old: Block, new: Block, lead: str) -> Iterator[Splice]:
         anchor: Block | None = None
         waiting: dict[int, list[str]] = {}
         for name, child in new.children.items():
             if name in old.children:
                 anchor = source.children[name]
                 inner = _inner_lead(self.text, anchor)
-                yield from self.block(anchor, old.children[name], child, inner)
+                yield from self.patch_block(anchor, old.children[name], child, inner)
                 continue
             text = _indented(self.after[child.start : child.end], _lead(self.after, child.start), lead)
             at = anchor.end if anchor else self._end_of_own(source)

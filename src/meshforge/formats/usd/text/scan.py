@@ -42,7 +42,7 @@ class Block:
 
 def scanned(text: str) -> Block:
     """The blocks of a text. Raises UnscannableError."""
-    return _Scanner(text).whole()
+    return _Scanner(text).scan()
 
 
 def has_comments(text: str) -> bool:
@@ -57,32 +57,32 @@ class _Scanner:
         self.places = [found.span() for found in tokens]
         self.at, self.length = 0, len(text)
 
-    def whole(self) -> Block:
+    def scan(self) -> Block:
         """The text as a block: layer metadata, then prims."""
         root = Block(0)
-        self._skip()
+        self._skip_blanks()
         if self._peek() == "(":
-            self._bracket()
+            self._skip_bracket()
         root.open = self.places[self.at - 1][1] - 1 if self.at else -1
-        while self._skip() and self.at < len(self.words):
-            self._entry(root)
+        while self._skip_blanks() and self.at < len(self.words):
+            self._scan_entry(root)
         root.end = self.length + 1
         return root
 
-    def _entry(self, block: Block) -> None:
+    def _scan_entry(self, block: Block) -> None:
         """A prim, a variant set, or a property."""
         word = self._peek()
         if word in _SPECIFIERS:
-            self._prim(block)
+            self._scan_prim(block)
         else:
-            self._statement(block)
+            self._scan_statement(block)
 
-    def _prim(self, block: Block) -> None:
+    def _scan_prim(self, block: Block) -> None:
         stack = [block]
         while True:
             word = self._peek()
             if word in _SPECIFIERS:
-                stack.append(self._head(stack[-1]))
+                stack.append(self._scan_head(stack[-1]))
             elif word == "}" and len(stack) > 1:
                 self.at += 1
                 stack.pop().end = self.places[self.at - 1][1]
@@ -91,10 +91,10 @@ class _Scanner:
             elif word in ("", "}"):
                 raise UnscannableError
             else:
-                self._statement(stack[-1])
-            self._skip()
+                self._scan_statement(stack[-1])
+            self._skip_blanks()
 
-    def _head(self, parent: Block) -> Block:
+    def _scan_head(self, parent: Block) -> Block:
         """A prim up to its opening brace."""
         made = Block(self.places[self.at][0])
         self.at += 1
@@ -102,7 +102,7 @@ class _Scanner:
         while self._peek() != "{":
             word = self._peek()
             if word == "(":
-                self._bracket()
+                self._skip_bracket()
                 continue
             if word == "" or word in _CLOSE or word == "[":
                 raise UnscannableError
@@ -116,12 +116,12 @@ class _Scanner:
         parent.children[name] = made
         return made
 
-    def _statement(self, block: Block) -> None:
+    def _scan_statement(self, block: Block) -> None:
         """A line at the level of a prim: a property or a variant set, brackets and all."""
         start, words = self.at, list[str]()
         while self._peek() not in ("\n", ";", "", "}"):
             if self._peek() in _OPEN:
-                self._bracket()
+                self._skip_bracket()
             elif self._peek() in _CLOSE:
                 raise UnscannableError
             else:
@@ -134,7 +134,7 @@ class _Scanner:
             raise UnscannableError
         block.own[key] = self.places[start][0], self.places[self.at - 1][1]
 
-    def _bracket(self) -> None:
+    def _skip_bracket(self) -> None:
         """From an opening bracket to behind the one that closes it."""
         depth = 0
         while True:
@@ -146,7 +146,7 @@ class _Scanner:
             if depth == 0:
                 return
 
-    def _skip(self) -> bool:
+    def _skip_blanks(self) -> bool:
         while self._peek() in ("\n", ";"):
             self.at += 1
         return True

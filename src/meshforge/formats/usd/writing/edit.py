@@ -47,12 +47,12 @@ class Edit:
         for element, source in zip(self.document.authored, sources, strict=True):
             staying = [k for k, name in enumerate(element.names) if name in kept]
             if len(staying) < len(element.names):
-                self._take(element, source, staying)
+                self._remove(element, source, staying)
         known = {name: k for k, element in enumerate(self.document.authored) for name in element.names}
         for geom in asset.geoms:
             if geom.parent is not None or geom.name not in known:
                 parent = known.get(geom.parent or "")
-                self._make(geom, None if parent is None else sources[parent])
+                self._add_hull(geom, None if parent is None else sources[parent])
 
     @property
     def notes(self) -> list[str]:
@@ -69,28 +69,28 @@ class Edit:
             found.append(f"{counted(number, 'prim')} {verb}, to be seen, and no longer collide")
         return found
 
-    def _take(self, element: Authored, source: Source, staying: Sequence[int]) -> None:
+    def _remove(self, element: Authored, source: Source, staying: Sequence[int]) -> None:
         """Take a prim's collision, and put the pieces that stay beside it."""
         if element.fixed:
             raise AssetError(f"hull {element.names[0]!r} cannot be changed: it {element.fixed}", where=self._where)
         self._how[take_collision(self.scene, self.layer, source.prim, self.document.physics)] += 1
         self.changed.add(element.body)
         for k in staying:
-            self._part(element.names[k], element.body, source, source.parts[k])
+            self._keep_piece(element.names[k], element.body, source, source.parts[k])
 
-    def _part(self, name: str, body: str, source: Source, part: MeshPart) -> None:
+    def _keep_piece(self, name: str, body: str, source: Source, part: MeshPart) -> None:
         shape = part.shape or part.surface
         if shape is None:
             raise AssetError(f"{name!r} cannot stay without the rest of its mesh", where=self._where)
-        holder, space = self._holder(source, body)
+        holder, space = self._find_holder(source, body)
         spec = mesh(holder, self._free_name(holder, name), np.asarray(shape.vertices), shape.faces, space)
         self._finish(spec, name, body, source, "convexHull" if part.shape else "none")
 
-    def _make(self, geom: Geom, parent: Source | None) -> None:
+    def _add_hull(self, geom: Geom, parent: Source | None) -> None:
         """A new prim beside that of its parent, or below its body."""
         if parent is not None and parent.fixed:
             raise AssetError(f"hull {geom.name!r} takes after {parent.path}, which {parent.fixed}", where=self._where)
-        holder, space = self._holder(parent, geom.body)
+        holder, space = self._find_holder(parent, geom.body)
         wanted = self._free_name(holder, geom.name)
         spec, approximation = native(holder, wanted, geom.shape, space), None
         if spec is None:
@@ -112,11 +112,11 @@ class Edit:
         if read != name:
             self.names[name] = read
 
-    def _holder(self, parent: Source | None, body: str) -> tuple[Any, Space]:
+    def _find_holder(self, parent: Source | None, body: str) -> tuple[Any, Space]:
         """The spec below which a new prim goes, and the space that it is put in."""
         from pxr import Sdf
 
-        prim = self._holding_prim(parent, body)
+        prim = self._find_holding_prim(parent, body)
         while not prim.IsPseudoRoot() and not _is_regular(self.scene, prim):
             prim = prim.GetParent()
         if prim.IsPseudoRoot():
@@ -127,7 +127,7 @@ class Edit:
                 Sdf.CreatePrimInLayer(self.layer, prim.GetPath()).SetInfo("instanceable", False)
         return Sdf.CreatePrimInLayer(self.layer, prim.GetPath()), Space(*self.scene.placement(prim))
 
-    def _holding_prim(self, parent: Source | None, body: str) -> Any:
+    def _find_holding_prim(self, parent: Source | None, body: str) -> Any:
         own = next((path for path, name in self.bodies.names.items() if name == body), None)
         if own is None and body != BODY:
             raise AssetError(f"there is no body {body!r} in the file", where=self._where)

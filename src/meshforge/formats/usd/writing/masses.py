@@ -73,7 +73,7 @@ def author(spec: Any, inertial: Inertial, body: Space, unit: Unit) -> None:
     """Write a mass on the prim of a body, in its own space and in the units of the stage."""
     from pxr import Gf
 
-    centre = tidy(body.points(inertial.centre[None])[0], 1.0)
+    centre = tidy(body.to_local(inertial.centre[None])[0], 1.0)
     turn = rotation_of(body.linear).T
     moments, axes = _principal(tidy(turn @ inertial.inertia @ turn.T))
     moments = moments / (unit.kilograms * unit.metres**2)

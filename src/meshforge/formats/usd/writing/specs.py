@@ -25,11 +25,11 @@ class Space:
     linear: Floats
     offset: Floats
 
-    def points(self, points: Floats) -> Floats:
+    def to_local(self, points: Floats) -> Floats:
         """Points (n, 3) of the root frame in this space."""
         return np.asarray(np.linalg.solve(self.linear, (points - self.offset).T).T)
 
-    def split(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
+    def split_pose(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
         """A pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None where it would shear."""
         linear = np.linalg.solve(self.linear, pose.rotation)
         scales = np.linalg.norm(linear, axis=0)
@@ -38,7 +38,7 @@ class Space:
             return None
         if np.linalg.det(turn) < 0:  # the shapes that ask are symmetric
             turn = turn * np.array([1.0, 1.0, -1.0])
-        return self.points(pose.translation[None])[0], turn, scales
+        return self.to_local(pose.translation[None])[0], turn, scales
 
 
 def new_prim(holder: Any, name: str, kind: str) -> Any:
@@ -109,7 +109,7 @@ def native(holder: Any, name: str, shape: Shape, space: Space) -> Any | None:
     """The prim of a box, sphere, cylinder or capsule; None where USD lacks the shape, or would shear it here."""
     if not isinstance(shape, Box | Sphere | Cylinder | Capsule):
         return None
-    found = space.split(shape.pose)
+    found = space.split_pose(shape.pose)
     if found is None:
         return None
     at, turn, scales = found
@@ -136,7 +136,7 @@ def mesh(holder: Any, name: str, points: Floats, faces: Ints, space: Space) -> A
     """The prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are finest."""
     from pxr import Vt
 
-    local = space.points(points)
+    local = space.to_local(points)
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
     spec = new_prim(holder, name, "Mesh")
     place(spec, middle)

@@ -43,7 +43,7 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     with usd(str(asset.path)):
         from pxr import Sdf
 
-        scene = Scene.opened(asset.path)
+        scene = Scene.open(asset.path)
         layer = Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(scene.stage.GetRootLayer())
         notes, names = list(far), dict[str, str]()

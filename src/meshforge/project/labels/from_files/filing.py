@@ -47,7 +47,7 @@ def take_over(
 def _taken_over(taker: Taker, asset: str, says: Says) -> Labelled:
     if says.error:
         return Labelled(asset, problems=(says.error,))
-    report = taker.taken(asset, says.hulls, says.given.labels, any_may)
+    report = taker.try_write(asset, says.hulls, says.given.labels, any_may)
     return replace(report, problems=(*report.problems, *says.given.problems))
 
 

@@ -50,7 +50,7 @@ def _meant(
 ) -> tuple[str, Meaning | None]:
     """What a hull is called, and what that means."""
     of_link = meaning_of(semantic, vocabulary, patterns)
-    for _, name in own.own_said():
+    for _, name in own.own_names():
         meaning = meaning_of(name, vocabulary, patterns)
         if meaning and meaning.sure >= EXACT and not (of_link and meaning.label == of_link.label):
             return name, meaning

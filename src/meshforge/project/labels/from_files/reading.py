@@ -73,7 +73,7 @@ def sayings(
     ]
     with (
         closing(surveyed(project.found, layout, plain, spread=spread)) as facts,
-        closing(spread.over(_by_mesh, work)) as others,
+        closing(spread.run(_by_mesh, work)) as others,
     ):
         for asset, file in files.items():
             if asset in plain:

@@ -50,20 +50,20 @@ def compared(sketches: Sketches, told: Mapping[str, Sequence[str | None]], sprea
     """Compare all hulls. told: of each asset the labels of its hulls, as far as known; spread, stage: of the work."""
     from meshforge.perception.propagation import family_of, righted, weights
 
-    seen = {asset: sketches.seen(asset) for asset in told}
+    seen = {asset: sketches.read_rows(asset) for asset in told}
     missing = [asset for asset, own in seen.items() if own is None]
     with stage(len(missing), "describing") as advance:
-        lost = dict(sketches.make(missing, advance))
-    seen |= {asset: sketches.seen(asset) for asset in missing}
+        lost = dict(sketches.describe(missing, advance))
+    seen |= {asset: sketches.read_rows(asset) for asset in missing}
     described = {asset: own for asset, own in seen.items() if own}
     lost |= {asset: f"{asset}: how it is described was not kept" for asset in missing if asset not in described | lost}
     assets = tuple(described)
-    family = family_of([*described.values()]).taught([label for asset in assets for label in told[asset]])
+    family = family_of([*described.values()]).with_labels([label for asset in assets for label in told[asset]])
     del seen, described
     doubtful = list(_doubtful(family, assets, sketches, spread.stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
-        looked = _looked(sketches.on_sides(doubtful, advance), places, lost)
+        looked = _looked(sketches.describe_sides(doubtful, advance), places, lost)
         family = righted(family, looked, weights())
     return Compared(assets, _in_the_end(family, spread.stop), lost)
 
@@ -74,7 +74,7 @@ def _doubtful(
     """The assets that may lie on another side, and on which."""
     from meshforge.perception.propagation import doubtful_sides, weights
 
-    for place, sides in doubtful_sides(family, lambda place: sketches.sides(assets[place]), weights()):
+    for place, sides in doubtful_sides(family, lambda place: sketches.read_sides(assets[place]), weights()):
         heed(stop)
         if sides:
             yield assets[place], sides

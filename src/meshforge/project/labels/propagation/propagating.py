@@ -48,7 +48,7 @@ def propagate(
             if why := said.lost.get(asset):
                 reports.append(Labelled(asset, problems=(why,)))
             else:
-                reports.append(taker.taken(asset, said.hulls[asset], said.given(asset), gives_way))
+                reports.append(taker.try_write(asset, said.hulls[asset], said.labels_of(asset), gives_way))
             report(reports[-1])
             advance()
     return Carried(tuple(reports), said.next)
@@ -60,7 +60,7 @@ def foretold(project: Project, vocabulary: Sequence[str] | None, spread: Spread,
     said = _said(project, words, spread, stage)
     found, labelled = list[Evidence](), 0
     for asset in (asset for asset in project.assets() if asset not in said.lost):
-        hulls, given = said.hulls[asset], said.given(asset)
+        hulls, given = said.hulls[asset], said.labels_of(asset)
         current = label_homes(project.labels(asset), hulls).labels
         taken = {name: label for name, label in given.items() if is_taken(current.get(name), label)}
         found += [Evidence(asset, label, "likeness", name) for name, label in taken.items()]
@@ -83,7 +83,7 @@ class _Said:
     next: str | None
     found: Compared
 
-    def given(self, asset: str) -> dict[str, Label]:
+    def labels_of(self, asset: str) -> dict[str, Label]:
         """The labels of an asset, by hull."""
         rows = zip(self.hulls[asset], self.found.labels(asset), strict=True)
         return {name: label for name, label in rows if label}

@@ -70,32 +70,32 @@ class Sketches:
             for asset, own in facts.items()
         }
 
-    def make(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
+    def describe(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
         """Describe some assets, and give those that cannot be, with why; done: called for each."""
         work = [self._work[asset] for asset in assets]
-        for asset, result in zip(assets, self._spread.over(_described, work, done), strict=True):
+        for asset, result in zip(assets, self._spread.run(_described, work, done), strict=True):
             if isinstance(result, Lost):
                 yield asset, f"{self._work[asset].path}: {result.why}"
             elif result:
                 yield asset, result
 
-    def seen(self, asset: str) -> tuple[Floats, Ints] | None:
+    def read_rows(self, asset: str) -> tuple[Floats, Ints] | None:
         """The rows of an asset, and which of its hulls touch, as of `Sketch`; None where it has to be described."""
         found = _kept(self._work[asset], "seen", "rows", "touching")
         return (found[0], found[1]) if found else None
 
-    def sides(self, asset: str) -> Floats:
+    def read_sides(self, asset: str) -> Floats:
         """The other sides of an asset that was described, as of `Sketch`."""
         if found := _kept(self._work[asset], "seen", "sides"):
             return found[0]
         raise AssetError("how it is described is gone", where=str(self._work[asset].path), remedy=_AGAIN)
 
-    def on_sides(
+    def describe_sides(
         self, wanted: Sequence[tuple[str, tuple[int, ...]]], done: Callable[[], None]
     ) -> Iterator[tuple[str, list[Floats] | str]]:
         """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
-        for (asset, _), result in zip(wanted, self._spread.over(_on_sides, work, done), strict=True):
+        for (asset, _), result in zip(wanted, self._spread.run(_on_sides, work, done), strict=True):
             yield asset, f"{self._work[asset].path}: {result.why}" if isinstance(result, Lost) else result
 
 
@@ -114,7 +114,7 @@ def _described(work: _Work) -> str | None:
     from meshforge.perception.propagation import Sketcher, write_arrays
 
     try:
-        sketch = Sketcher(_mesh(work)).sketch()
+        sketch = Sketcher(_mesh(work)).describe()
         arrays = {"rows": sketch.rows, "touching": sketch.touching, "sides": sketch.sides}
         write_arrays(work.place("seen"), work.key, arrays)
     except Exception as error:  # one asset never stops the others
@@ -133,7 +133,7 @@ def _on_sides(work: _Work) -> list[Floats] | str:
         for side, kept in known.items():
             if kept is None:
                 assert sketcher
-                kept = [sketcher.on_side(side)]
+                kept = [sketcher.describe_side(side)]
                 write_arrays(work.place(f"side{side}"), work.key, {"rows": kept[0]})
             found += kept
         return found

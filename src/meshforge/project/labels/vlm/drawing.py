@@ -35,7 +35,7 @@ def drawn(project: Project, manner: Manner, spread: Spread) -> Generator[tuple[s
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = project.assets()
     items = list(zip(assets, places(project, assets), strict=True))
-    work = spread.over(partial(_drawn, manner), items)
+    work = spread.run(partial(_drawn, manner), items)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield asset, Drawn(error=f"{project.path(asset)}: {found.why}") if isinstance(found, Lost) else found
@@ -48,7 +48,7 @@ def _drawn(manner: Manner, item: tuple[str, Place]) -> Drawn:
 
     asset, place = item
     try:
-        mesh = place.mesh()
+        mesh = place.read_mesh()
         wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
         return Drawn(digests(mesh), wanted, tuple(looks(mesh, wanted, manner, asset)))
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels

@@ -71,9 +71,9 @@ def forecast(
                 unreadable.append(asset)
                 continue
             assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)
-            for look in map(labeller.shown, found.looks):
+            for look in map(labeller.add_examples, found.looks):
                 questions += 1
-                if client.known(look.question):
+                if client.find_answer(look.question):
                     known += 1
                     continue
                 pictures += len(look.question.digests)

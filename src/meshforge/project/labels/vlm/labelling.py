@@ -33,7 +33,7 @@ class VlmLabelled:
     """
 
     reports: tuple[Labelled, ...]
-    bill: Bill
+    usage: Bill
     open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unasked: tuple[str, ...] = ()
     ended: str | None = None
@@ -68,7 +68,7 @@ def label_with_vlm(
         while not (client.end or (stop and stop())) and (found := next(pictures, None)):
             run.begin(*found)
         run.finish()
-    return run.told()
+    return run.result()
 
 
 class _Run:
@@ -104,9 +104,9 @@ class _Run:
                 for write in self._unwritten:
                     write()
 
-    def told(self) -> VlmLabelled:
+    def result(self) -> VlmLabelled:
         """What came of it all. Raises the error that ended it, where nothing came of it."""
-        end, bill = self._client.end, self._client.bill
+        end, bill = self._client.end, self._client.usage
         if end and not bill.answered + bill.cached:
             raise end
         reports = tuple(self._reports[asset] for asset in self._project.assets() if asset in self._reports)
@@ -116,7 +116,7 @@ class _Run:
 
     def _write(self, asset: str) -> None:
         hulls, pending = self._pending.pop(asset)
-        said = pending.said()
+        said = pending.result()
         end = self._client.end
         failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
         if end and said.failed and not said.labels:
@@ -127,7 +127,7 @@ class _Run:
             _write_page(self._project.layout.vlm, asset, said)
 
         def write() -> None:
-            report = self._taker.take(asset, hulls, said.labels, gives_way)
+            report = self._taker.write(asset, hulls, said.labels, gives_way)
             self._reports[asset] = replace(report, problems=(*report.problems, *failed))
 
         if self._keeping:
@@ -138,7 +138,7 @@ class _Run:
 
     def _advance(self) -> None:
         if self._progress:
-            self._progress(self._client.bill)
+            self._progress(self._client.usage)
 
 
 def _write_page(folder: Path, asset: str, said: Said) -> None:
@@ -156,5 +156,5 @@ def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
         if len(guessed) == len(mesh.hulls):
             remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
             raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
-        meshes.append(mesh.labelled(guessed))
+        meshes.append(mesh.with_labels(guessed))
     return meshes

@@ -59,7 +59,7 @@ def select(desk: AtDesk, request: SelectRequest) -> Selected:
 @router.post("/generalise")
 def generalise(desk: AtDesk, request: GeneraliseRequest) -> Generalised:
     """What an extractor selects on all assets."""
-    return arrived(desk.lessons.generalised(request.extractor, request.rule))
+    return arrived(desk.learning.generalise(request.extractor, request.rule))
 
 
 @router.get("/result")
@@ -80,7 +80,7 @@ def guesses(desk: AtDesk, asset: str) -> Guesses:
 
 def present_program(desk: Desk) -> Program | None:
     """The program of the present lesson, or else the accepted one; a program by hand goes before lessons."""
-    lesson, accepted = desk.shown.lesson, desk.shown.program
+    lesson, accepted = desk.pages.lesson, desk.pages.program
     if lesson and lesson.program and not accepted.by_hand:
         return Program.parse(lesson.program)
     if accepted.error:

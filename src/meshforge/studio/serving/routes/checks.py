@@ -25,12 +25,12 @@ _FOR_EVER = {"Cache-Control": "private, max-age=31536000, immutable"}
 @router.get("")
 async def checked(desk: AtDesk, request: Request, asset: str, part: Part) -> Checked:
     """What is measured of the output of an asset."""
-    desk.check(asset)
-    known = desk.checks.part(desk.project, asset, part)
+    desk.check_assets(asset)
+    known = desk.checks.check_part(desk.project, asset, part)
     fresh = not known.done()
     found = await _awaited(request, known)
     if fresh:  # its card may tell more now
-        desk.chores.add([asset])
+        desk.refresh_queue.add([asset])
     return found
 
 
@@ -39,17 +39,17 @@ async def pictures(
     desk: AtDesk, request: Request, asset: str, part: Literal["fit", "clearance"]
 ) -> tuple[CheckPicture, ...]:
     """The pictures of it, drawn."""
-    desk.check(asset)
-    return await _awaited(request, desk.checks.pictures(desk.project, asset, part))
+    desk.check_assets(asset)
+    return await _awaited(request, desk.checks.draw_pictures(desk.project, asset, part))
 
 
 @router.get("/picture")
 def picture(desk: AtDesk, asset: str, name: str, v: str) -> Response:
     """One of them; v: the digest on the card."""
-    desk.check(asset)
+    desk.check_assets(asset)
     if not (v.isalnum() and v.isascii() and name.replace("-", "").isalpha() and name.isascii()):
         raise NotHereError("there is no such picture", where=asset)
-    return Response(desk.checks.picture(asset, v, name), media_type="image/png", headers=_FOR_EVER)
+    return Response(desk.checks.read_picture(asset, v, name), media_type="image/png", headers=_FOR_EVER)
 
 
 async def _awaited(request: Request, future: Future[Result]) -> Result:

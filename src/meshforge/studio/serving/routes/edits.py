@@ -41,13 +41,13 @@ def learn(desk: AtDesk) -> Done:
 @router.post("/learn/stop")
 def stop_learning(desk: AtDesk) -> Done:
     """Stop the lesson that is under way."""
-    desk.lessons.stop()
-    return Done(said="stopped")
+    desk.learning.stop()
+    return Done(describe="stopped")
 
 
 @router.get("/labels/sources")
 def label_sources(desk: AtDesk) -> LabelSources:
     """Where labels could come from, as far as assets are read by now."""
-    offered = desk.offers.of(desk.project, {card.asset for card in desk.shown.cards if card.hulls is not None})
+    offered = desk.offers.of(desk.project, {card.asset for card in desk.pages.cards if card.hulls is not None})
     names = sum(map(len, offered.names.values()))
     return LabelSources(files=len(offered.files), names=names, model=model_of(desk.project))

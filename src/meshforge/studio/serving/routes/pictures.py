@@ -19,7 +19,7 @@ _FOR_EVER = {"Cache-Control": "private, max-age=31536000, immutable"}
 @router.get("/thumbnail")
 async def thumbnail(desk: AtDesk, asset: str, of: Of, v: str) -> Response:
     """The thumbnail of an asset or of its output; v: the digest on its card."""
-    desk.check(asset)
+    desk.check_assets(asset)
     if not (v.isalnum() and v.isascii() and len(v) == 32):
         raise NotHereError("there is no such picture", where=asset)
     data = await wrap_future(desk.thumbnails.get(desk.project, asset, of, v))

@@ -17,7 +17,7 @@ async def socket(connection: WebSocket, desk: AtDesk) -> None:
     """Tell a page all events until it leaves, or the studio is closed."""
     await connection.accept()
     page = Page(get_running_loop())
-    desk.shown.join(page)
+    desk.pages.join(page)
     tasks = [create_task(_tell(connection, page)), create_task(_listen(connection))]
     try:
         await wait(tasks, return_when=FIRST_COMPLETED)

@@ -20,7 +20,7 @@ def met(project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Pr
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     plan = program or Program(orient=project.orientation)
-    seen = project.met(asset, rule, plan, {asset: mesh})
+    seen = project.mesh_before_rule(asset, rule, plan, {asset: mesh})
     pose = Z_FROM_Y if stands_on_y(mesh, plan.orient) else None
     header = json.dumps({"names": [hull.name for hull in seen.hulls]})
     return framed(header.encode(), thumbnail(seen, pose, SIZE))

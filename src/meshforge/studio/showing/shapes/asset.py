@@ -37,7 +37,7 @@ def asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetView:
         contact_distance=seen.contact_distance,
         upright=numbers(shown.pose),
         unturned=shown.problem,
-        steps=_steps(project.steps(asset), course.deeds if course else (), shown.problem or problem),
+        steps=_steps(project.steps(asset), course.results if course else (), shown.problem or problem),
         version=steps_version(project, asset),
         corrections=_corrections(project, asset),
         prepared=tuple(map(str, project.preparation(asset).steps)),

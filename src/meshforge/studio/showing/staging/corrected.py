@@ -43,4 +43,4 @@ def added(mesh: SymbolicMesh, asset: str, select: Sequence[str], action: Action,
             like = nearest(name, mesh.index)
             remedy = f"Did you mean {like!r}?" if like else None
             raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-    return Correction(tuple((name, digest(mesh.named(name).shape)) for name in select), action, label)
+    return Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)

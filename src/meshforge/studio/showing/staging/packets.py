@@ -64,7 +64,7 @@ def _known(source: SymbolicMesh, hull: Hull) -> bool:
     """Whether the asset has a hull of that name and shape."""
     if hull.name not in source.index:
         return False
-    mine = source.named(hull.name).shape
+    mine = source.hull_of(hull.name).shape
     return mine is hull.shape or digest(mine) == digest(hull.shape)
 
 

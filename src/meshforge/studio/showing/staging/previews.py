@@ -19,7 +19,7 @@ def staged(project: Project, asset: str, mesh: SymbolicMesh, steps: int) -> byte
     A step that cannot be done is left out, and the note says why. Raises ProgramError where it cannot be turned.
     """
     course = walk(project, asset, mesh, steps)
-    home = course.home
+    home = course.incoming_mesh
     told = Told(_problems(course), _trace(course), findings_of_made(mesh, home))
     return edited_packet(mesh, mesh, home, told, course.mesh)
 
@@ -35,9 +35,9 @@ def preview(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRe
 def _preview_step(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
     action, label = parse_action_text(request.action, asset)
     before = walk(project, asset, mesh, request.steps)
-    after = before.then(before.mask(request.select), action, label, project.templates(action.templates))
-    start, home = before.home, after.home
-    deed = after.deeds[-1]
+    after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
+    start, home = before.incoming_mesh, after.incoming_mesh
+    deed = after.results[-1]
     notes = "; ".join(note for note in (_problems(before), deed.note) if note)
     told = Told(notes or None, _trace(after)[-1:], findings_of_made(start, home))
     return edited_packet(mesh, start, home, told, after.mesh)
@@ -55,10 +55,10 @@ def _preview_by_hand(project: Project, asset: str, mesh: SymbolicMesh, request: 
 def _trace(course: Course) -> tuple[TraceLine, ...]:
     return tuple(
         TraceLine(rule=deed.rule, selected=deed.selected, made=deed.made, note=deed.error or deed.note)
-        for deed in course.deeds
+        for deed in course.results
     )
 
 
 def _problems(course: Course) -> str | None:
     """Why steps were left out, None where all were done."""
-    return "; ".join(deed.error for deed in course.deeds if deed.error) or None
+    return "; ".join(deed.error for deed in course.results if deed.error) or None

@@ -52,7 +52,7 @@ def _state(
 ) -> SymbolicMesh:
     if request.rule is None:
         return walk(project, asset, mesh, request.steps).mesh
-    return project.met(asset, request.rule, program or Program(orient=project.orientation), {asset: mesh})
+    return project.mesh_before_rule(asset, request.rule, program or Program(orient=project.orientation), {asset: mesh})
 
 
 def _indent(text: str) -> tuple[int, int]:

@@ -33,7 +33,7 @@ def refuse_harmful_crate(data: bytes, where: str) -> None:
             if name in sections:
                 _look_at_numbers(sections[name], 3 if name == b"SPECS" else 1)
         if b"STRINGS" in sections:
-            sections[b"STRINGS"].skip(sections[b"STRINGS"].number(), 4)
+            sections[b"STRINGS"].skip(sections[b"STRINGS"].read_number(), 4)
         if b"FIELDS" in sections:
             refuse_harmful_values(Bytes(data, 0, allowance), _fields(sections[b"FIELDS"], names), version)
     except ContradictionError as contradiction:
@@ -44,7 +44,7 @@ def refuse_harmful_crate(data: bytes, where: str) -> None:
 
 def _version(data: bytes, allowance: Allowance, where: str) -> tuple[int, ...]:
     head = Bytes(data, len(CRATE), allowance)
-    version = head.number(1), head.number(1), head.number(1)
+    version = head.read_number(1), head.read_number(1), head.read_number(1)
     if version < _OLDEST:
         problem = f"it is of version {'.'.join(map(str, version))} of the binary format, which is not read any more"
         raise AssetError(problem, where=where, remedy="Write it anew with an older release of USD.")
@@ -54,14 +54,14 @@ def _version(data: bytes, allowance: Allowance, where: str) -> tuple[int, ...]:
 def _sections(data: bytes, allowance: Allowance) -> dict[bytes, Bytes]:
     """The first of each name."""
     contents = Bytes(data, _CONTENTS, allowance)
-    contents.at = contents.number()
-    count = contents.number()
+    contents.at = contents.read_number()
+    count = contents.read_number()
     if count > _MOST_SECTIONS:
         raise ContradictionError("its table of contents does not fit it")
     found: dict[bytes, Bytes] = {}
     for _ in range(count):
         name = data[contents.skip(_NAME) : contents.at].split(b"\0", 1)[0]
-        start, size = contents.number(), contents.number()
+        start, size = contents.read_number(), contents.read_number()
         if start + size > len(data):
             raise ContradictionError("its table of contents does not fit it")
         found.setdefault(name, Bytes(data, start, allowance, start + size))
@@ -70,9 +70,9 @@ def _sections(data: bytes, allowance: Allowance) -> dict[bytes, Bytes]:
 
 def _tokens(section: Bytes) -> bytes:
     """The names of everything, each with a zero byte behind it."""
-    count, size = section.number(), section.number()
+    count, size = section.read_number(), section.read_number()
     section.allowance.take(count)
-    text = section.unpacked(section.number(), size)
+    text = section.unpack(section.read_number(), size)
     if len(text) < size or text.count(b"\0") < count:
         raise ContradictionError("its names are fewer than it says")
     deep = text.count(b"/") > DEEPEST or text.count(b"(") > DEEPEST
@@ -84,11 +84,11 @@ def _tokens(section: Bytes) -> bytes:
 
 
 def _look_at_paths(section: Bytes) -> None:
-    section.allowance.take(section.number())
-    count = section.number()
+    section.allowance.take(section.read_number())
+    count = section.read_number()
     for _ in ("places", "names"):
         section.skip_integers(count)
-    if _deepest(section.integers(count)) > DEEPEST:
+    if _deepest(section.read_integers(count)) > DEEPEST:
         raise ExcessError(f"it is nested more than {DEEPEST} deep")
 
 
@@ -118,7 +118,7 @@ def _deepest(jumps: NDArray[np.int32]) -> int:
 
 
 def _look_at_numbers(section: Bytes, tables: int) -> None:
-    count = section.number()
+    count = section.read_number()
     for _ in range(tables):
         section.skip_integers(count)
 
@@ -128,9 +128,9 @@ def _fields(section: Bytes, names: bytes) -> NDArray[np.uint64]:
 
     A path expression as metadata of a prim, such as `kind`, ends the library's process when it makes a stage.
     """
-    count = section.number()
-    named = section.integers(count)
-    values = section.unpacked(section.number(), 8 * count)
+    count = section.read_number()
+    named = section.read_integers(count)
+    values = section.unpack(section.read_number(), 8 * count)
     if len(values) < 8 * count:
         raise ContradictionError("its fields are fewer than it says")
     found = np.frombuffer(values, np.uint64)

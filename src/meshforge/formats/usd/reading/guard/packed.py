@@ -52,28 +52,28 @@ class Bytes:
             raise ContradictionError("its parts lie over each other")
         return start
 
-    def number(self, size: int = 8) -> int:
+    def read_number(self, size: int = 8) -> int:
         """An unsigned number."""
         return int.from_bytes(self.data[self.skip(size) : self.at], "little")
 
-    def unpacked(self, size: int, most: int) -> bytes:
+    def unpack(self, size: int, most: int) -> bytes:
         """So many bytes, unpacked: at most so many."""
         start = self.skip(size)
         if not size:
             return b""
         blocks, at = self.data[start], start + 1
         if not blocks:
-            return self._block(at, self.at, most)
+            return self._unpack_block(at, self.at, most)
         parts = []
         for _ in range(blocks):
             length = int.from_bytes(self.data[at : at + 4], "little", signed=True)
             if length < 0 or at + 4 + length > self.at:
                 raise ContradictionError("what is packed in it lies outside of it")
-            parts.append(self._block(at + 4, at + 4 + length, most))
+            parts.append(self._unpack_block(at + 4, at + 4 + length, most))
             at, most = at + 4 + length, most - len(parts[-1])
         return b"".join(parts)
 
-    def _block(self, start: int, end: int, most: int) -> bytes:
+    def _unpack_block(self, start: int, end: int, most: int) -> bytes:
         import lz4.block
 
         room = min(most, _DENSEST * (end - start) + 64)
@@ -83,11 +83,11 @@ class Bytes:
         except (lz4.block.LZ4BlockError, ValueError) as error:
             raise ContradictionError("what is packed in it cannot be unpacked") from error
 
-    def integers(self, count: int) -> NDArray[np.int32]:
+    def read_integers(self, count: int) -> NDArray[np.int32]:
         """(count,) numbers of four bytes, coded by their differences and packed."""
         self.allowance.take(count)
         codes = (count + 3) // 4
-        coded = self.unpacked(self.number(), 4 + codes + 4 * count)
+        coded = self.unpack(self.read_number(), 4 + codes + 4 * count)
         letters = np.frombuffer(coded, np.uint8)
         if len(coded) < 4 + codes:
             raise ContradictionError(_FEWER)
@@ -106,7 +106,7 @@ class Bytes:
     def skip_integers(self, count: int) -> None:
         """Go over numbers that are coded and packed, as many as such bytes can stand for."""
         self.allowance.take(count)
-        size = self.number()
+        size = self.read_number()
         self.skip(size)
         if count > 4 * _DENSEST * (size + 16):
             raise ContradictionError(_FEWER)

@@ -40,7 +40,7 @@ def refuse_harmful_values(data: Bytes, values: NDArray[np.uint64], version: tupl
     while waiting:
         value = waiting.pop()
         if value not in inside:
-            inside[value] = list(_Value(data, value, version).inner())
+            inside[value] = list(_Value(data, value, version).find_inner())
             waiting += inside[value]
     _refuse_deep(inside, roots)
 
@@ -79,86 +79,86 @@ class _Value:
         self.bits, self.kind, self.version = value, (value >> 48) & 0xFF, version
         self.file = Bytes(data.data, value & _PLACE, data.allowance)
 
-    def inner(self) -> Iterator[int]:
+    def find_inner(self) -> Iterator[int]:
         """The values within it. Raises ContradictionError where there are fewer things than it says."""
         file, kind, bits = self.file, self.kind, self.bits
         many = kind in _SIZES or kind > _LAST  # other kinds have no arrays, whatever their bits say
         if many and bits & (_ARRAY | _EDIT) and not bits & _PLACE:
             return
         if many and bits & _ARRAY:
-            self._array()
+            self._check_array()
         elif many and bits & _EDIT:
-            yield from (_as(file.number(), kind, _ARRAY), _as(file.number(), _LONG, _ARRAY))
+            yield from (_as(file.read_number(), kind, _ARRAY), _as(file.read_number(), _LONG, _ARRAY))
         elif bits & _INLINED:
             return
         elif kind in _VECTORS:
-            file.skip(file.number(), _VECTORS[kind])
+            file.skip(file.read_number(), _VECTORS[kind])
         elif kind in _LISTS:
-            self._each_list(lambda: file.skip(file.number(), _LISTS[kind]))
+            self._visit_lists(lambda: file.skip(file.read_number(), _LISTS[kind]))
         elif kind == _PAYLOADS:
-            self._each_list(lambda: file.skip(file.number(), 24 if self.version >= (0, 8, 0) else 8))
+            self._visit_lists(lambda: file.skip(file.read_number(), 24 if self.version >= (0, 8, 0) else 8))
         elif kind in _VALUES:
-            yield self._held()
+            yield self._read_held()
         else:
-            yield from self._nested()
+            yield from self._find_nested()
 
-    def _nested(self) -> list[int]:
+    def _find_nested(self) -> list[int]:
         found: list[int] = []
         file, kind = self.file, self.kind
 
         def dictionary() -> None:
-            for _ in range(file.number()):
+            for _ in range(file.read_number()):
                 file.skip(4)
-                found.append(self._held())
+                found.append(self._read_held())
 
         def reference() -> None:
             file.skip(24)
             dictionary()
 
         def many(read: Callable[[], None]) -> None:
-            for _ in range(file.number()):
+            for _ in range(file.read_number()):
                 read()
 
         if kind == _DICTIONARY:
             dictionary()
         elif kind == _REFERENCES:
-            self._each_list(lambda: many(reference))
+            self._visit_lists(lambda: many(reference))
         elif kind == _UNKNOWN_LIST:
-            self._each_list(lambda: many(lambda: found.append(self._held())))
+            self._visit_lists(lambda: many(lambda: found.append(self._read_held())))
         elif kind == _SAMPLES:
-            found.append(_as(self._held(), _DOUBLES))
+            found.append(_as(self._read_held(), _DOUBLES))
             self._jump()
-            count = file.number()
+            count = file.read_number()
             start = file.skip(count, 8)
             found += np.frombuffer(file.data, "<u8", count, start).tolist()
         elif kind == _SPLINE:
-            file.skip(file.number())
-            for _ in range(file.number()):
+            file.skip(file.read_number())
+            for _ in range(file.read_number()):
                 file.skip(8)
                 dictionary()
         return found
 
-    def _each_list(self, read: Callable[[], object]) -> None:
-        for _ in range((self.file.number(1) & _LISTED).bit_count()):
+    def _visit_lists(self, read: Callable[[], object]) -> None:
+        for _ in range((self.file.read_number(1) & _LISTED).bit_count()):
             read()
 
-    def _held(self) -> int:
+    def _read_held(self) -> int:
         """A value that is told where it lies."""
         self._jump()
-        return self.file.number()
+        return self.file.read_number()
 
     def _jump(self) -> None:
         start = self.file.at
-        offset = self.file.number()
+        offset = self.file.read_number()
         if offset < 8:
             raise ContradictionError("values in it lie in each other")
         self.file.at = start + offset
 
-    def _array(self) -> None:
+    def _check_array(self) -> None:
         file, kind = self.file, self.kind
         if self.version < (0, 5, 0):
             file.skip(4)
-        count = file.number(4 if self.version < (0, 7, 0) else 8)
+        count = file.read_number(4 if self.version < (0, 7, 0) else 8)
         whole = kind in _INTEGERS and self.version >= (0, 5, 0)
         real = kind in _REALS and self.version >= (0, 6, 0)
         if not (self.bits & _PACKED and (whole or real)) or count < _SHORT:
@@ -166,6 +166,6 @@ class _Value:
         elif whole:
             file.skip_integers(count)
         else:
-            if file.number(1) == ord("t"):
-                file.skip(file.number(4), _SIZES[kind])
+            if file.read_number(1) == ord("t"):
+                file.skip(file.read_number(4), _SIZES[kind])
             file.skip_integers(count)
