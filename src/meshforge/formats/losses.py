@@ -29,5 +29,5 @@ class Loss:
     def __str__(self) -> str:
         named = f" ({listed(self.names, 3)})" if self.names else ""
         verb = "is" if self.count == 1 else "are"
-        head = f"{counted(self.count, self.what.one, self.what.many)}{named}"
+        head = f"{counted(self.count, self.kind.one, self.kind.many)}{named}"
         return f"{head} {verb} {self.instead or 'left out'}: {self.why}"

@@ -51,7 +51,7 @@ def report(asset: Asset, source: Format | None, target: Format, output: Output, 
 
 def _without(feature: Feature, losses: Sequence[Loss]) -> Feature:
     """A feature without the things that losses tell about."""
-    like = [loss for loss in losses if loss.what is feature.kind]
+    like = [loss for loss in losses if loss.kind is feature.kind]
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
     return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
@@ -107,7 +107,7 @@ def _together(losses: Sequence[Loss]) -> list[Loss]:
     """Losses of like things for a like reason as one."""
     alike: dict[tuple[What, str, str | None], list[Loss]] = {}
     for loss in losses:
-        alike.setdefault((loss.what, loss.why, loss.instead), []).append(loss)
+        alike.setdefault((loss.kind, loss.why, loss.instead), []).append(loss)
     return [
         Loss(what, tuple(n for one in each for n in one.names), why, instead, sum(one.unnamed for one in each))
         for (what, why, instead), each in alike.items()

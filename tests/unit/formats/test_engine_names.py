@@ -171,9 +171,9 @@ def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
     vertices, faces = box()
     shown = replace(asset, visuals=(Surface(vertices, faces, "room"),))
     seen = save(shown, tmp_path / "seen.obj", names="unreal")
-    told = {loss.what.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
+    told = {loss.kind.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
     assert told["opaque pieces"] is None  # the body shows something of its own
-    assert [loss.instead for loss in bare.report.lost if loss.what.many == "opaque pieces"] == [
+    assert [loss.instead for loss in bare.report.lost if loss.kind.many == "opaque pieces"] == [
         "written to be seen alone"
     ]
     for saved in (bare, seen):

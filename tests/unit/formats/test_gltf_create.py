@@ -62,7 +62,7 @@ def test_bodies_and_native_shapes_become_those_of_the_physics_extension(tmp_path
         assert same_shape(now, geom.shape, 1e-9) or now.kind == geom.shape.kind == "polytope"
         assert now.volume == pytest.approx(geom.shape.volume, rel=1e-6) and back[geom.name].body == geom.body
         np.testing.assert_allclose([now.aabb.min, now.aabb.max], [geom.shape.aabb.min, geom.shape.aabb.max], atol=1e-6)
-    assert [(loss.what.one, loss.names) for loss in saved.report.lost] == [("ellipsoid", ("arm/egg",))]
+    assert [(loss.kind.one, loss.names) for loss in saved.report.lost] == [("ellipsoid", ("arm/egg",))]
     for body in bodies:
         np.testing.assert_allclose(after.body_poses[body.name].rotation, body.pose.rotation, atol=1e-12)
         np.testing.assert_allclose(after.body_poses[body.name].translation, body.pose.translation, atol=1e-12)

@@ -175,8 +175,8 @@ def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) ->
 
 def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -> None:
     told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
-    assert {loss.what for loss in told.lost} >= {What.MATERIALS, What.SENSORS, What.CONTACT}
-    assert not {feature.kind for feature in told.held} & {loss.what for loss in told.lost}
+    assert {loss.kind for loss in told.lost} >= {What.MATERIALS, What.SENSORS, What.CONTACT}
+    assert not {feature.kind for feature in told.held} & {loss.kind for loss in told.lost}
 
 
 def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
@@ -191,7 +191,7 @@ def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     lost = tuple(Loss(What.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
     told = report(asset, None, urdf, Output(b"", lost=lost))
     assert What.OPAQUE not in {feature.kind for feature in told.held}
-    assert [str(loss) for loss in told.lost if loss.what is What.OPAQUE] == [
+    assert [str(loss) for loss in told.lost if loss.kind is What.OPAQUE] == [
         "2 opaque pieces (room/walls, room/other) are left out: flat"
     ]
 
@@ -218,7 +218,7 @@ def test_what_the_vertices_of_a_gltf_have_besides_their_places_is_told(tmp_path:
     part["attributes"] |= {"TEXCOORD_0": scene.accessor(np.ones((8, 2), "<f4"))}
     scene.node("box", mesh=scene.mesh(part))
     saved = save(read(scene.write(tmp_path / "a.glb")), tmp_path / "a.stl")
-    assert {loss.what for loss in saved.report.lost} >= {What.VERTEX_COLORS, What.TEXTURE_COORDINATES}
+    assert {loss.kind for loss in saved.report.lost} >= {What.VERTEX_COLORS, What.TEXTURE_COORDINATES}
 
 
 def test_within_a_format_nothing_is_lost(tmp_path: Path) -> None:
