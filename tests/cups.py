@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Surface
 from meshforge.geometry import Aabb, Box, Pose, Shape
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Surface, SymbolicMesh
 
 BOTTOM = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.1, 0.01]))
 WALLS = (

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats.base import Output, ReadOptions
-from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.geometry import Aabb, Box, Shape
+from meshforge.symbolic import Asset, Geom
 
 Corner = tuple[float, float, float]
 

@@ -22,8 +22,10 @@ from benchmark.evaluation.journal import JOURNALS, done
 from benchmark.report import Tell
 from benchmark.study import Bench, Session
 from benchmark.tasks import Task, task
-from meshforge.perception.vlm import AskingError, Client, Message
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import QuestionError
+from meshforge.labels.vlm.request import Message
+from meshforge.store.settings import VlmSettings
 
 ANSWERS = "vlm"
 """Where answers are kept, below the journals."""
@@ -93,7 +95,7 @@ def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings,
     client = Client(settings.endpoint(), JOURNALS / ANSWERS, max_cost=settings.max_cost)
     with closing(client):
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
-    missing = [answer for answer in answers if isinstance(answer, AskingError)]
+    missing = [answer for answer in answers if isinstance(answer, QuestionError)]
     if missing:
         return Played(missing=len(missing), why=missing[0].sentence)
     written = [answer for answer in answers if isinstance(answer, Written)]
@@ -107,7 +109,7 @@ def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings,
 
 def _answers(
     baseline: Baseline, taught: Sequence[Session], client: Client, room: int, tell: Tell
-) -> Iterator[Written | AskingError]:
+) -> Iterator[Written | QuestionError]:
     """What came of asking, session by session; task by task, so that meshes are read once."""
     count = 0
     with ThreadPoolExecutor(client.endpoint.concurrency) as pool:
@@ -119,11 +121,11 @@ def _answers(
                 yield answer
 
 
-def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Written | AskingError:
+def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Written | QuestionError:
     if client.end:
         return client.end
     try:
         with baseline.work(bench.task, demonstrated(bench, row)) as work:
             return refined(client, work.opening, work.tried, room)
-    except AskingError as error:
+    except QuestionError as error:
         return error

@@ -19,7 +19,7 @@ from benchmark.evaluation.sessions import sessions
 from benchmark.given import Given
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.study import FULL, NOISY, Session
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.store.settings import VlmSettings
 
 _CONDITIONS = (FULL, NOISY)
 

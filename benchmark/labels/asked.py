@@ -11,8 +11,13 @@ from time import perf_counter
 from benchmark.evaluation.journal import JOURNALS
 from benchmark.labels.methods import Labels, Method, Told
 from benchmark.labels.sampling import Family
-from meshforge.perception.vlm import Client, Endpoint, Labeller, Question, Reply, Said
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.labels.vlm.answer import VlmAnswers
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import Endpoint
+from meshforge.labels.vlm.labeller import Labeller
+from meshforge.labels.vlm.request import VlmQuestion
+from meshforge.labels.vlm.transport import Reply
+from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -24,7 +29,7 @@ class CountingClient(Client):
         self.cost = 0.0
         self._counting = threading.Lock()
 
-    def ask(self, question: Question) -> Reply:
+    def ask(self, question: VlmQuestion) -> Reply:
         reply = super().ask(question)
         with self._counting:
             self.cost += reply.cost
@@ -59,6 +64,6 @@ class Asked:
         return Told(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
 
 
-def _labels(mesh: SymbolicMesh, said: Said) -> Labels:
+def _labels(mesh: SymbolicMesh, said: VlmAnswers) -> Labels:
     found = {name: label.name for name, label in said.labels.items()}
     return tuple(found.get(hull.name) for hull in mesh.hulls)

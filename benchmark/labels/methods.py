@@ -10,8 +10,8 @@ from pathlib import Path
 from time import perf_counter
 
 from benchmark.labels.sampling import LABELLED, Family
-from meshforge.errors import UsageError
-from meshforge.perception.names import Names, told
+from meshforge.common import UsageError
+from meshforge.labels.names.hull_names import HullNames, match_names
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.symbolic.label_file import read_labels
 
@@ -72,7 +72,7 @@ def _named(family: Family, repeat: int) -> Told:
 
 
 def _by_names(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Labels:
-    said = (told(Names(hull.name, hull.body), vocabulary) for hull in mesh.hulls)
+    said = (match_names(HullNames(hull.name, hull.body), vocabulary) for hull in mesh.hulls)
     return tuple(one.label if one else None for one in said)
 
 

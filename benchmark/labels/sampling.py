@@ -17,10 +17,9 @@ import numpy as np
 
 from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.tasks import task
-from meshforge.errors import UsageError
-from meshforge.files import write_atomically
+from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
-from meshforge.perception import Relatives
+from meshforge.labels import Propagator
 from meshforge.symbolic import SymbolicMesh
 
 LABELLED = 3
@@ -49,7 +48,7 @@ class Family:
         return _bare(self.name)
 
     @property
-    def relatives(self) -> Relatives:
+    def relatives(self) -> Propagator:
         """The meshes as propagation sees them."""
         return _relatives(self.name)
 
@@ -91,8 +90,8 @@ def _bare(name: str) -> tuple[SymbolicMesh, ...]:
 
 
 @cache
-def _relatives(name: str) -> Relatives:
-    return Relatives(_bare(name))
+def _relatives(name: str) -> Propagator:
+    return Propagator(_bare(name))
 
 
 @cache

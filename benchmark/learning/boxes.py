@@ -9,12 +9,12 @@ import numpy as np
 
 from benchmark.learning.cases import Case
 from meshforge.geometry import Aabb, Box
-from meshforge.language import Extractor, parse_extractor, select_mask, size
+from meshforge.language import Extractor, parse_extractor, select_mask, size_of
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LABELS = tuple("abcdefghijkl")
 SIZED: dict[int, Extractor] = {
-    size(extractor): extractor
+    size_of(extractor): extractor
     for extractor in map(
         parse_extractor,
         (

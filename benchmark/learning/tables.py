@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 
-from meshforge.batch.templates import load_templates, template_folders
+from meshforge.batch.jobs import load_templates, template_folders
 from meshforge.formats import load
-from meshforge.language import Extractor, Program, Template, parse_extractor, stage
+from meshforge.language import Extractor, Program, Template, parse_extractor, to_canonical_frame
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh
 
@@ -50,7 +50,7 @@ def bundled() -> dict[str, SymbolicMesh]:
 @cache
 def upright() -> dict[str, SymbolicMesh]:
     """The tables as the first rule of a program sees them, their contacts known."""
-    found = {name: stage(mesh, PROGRAM.orient)[0] for name, mesh in bundled().items()}
+    found = {name: to_canonical_frame(mesh, PROGRAM.orient)[0] for name, mesh in bundled().items()}
     assert all(mesh.contacts is not None for mesh in found.values())
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from benchmark.study.desk import Bench, Desk
-from meshforge.perception import given_label
+from meshforge.label_model import reference_label
 from meshforge.symbolic import Label, SymbolicMesh
 
 
@@ -37,10 +37,10 @@ def labelled_by_hand(desk: Desk, name: str) -> tuple[Desk, int]:
 
 
 def _told(desk: Desk) -> list[str | None]:
-    return [given_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls]
+    return [reference_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls]
 
 
 def _with(mesh: SymbolicMesh, found: list[Label | None]) -> SymbolicMesh:
     """The mesh with labels that were found, where nobody gave one."""
     rows = zip(mesh.hulls, found, strict=True)
-    return mesh.with_labels({hull.name: label for hull, label in rows if given_label(hull.annotation) is None})
+    return mesh.with_labels({hull.name: label for hull, label in rows if reference_label(hull.annotation) is None})

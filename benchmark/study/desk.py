@@ -11,20 +11,20 @@ from typing import Literal
 from benchmark.assets import Sample
 from benchmark.study.labels import noisy
 from benchmark.tasks import Edited, Task
+from meshforge.labels import Propagator
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
-from meshforge.perception import Relatives
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Answer,
-    Correction,
     Demonstration,
+    LabelCorrection,
+    LearningOutcome,
     Options,
-    Outcome,
     Repair,
-    most_telling,
+    choose_first_demonstration,
     synthesize,
 )
-from meshforge.synthesis.replay import Replay, advanced, begun
+from meshforge.synthesis.replay import Replay, advance, begin_replay
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on a mesh, by hull names."""
@@ -50,9 +50,9 @@ class Bench:
         return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
 
     @cached_property
-    def relatives(self) -> Relatives:
+    def relatives(self) -> Propagator:
         """The meshes as propagation sees them."""
-        return Relatives([sample.mesh for sample in self.samples.values()])
+        return Propagator([sample.mesh for sample in self.samples.values()])
 
     def desk(self, labels: Literal["true", "noisy"], seed: int) -> Desk:
         """The meshes as a demonstrator gets them who labels nothing."""
@@ -106,11 +106,11 @@ class Desk:
             task = self.bench.task
             frame = task.program
             if not place:
-                replay = begun(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
+                replay = begin_replay(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
             else:
                 self.met(name, place - 1)
                 before, rule = self._met[name, place - 1], frame.rules[place - 1]
-                replay = advanced(before, place, rule, task.templates, frame.extremity)
+                replay = advance(before, place, rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
 
@@ -120,8 +120,8 @@ class Desk:
         options: Options,
         confirm: Callable[[Repair], bool] | None = None,
         answers: Sequence[Answer] = (),
-        rejected: Iterable[Correction] = (),
-    ) -> Outcome:
+        rejected: Iterable[LabelCorrection] = (),
+    ) -> LearningOutcome:
         """What the tool learns from demonstrations on these meshes; raises as `synthesize` does."""
         one, templates = self.bench.task.program, self.bench.task.templates
         return synthesize(
@@ -141,7 +141,7 @@ class Desk:
     def proposed(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""
         one, some = self.bench.task.program, frozenset(names)
-        return most_telling(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
+        return choose_first_demonstration(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
 
     def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
         """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""
@@ -155,7 +155,7 @@ class Desk:
             return list(names)
         return [name for name in names if self.selected(program, name) != self.reference[name]]
 
-    def corrected(self, corrections: Iterable[Correction]) -> Desk:
+    def corrected(self, corrections: Iterable[LabelCorrection]) -> Desk:
         """The same with some labels corrected."""
         meshes = dict(self.meshes)
         for one in corrections:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
-    from meshforge.errors import MeshForgeError
+    from meshforge.common import MeshForgeError
     from meshforge.formats import load, load_many, save
     from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
     from meshforge.project import Project

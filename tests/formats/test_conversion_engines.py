@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Joint
 from meshforge.formats import read, save
 from meshforge.formats.visuals import VisualSurfaces
+from meshforge.symbolic import Asset, Joint
 from tests.conversion_samples import SAMPLES, block, crowd, doors, foreign, inertial
 from tests.corpus_path import corpus
 from tests.mjcf_engines import assert_as_in_mujoco

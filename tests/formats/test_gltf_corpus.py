@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.geometry import Box, Floats, same_shape
+from meshforge.geometry import Box, Floats, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.gltf_files import Tree, tree_of
 from tests.gltf_validation import errors
@@ -132,7 +132,7 @@ def test_an_edit_leaves_the_rest_of_the_scene_as_it_was(assets: dict[str, Asset]
         assert not saved.names, key
         assert [g.name for g in again.geoms if "~" not in g.name] == [g.name for g in asset.geoms[1:-1]], key
         for now, before in zip((g for g in again.geoms if "~" not in g.name), asset.geoms[1:-1], strict=True):
-            assert same_shape(now.shape, before.shape, 1e-9), key
+            assert is_same_shape(now.shape, before.shape, 1e-9), key
         assert [o.name for o in again.opaque] == [o.name for o in asset.opaque], key
         _assert_rest_is_drawn(asset, saved.path, touched, less, key)
         sources.append(asset.path)

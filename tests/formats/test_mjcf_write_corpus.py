@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.base import Mass
 from meshforge.geometry import Box, convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.mjcf_engines import read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write

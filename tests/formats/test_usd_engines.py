@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Shape, Sphere
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.usd_stages import complaints, physics_shapes
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from meshforge.geometry import Floats, distance
-from meshforge.symbolic import Hull, SymbolicMesh, bits, components
+from meshforge.symbolic import Hull, SymbolicMesh, bits_of, split_by_contact
 from tests.examples import examples
 from tests.shape_strategies import KINDS, generators, shape
 
@@ -103,8 +103,8 @@ def test_a_graph_carried_through_an_edit_is_the_graph_made_anew(rng: np.random.G
 def test_components_part_the_selection_and_no_contact_joins_two_in_a_body(rng: np.random.Generator) -> None:
     mesh = random_mesh(rng, 12)
     mask = int(rng.integers(0, 1 << 12))
-    parts = [bits(part) for part in components(mesh, mask)]
-    assert sorted(k for part in parts for k in part) == sorted(bits(mask))
+    parts = [bits_of(part) for part in split_by_contact(mesh, mask)]
+    assert sorted(k for part in parts for k in part) == sorted(bits_of(mask))
     assert [min(part) for part in parts] == sorted(min(part) for part in parts)
     whose = {k: n for n, part in enumerate(parts) for k in part}
     for i, j in mesh.contacts:

@@ -26,9 +26,9 @@ from meshforge.geometry import (
     cut,
     is_closed,
     is_convex,
+    is_outward,
     longest_axis,
-    mapped_to,
-    outward,
+    map_to_box,
     overlap_volume,
     tight_box,
     tight_capsule,
@@ -123,7 +123,7 @@ def test_a_shape_that_fills_a_box_has_that_box(bounds: Aabb, fill: Callable[[Aab
     assert len(hull.vertices) <= 64
     assert is_closed(hull.faces)
     assert is_convex(hull.vertices, hull.faces)
-    assert outward(hull.vertices, hull.faces)
+    assert is_outward(hull.vertices, hull.faces)
 
 
 @examples(200)
@@ -143,7 +143,7 @@ def test_round_shapes_are_native_where_their_sides_agree_within_one_percent(boun
 @given(a=shapes(), b=shapes(), target=boxes())
 def test_mapped_shapes_together_have_the_target_box(a: Shape, b: Shape, target: Aabb) -> None:
     hulls = [a.tessellate(), b.tessellate()]
-    made = mapped_to(hulls, Aabb.union(h.aabb for h in hulls), target)
+    made = map_to_box(hulls, Aabb.union(h.aabb for h in hulls), target)
     box = Aabb.union(shape.aabb for shape in made)
     assert np.allclose(box.min, target.min, rtol=0, atol=1e-9)
     assert np.allclose(box.max, target.max, rtol=0, atol=1e-9)

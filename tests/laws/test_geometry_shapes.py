@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from meshforge.geometry import Floats, Pose, Shape, is_closed, is_convex, outward, same_shape
+from meshforge.geometry import Floats, Pose, Shape, is_closed, is_convex, is_outward, is_same_shape
 from tests.examples import examples
 from tests.shape_strategies import KINDS, directions, generators, posed, poses, shapes
 from tests.shape_strategies import shape as random_shape
@@ -53,7 +53,7 @@ def test_a_tessellation_is_a_hull_within_the_shape_and_of_about_its_volume(shape
     hull = shape.tessellate()
     assert is_closed(hull.faces)
     assert is_convex(hull.vertices, hull.faces)
-    assert outward(hull.vertices, hull.faces)
+    assert is_outward(hull.vertices, hull.faces)
     if shape.kind in ROUND:
         assert len(hull.vertices) <= 64
         assert 0.8 * shape.volume < hull.volume < shape.volume
@@ -71,13 +71,13 @@ def test_a_tessellation_square_to_the_axes_has_the_box_of_the_shape(shape: Shape
 @LAW
 @given(shape=shapes(), pose=poses())
 def test_moving_there_and_back_changes_nothing(shape: Shape, pose: Pose) -> None:
-    assert same_shape(shape.move(pose).move(pose.inverse()), shape, tolerance=1e-12)
+    assert is_same_shape(shape.move(pose).move(pose.inverse()), shape, tolerance=1e-12)
 
 
 @LAW
 @given(shape=shapes(), first=poses(), second=poses())
 def test_two_moves_are_one(shape: Shape, first: Pose, second: Pose) -> None:
-    assert same_shape(shape.move(first).move(second), shape.move(second @ first), tolerance=1e-12)
+    assert is_same_shape(shape.move(first).move(second), shape.move(second @ first), tolerance=1e-12)
 
 
 @LAW
@@ -101,7 +101,7 @@ def test_any_map_takes_volume_and_centroid_along(shape: Shape, rng: np.random.Ge
     assert image.volume == pytest.approx(abs(np.linalg.det(linear)) * source.volume, rel=1e-8)
     assert np.allclose(image.centroid, linear @ source.centroid + offset, rtol=0, atol=1e-9)
     assert is_closed(image.faces)
-    assert outward(image.vertices, image.faces)
+    assert is_outward(image.vertices, image.faces)
 
 
 @LAW

@@ -10,20 +10,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.geometry import Floats, Pose
-from meshforge.language import (
-    DIRECTIONS,
-    All,
-    Direction,
-    Is,
-    LandmarkPair,
-    Orient,
-    Program,
-    Replace,
-    Rule,
-    orient_mesh,
-)
+from meshforge.language import DIRECTIONS, All, Direction, Is, LandmarkPair, Orient, Program, Replace, Rule, orient_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.examples import examples
 from tests.laws.test_language_run import alike

@@ -10,9 +10,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, JointKind, Mechanism
 from meshforge.formats import read, save
 from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, JointKind, Mechanism
 from tests.examples import examples
 from tests.shape_strategies import generators, rotation, shape
 

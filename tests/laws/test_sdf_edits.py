@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
+from meshforge.symbolic import Asset, Geom
 from tests.sdf_sample import put_text, read, write
 from tests.strategies import shapes
 from tests.urdf_sample import THREE, put

@@ -11,8 +11,8 @@ from pathlib import Path
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.errors import MeshForgeError
-from meshforge.language import Program, Rule, size
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, Options, synthesize
 from tests.examples import examples
@@ -54,7 +54,7 @@ def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Progr
     program = learned(hidden, demos).program
     assert [(rule.action, rule.label) for rule in program.rules] == [(rule.action, rule.label) for rule in rules]
     for mine, theirs in zip(program.rules, rules, strict=True):
-        assert size(mine.extractor) <= size(theirs.extractor)
+        assert size_of(mine.extractor) <= size_of(theirs.extractor)
     for mesh in batch:
         names = [{hull.name for hull in p.run(mesh, TEMPLATES).mesh.hulls} for p in (program, hidden)]
         assert names[0] == names[1]

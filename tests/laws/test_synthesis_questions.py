@@ -12,7 +12,7 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.hidden import hidden
 from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, Outcome, Repair, Step, synthesize
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, LearningOutcome, Repair, Step, synthesize
 from tests.examples import examples
 from tests.synthesis_boxes import Piece, boxes
 
@@ -54,7 +54,7 @@ def taught(
     meant: Extractor,
     vocabulary: Sequence[str],
     given: Sequence[Answer] = (),
-) -> tuple[Outcome, list[Answer]]:
+) -> tuple[LearningOutcome, list[Answer]]:
     """What is learned once no question is left; questions are answered from what is meant, and all labels are right."""
     demos, answers = shown(meshes, names, meant), list(given)
     while True:

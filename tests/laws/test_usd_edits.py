@@ -9,9 +9,9 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
 from tests.soups import angle
 from tests.usd_stages import COLLIDES, CONVEX, mesh, specs, stage, written

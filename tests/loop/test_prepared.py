@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import status as word
+from meshforge.batch import status_of as word
 from meshforge.formats import load
 from meshforge.geometry import Floats, is_convex
-from meshforge.geometry.decompose import VhacdSettings
+from meshforge.geometry.decomposition.settings import VhacdSettings
 from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from benchmark.baselines.blender.shapes import Body, Illegal
 from meshforge.checks import check
-from meshforge.errors import complaint
+from meshforge.common import first_validation_error
 from meshforge.geometry import Shape
 from meshforge.language import Template
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -53,7 +53,7 @@ def mesh_of(objects: Iterable[Any], before: SymbolicMesh) -> tuple[SymbolicMesh,
     try:
         rows = [_Object.model_validate(one) for one in objects]
     except ValidationError as error:
-        raise Illegal(f"an object cannot be read: {complaint(error)}") from error
+        raise Illegal(f"an object cannot be read: {first_validation_error(error)}") from error
     if len(rows) > _MOST:
         raise Illegal(f"{len(rows)} objects, {_MOST} at most may be left")
     mesh = replace(before, hulls=tuple(_hulls(rows, before)))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.errors import GeometryError
+from meshforge.common import GeometryError
 from meshforge.geometry import (
     Aabb,
     Floats,

@@ -8,17 +8,16 @@ from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.assets.folder import STATE
-from meshforge.batch.assets.job import AssetJob, Task
-from meshforge.batch.edit import Worked, edit
-from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.outputs.draft import drafts
-from meshforge.batch.outputs.ledger import Ledger
-from meshforge.batch.outputs.lock import locked
-from meshforge.batch.workers.pool import Lost
-from meshforge.batch.workers.spread import TIMEOUT, Backend, Spread
-from meshforge.errors import UsageError
-from meshforge.formats import Mass, Names, format_for, with_names
+from meshforge.batch.discovery import STATE
+from meshforge.batch.edit import edit_asset
+from meshforge.batch.execution import TIMEOUT, Backend, ExecutionOptions
+from meshforge.batch.jobs import ApplyTask, AssetJob
+from meshforge.batch.lock import hold_lock
+from meshforge.batch.outcome import AssetOutcome, Failed
+from meshforge.batch.outputs import OutputFolder, WorkerResult, drafts_folder
+from meshforge.batch.workers import WorkerFailure
+from meshforge.common import UsageError
+from meshforge.formats import EngineName, Mass, format_for, format_with_names
 from meshforge.language import Program, Template
 
 
@@ -34,13 +33,13 @@ def apply(
     dry_run: bool = False,
     resume: bool = True,
     to: str | None = None,
-    names: Names | None = None,
+    names: EngineName | None = None,
     timeout: float | None = TIMEOUT,
     memory: int | None = None,
     backend: Backend = "local",
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
-) -> Iterator[Outcome]:
+) -> Iterator[AssetOutcome]:
     """Run a program on assets and write each into `out`; one outcome an asset, in the order given.
 
     The outcomes come as the work goes on; an asset is in place when its outcome is there. What one asset does wrong
@@ -52,41 +51,41 @@ def apply(
     and was made from the same is skipped; to: the suffix of the format that all are written in, each one's own when
     None; names: the engine by whose names for collision they are made; timeout: seconds for one asset; memory: bytes
     for one, an even share of the machine's when None; backend: the workers of this machine, or those of a Ray cluster,
-    as of `on_cluster`;
+    as of `run_on_cluster`;
     progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
     StoppedError when it was told to stop: what is in place by then stays.
     """
     jobs = tuple(assets)
-    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to, names)
-    _check(jobs, task)
-    return _run(jobs, task, Spread(workers, timeout, memory, stop, backend), progress)
+    task = ApplyTask(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to, names)
+    _check_arguments(jobs, task)
+    return _run_task(jobs, task, ExecutionOptions(workers, timeout, memory, stop, backend), progress)
 
 
-def _run(
-    jobs: tuple[AssetJob, ...], task: Task, spread: Spread, progress: Callable[[], None] | None
-) -> Iterator[Outcome]:
+def _run_task(
+    jobs: tuple[AssetJob, ...], task: ApplyTask, spread: ExecutionOptions, progress: Callable[[], None] | None
+) -> Iterator[AssetOutcome]:
     with ExitStack() as stack:
         ledger = None
         if not task.dry_run:
-            stack.enter_context(locked(task.out / STATE / "lock", str(task.out), wait=0))
-            stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
-            shutil.rmtree(drafts(task.out), ignore_errors=True)
-            ledger = Ledger(task.out, (job.id for job in jobs))
-        results = spread.run(partial(edit, task), jobs, progress)
+            stack.enter_context(hold_lock(task.out / STATE / "lock", str(task.out), wait=0))
+            stack.callback(shutil.rmtree, drafts_folder(task.out), ignore_errors=True)
+            shutil.rmtree(drafts_folder(task.out), ignore_errors=True)
+            ledger = OutputFolder(task.out, (job.id for job in jobs))
+        results = spread.run(partial(edit_asset, task), jobs, progress)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
-            worked = _lost(job, result) if isinstance(result, Lost) else result
+            worked = _to_failed(job, result) if isinstance(result, WorkerFailure) else result
             yield ledger.commit(worked) if ledger else worked.outcome
 
 
-def _lost(job: AssetJob, lost: Lost) -> Worked:
-    return Worked(Failed(job.id, f"{job.path}: {lost.why}\n  The other assets are not affected.", lost.seconds))
+def _to_failed(job: AssetJob, lost: WorkerFailure) -> WorkerResult:
+    return WorkerResult(Failed(job.id, f"{job.path}: {lost.why}\n  The other assets are not affected.", lost.seconds))
 
 
-def _check(jobs: tuple[AssetJob, ...], task: Task) -> None:
+def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
     if task.names:
-        with_names(format_for(Path(f"asset{task.to or ''}"), ""), task.names)
+        format_with_names(format_for(Path(f"asset{task.to or ''}"), ""), task.names)
     seen: dict[str, Path] = {}
     for job in jobs:
         if job.id in seen:

@@ -2,74 +2,56 @@
 
 from __future__ import annotations
 
-import errno
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from meshforge.asset import Asset
-from meshforge.batch.assets.digests import (
+from meshforge.batch.corrections import corrections_digest, replay_corrections
+from meshforge.batch.jobs import ApplyTask, AssetJob
+from meshforge.batch.outcome import Edited, Failed, RuleEffect, Unchanged
+from meshforge.batch.outputs import DISK_ERRORS, DRAFT_STAMP, WorkerResult, plan_draft, write_draft
+from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
+from meshforge.batch.provenance import (
+    OutputInputs,
+    Stamp,
     asset_digests,
-    corrections_digest,
     file_digest,
+    has_same_files,
     program_digest,
-    same_files,
-    software,
+    read_stamp,
+    software_version,
     template_digests,
 )
-from meshforge.batch.assets.job import AssetJob, Task
-from meshforge.batch.correction import replay
-from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Unchanged
-from meshforge.batch.outputs.draft import STAMP, Draft, planned, written
-from meshforge.batch.outputs.stamp import Inputs, Stamp, read_stamp
-from meshforge.errors import told
+from meshforge.common import describe_error, join_names
 from meshforge.formats import read
 from meshforge.language import RunResult
-from meshforge.preparation import prepared_by, record_digest
-from meshforge.symbolic import Followed, LabelFile, SymbolicMesh, follow_labels, read_labels
-from meshforge.words import listed
+from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
-NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
-"""What is wrong with the disk, not with a file: all assets would fail alike."""
 _MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
 
 
-@dataclass(frozen=True, slots=True)
-class Worked:
-    """What a worker made of one asset.
-
-    draft: its new files with their stamp, None where there are none to put in place; inputs: of a failed asset, as far
-    as they are known; disk: what is wrong with it, where nothing can be written any more.
-    """
-
-    outcome: Outcome
-    inputs: Inputs | None = None
-    draft: Draft | None = None
-    disk: str | None = None
-
-
-def edit(task: Task, job: AssetJob) -> Worked:
+def edit_asset(task: ApplyTask, job: AssetJob) -> WorkerResult:
     """Run a task on one asset. Never raises: whatever goes wrong is the asset's outcome."""
     started, inputs = time.perf_counter(), None
     try:
-        skipped = _skipped(task, job)
+        skipped = _find_up_to_date(task, job)
         if skipped:
             return skipped
         asset = read(job.path)
         inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
-        ready = prepared_by(asset, job.preparation) if job.preparation else asset
-        return _edited(task, job, ready, inputs, started)
+        ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
+        return _run_program(task, job, ready, inputs, started)
     except MemoryError:
         why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
-        return Worked(Failed(job.id, why, time.perf_counter() - started), inputs)
+        return WorkerResult(Failed(job.id, why, time.perf_counter() - started), inputs)
     except Exception as error:  # a failed asset never stops the others
-        failed = Failed(job.id, told(error, str(job.path)), time.perf_counter() - started)
-        disk = error.strerror if isinstance(error, OSError) and error.errno in NO_ROOM else None
-        return Worked(failed, inputs, disk=disk)
+        failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
+        disk = error.strerror if isinstance(error, OSError) and error.errno in DISK_ERRORS else None
+        return WorkerResult(failed, inputs, disk=disk)
 
 
-def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
+def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
-    return Inputs(
+    return OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
         labels=file_digest(job.labels) if job.labels else None,
@@ -77,34 +59,34 @@ def inputs_of(task: Task, job: AssetJob, files: dict[str, str]) -> Inputs:
         templates=template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
         settings=f"mass={task.mass}{f' to={task.to}' if task.to else ''}{f' names={task.names}' if task.names else ''}",
-        software=software(),
+        software=software_version(),
     )
 
 
-def _skipped(task: Task, job: AssetJob) -> Worked | None:
+def _find_up_to_date(task: ApplyTask, job: AssetJob) -> WorkerResult | None:
     """The outcome `skipped`, where the output of an earlier run is whole and made from the same."""
     stamp = read_stamp(task.out, job.id) if task.resume else None
     if not stamp or not stamp.inputs or inputs_of(task, job, stamp.inputs.asset) != stamp.inputs:
         return None
-    if not same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
+    if not has_same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
         return None
-    return Worked(stamp.to_skipped(task.out))
+    return WorkerResult(stamp.to_skipped(task.out))
 
 
-def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: float) -> Worked:
+def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInputs, started: float) -> WorkerResult:
     labels = read_labels(job.labels) if job.labels else LabelFile()
-    followed = follow_labels(labels, SymbolicMesh.of(asset))
+    followed = transfer_labels(labels, SymbolicMesh.of(asset))
     source = followed.mesh
     result = task.program.run(source, task.templates)
-    mesh, flags = replay(job.corrections, source, result.mesh, task.program, task.templates)
-    draft = planned(task, job, asset)
+    mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
+    draft = plan_draft(task, job, asset)
     if not task.dry_run:
         known = labels.vocabulary or task.program.labels
-        draft = written(draft, mesh, known, mass=task.mass, link=task.link, names=task.names)
-    outcome = (Unchanged if _same_hulls(source, mesh) and not job.preparation else Edited)(
+        draft = write_draft(draft, mesh, known, mass=task.mass, link=task.link, names=task.names)
+    outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
-        rules=_lines(result),
+        rules=_rule_effects(result),
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
@@ -112,22 +94,22 @@ def _edited(task: Task, job: AssetJob, asset: Asset, inputs: Inputs, started: fl
         flags=flags,
     )
     if task.dry_run:
-        return Worked(outcome)
-    Stamp.of(outcome, inputs, draft).write(draft.root / STAMP)
-    return Worked(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
+        return WorkerResult(outcome)
+    Stamp.of(outcome, inputs, draft).write(draft.root / DRAFT_STAMP)
+    return WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
 
 
-def _lines(result: RunResult) -> tuple[RuleLine, ...]:
-    return tuple(RuleLine(line.rule, line.selected, line.made, line.note) for line in result.trace)
+def _rule_effects(result: RunResult) -> tuple[RuleEffect, ...]:
+    return tuple(RuleEffect(line.rule, line.selected, line.made, line.note) for line in result.trace)
 
 
 def _opaque_notes(asset: Asset) -> tuple[str, ...]:
     """What the program cannot have seen."""
     names = [piece.name for piece in asset.opaque]
-    return (f"no convex hulls, so left as they are: {listed(names)} ({asset.opaque[0].reason})",) if names else ()
+    return (f"no convex hulls, so left as they are: {join_names(names)} ({asset.opaque[0].reason})",) if names else ()
 
 
-def _label_notes(followed: Followed) -> tuple[str, ...]:
+def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
     """What a person should know about labels that were given to another state of the asset."""
     renamed = [f"{old} to {new}" for old, new in followed.renamed]
     told = (
@@ -135,10 +117,10 @@ def _label_notes(followed: Followed) -> tuple[str, ...]:
         ("hulls changed since they were labelled", followed.changed),
         ("labels of hulls that are gone were left out", followed.gone),
     )
-    return tuple(f"{what}: {listed(names)}" for what, names in told if names)
+    return tuple(f"{what}: {join_names(names)}" for what, names in told if names)
 
 
-def _same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
+def _has_same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
     """Whether no hull was removed, made or reshaped."""
     return len(before.hulls) == len(after.hulls) and all(
         a.name == b.name and a.shape is b.shape for a, b in zip(before.hulls, after.hulls, strict=True)

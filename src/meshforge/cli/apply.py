@@ -10,15 +10,23 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
+from meshforge.cli.options import (
+    NOTHING_TO_SHOW,
+    Backend,
+    DryRun,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+)
+from meshforge.cli.report import NOTHING_WRITTEN, describe_failure
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Failed, Outcome, Reader, Summary
-    from meshforge.checks import Measures
+    from meshforge.batch import AssetJob, AssetOutcome, MeshReader, RunSummary
+    from meshforge.checks import CheckOptions
     from meshforge.language import Program
-
-NOTHING = " (nothing was written)"
-NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
 
 
 def apply(
@@ -27,7 +35,7 @@ def apply(
     out: Annotated[
         Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
     ] = None,
-    labels: Labels = None,
+    labels: LabelsPath = None,
     workers: Workers = None,
     backend: Backend = "local",
     timeout: Timeout = None,
@@ -38,7 +46,7 @@ def apply(
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     dry_run: DryRun = False,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
-    report: Report = None,
+    report: ReportPath = None,
     check: Annotated[
         list[str] | None,
         typer.Option(
@@ -55,38 +63,42 @@ def apply(
     """
     from time import perf_counter
 
-    from meshforge.batch import TIMEOUT, Summary, json_line, plan
-    from meshforge.cli.output import print_json, progress, remark
-    from meshforge.errors import UsageError
+    from meshforge.batch import TIMEOUT, RunSummary, plan_run, to_json_line
+    from meshforge.cli.terminal import print_json, progress, remark
+    from meshforge.common import UsageError
 
-    measures = _measures(check) if check else None
+    measures = _parse_measures(check) if check else None
     if measures and not report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if report and dry_run:
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
-    work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
+    work = (
+        _work_of_project(program, assets, labels, out)
+        if program.is_dir()
+        else _work_of_program(program, assets, out, labels)
+    )
     if len(work.jobs) > 1:
-        remark(str(plan(work.jobs, work.out)))
-    summary, started = Summary(), perf_counter()
+        remark(str(plan_run(work.jobs, work.out)))
+    summary, started = RunSummary(), perf_counter()
     bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
     options = {"workers": workers, "backend": backend, "mass": mass, "link": link, "dry_run": dry_run}
     with progress(len(work.jobs), "editing") as advance:
         for outcome in work.run(out=work.out, resume=not fresh, progress=advance, **options, **bounds):
             summary.add(outcome)
             if json:
-                print_json(json_line(outcome), compact=True)
+                print_json(to_json_line(outcome), compact=True)
             else:
-                typer.echo(told(outcome))
+                typer.echo(describe_outcome(outcome))
     if not json:
-        typer.echo(f"{summary}{NOTHING if dry_run else ''}")
+        typer.echo(f"{summary}{NOTHING_WRITTEN if dry_run else ''}")
     if report:
         _write_report(report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
-def _measures(names: Sequence[str]) -> Measures:
-    from meshforge.checks import ENGINES, Measures
-    from meshforge.errors import UsageError
+def _parse_measures(names: Sequence[str]) -> CheckOptions:
+    from meshforge.checks import ENGINES, CheckOptions
+    from meshforge.common import UsageError
 
     known = ("fit", "clearance", "physics", *ENGINES)
     if odd := [name for name in names if name not in known]:
@@ -94,24 +106,24 @@ def _measures(names: Sequence[str]) -> Measures:
     engines = [name for name in names if name in ENGINES]
     if len(engines) > 1:
         raise UsageError(f"two engines for one report: {', '.join(engines)}", remedy="Choose one of them.")
-    return Measures(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
+    return CheckOptions(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
 
 
 @dataclass(frozen=True, slots=True)
-class _Work:
+class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited."""
 
     program: Program
     jobs: Sequence[AssetJob]
     out: Path
-    run: Callable[..., Iterator[Outcome]]
-    readers: Callable[[Iterable[str]], Sequence[Reader]]
+    run: Callable[..., Iterator[AssetOutcome]]
+    readers: Callable[[Iterable[str]], Sequence[MeshReader]]
     demonstrated: Collection[str] = ()
 
 
-def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out: Path | None) -> _Work:
+def _work_of_project(folder: Path, assets: list[str] | None, labels: Path | None, out: Path | None) -> _ApplyWork:
     from meshforge.batch import apply as run
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
     from meshforge.project import Project
 
     if assets or labels:
@@ -121,7 +133,7 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out
         )
     project = Project.open(folder)
     program, jobs, templates = project.work()
-    return _Work(
+    return _ApplyWork(
         program,
         jobs,
         out or project.layout.edited,
@@ -131,10 +143,10 @@ def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out
     )
 
 
-def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:
+def _work_of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _ApplyWork:
     from meshforge.batch import apply as run
-    from meshforge.batch import expand, jobs, load_templates, read_job, template_folders
-    from meshforge.errors import UsageError
+    from meshforge.batch import expand, load_templates, make_jobs, read_job, template_folders
+    from meshforge.common import UsageError
     from meshforge.language import Program
 
     if not assets or out is None:
@@ -142,9 +154,9 @@ def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: 
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
     program = Program.read(path)
     templates = load_templates(program, template_folders(path))
-    work = jobs(expand(assets), labels)
+    work = make_jobs(expand(assets), labels)
     known = {job.id: job for job in work}
-    return _Work(
+    return _ApplyWork(
         program,
         work,
         out,
@@ -153,34 +165,30 @@ def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: 
     )
 
 
-def told(outcome: Outcome) -> str:
+def describe_outcome(outcome: AssetOutcome) -> str:
     """What became of an asset: a line, and its notes below it."""
-    from meshforge.batch import Failed, status
-    from meshforge.words import counted
+    from meshforge.batch import Failed, status_of
+    from meshforge.common import pluralize
 
     if isinstance(outcome, Failed):
-        return told_failed(outcome)
+        return describe_failure(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
-    line = f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}"
+    line = f"{status_of(outcome):10} {outcome.asset}: {outcome.before} -> {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
 
 
-def told_failed(outcome: Failed) -> str:
-    """That an asset failed, and why."""
-    return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
-
-
-def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, measures: Measures | None) -> None:
-    from meshforge.batch import Figures
-    from meshforge.cli.compared import compared
-    from meshforge.cli.report import report
+def _write_report(
+    path: Path, work: _ApplyWork, summary: RunSummary, seconds: float, measures: CheckOptions | None
+) -> None:
+    from meshforge.batch import RunFigures
+    from meshforge.cli.report import compare_outcomes, write_report_page
 
     readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
-    report(
+    write_report_page(
         path,
-        list(compared(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
+        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
         title=work.out.resolve().name,
         program=work.program,
-        figures=Figures.of_run(summary),
+        figures=RunFigures.of_run(summary),
         seconds=seconds,
     )

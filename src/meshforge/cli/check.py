@@ -8,11 +8,22 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.check_report import CheckReport, told_changes
-from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Report, Timeout, Workers, spread_of
+from meshforge.cli.check_report import CheckReport, describe_changes
+from meshforge.cli.options import (
+    AssetFiles,
+    Backend,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+    to_execution_options,
+)
 
 if TYPE_CHECKING:
-    from meshforge.batch import Examined, Journal
+    from meshforge.batch import CheckJournal, CheckOutcome
+
 
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 _FEW = 5  # assets whose results one sees at a glance
@@ -61,8 +72,8 @@ def check(
             "has changed.",
         ),
     ] = None,
-    report: Report = None,
-    labels: Labels = None,
+    report: ReportPath = None,
+    labels: LabelsPath = None,
     workers: Workers = None,
     backend: Backend = "local",
     timeout: Timeout = None,
@@ -76,31 +87,32 @@ def check(
     """
     from time import perf_counter
 
-    from meshforge.batch import Wanted, examine_all, expand, jobs, journal, plan
-    from meshforge.checks import Measures
-    from meshforge.cli.output import print_json, progress, remark
-    from meshforge.errors import UsageError
-    from meshforge.words import counted
+    from meshforge.batch import CheckTask, check_assets, expand, make_jobs, open_journal, plan_run
+    from meshforge.checks import CheckOptions
+    from meshforge.cli.terminal import print_json, progress, remark
+    from meshforge.common import UsageError, pluralize
 
     if mend and not (engine and out):
         lacking = "--fix needs --engine and --out"
         raise UsageError(lacking, remedy="meshforge check ASSETS... --engine NAME --fix --out DIR")
-    _refuse({"--out": out, "--tolerance": tolerance, "--overwrite": overwrite or None}, mend, "--fix")
-    _refuse({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
-    _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
-    wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
-    work = jobs(expand(assets), labels)
+    _refuse_without({"--out": out, "--tolerance": tolerance, "--overwrite": overwrite or None}, mend, "--fix")
+    _refuse_without({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
+    _refuse_without({"--against": against}, clearance or physics, "--clearance or --physics")
+    wanted = CheckTask(
+        CheckOptions(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures
+    )
+    work = make_jobs(expand(assets), labels)
     if len(work) > _FEW:
-        remark(str(plan(work, out)))
+        remark(str(plan_run(work, out)))
     if len(work) == 1 and not wanted.measures.is_costly and timeout is None and memory is None:
         workers = 0  # starting a process would take longer than the work
     failed, page, started = 0, CheckReport() if report else None, perf_counter()
-    spread = spread_of(workers, timeout, memory, backend)
-    with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
+    spread = to_execution_options(workers, timeout, memory, backend)
+    with open_journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
         known = book.inputs if book else {}
-        results = examine_all(work, wanted, spread, known=known, done=advance)
+        results = check_assets(work, wanted, spread, known=known, done=advance)
         for job, examined in zip(work, results, strict=True):
-            row = _row(book, job.id, examined)
+            row = _to_row(book, job.id, examined)
             failed += row["failed"]
             if page:
                 page.add(job, examined, row)
@@ -109,23 +121,23 @@ def check(
             else:
                 typer.echo(row["said"])
     if not json and len(work) > _FEW:
-        typer.echo(f"{counted(len(work), 'asset')}, {failed:,} with errors")
+        typer.echo(f"{pluralize(len(work), 'asset')}, {failed:,} with errors")
     if report and page:
         name = work[0].id if len(work) == 1 else work[0].base.name
         page.write(report, f"Checks of {name}", wanted.measures, perf_counter() - started)
     raise typer.Exit(int(failed > 0))
 
 
-def _refuse(given: dict[str, object], allowed: bool, without: str) -> None:
+def _refuse_without(given: dict[str, object], allowed: bool, without: str) -> None:
     """Raise UsageError for an option that was given without the one that it belongs to."""
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
 
     for option, value in given.items():
         if value is not None and not allowed:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[str, Any]:
+def _to_row(book: CheckJournal | None, asset: str, examined: CheckOutcome | None) -> dict[str, Any]:
     """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
     if examined is None:
         assert book is not None
@@ -133,26 +145,26 @@ def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[st
     row = {
         "failed": examined.has_failed,
         "found": examined.to_json(),
-        "said": _said(examined),
-        "told": list(_told(examined)),
+        "said": _describe_examined(examined),
+        "told": list(_describe_work(examined)),
     }
     if book and examined.inputs:
         book.add(asset, examined.inputs, row)
     return row
 
 
-def _said(examined: Examined) -> str:
+def _describe_examined(examined: CheckOutcome) -> str:
     path, found = examined.path, examined.examination
     if found is None:
         return f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  ")
-    lines = [*_told(examined)]
+    lines = [*_describe_work(examined)]
     for finding in found.findings:
         lines.append(f"{finding.severity}: {finding.message}")
         lines += [f"  {finding.remedy}"] if finding.remedy else []
     return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
 
 
-def _told(examined: Examined) -> tuple[str, ...]:
+def _describe_work(examined: CheckOutcome) -> tuple[str, ...]:
     """What was mended, measured and written, a sentence each."""
     measured = examined.examination.descriptions if examined.examination else ()
-    return (*told_changes(examined), *measured, *(f"wrote {picture}" for picture in examined.pictures))
+    return (*describe_changes(examined), *measured, *(f"wrote {picture}" for picture in examined.pictures))

@@ -10,21 +10,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Examined, Kept, Reader, ReportAsset, Status
-    from meshforge.checks import Examination, Measures, Severity
+    from meshforge.batch import AssetJob, CheckOutcome, EarlierExamination, MeshReader, ReportAsset, ReportStatus
+    from meshforge.checks import CheckOptions, Examination, Severity
 
-_KEPT = "kept in the journal from an earlier run"
+
+_FROM_JOURNAL = "kept in the journal from an earlier run"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Line:
+class _ReportLine:
     """What there is to show of one asset; mended: its file where anything was mended."""
 
     job: AssetJob
-    status: Status
+    status: ReportStatus
     error: str | None
     notes: tuple[str, ...]
-    checked: Examination | Kept | None
+    checked: Examination | EarlierExamination | None
     mended: Path | None
 
 
@@ -32,54 +33,61 @@ class CheckReport:
     """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
 
     def __init__(self) -> None:
-        from meshforge.batch import Chosen
+        from meshforge.batch import TopItems
 
-        self._counts: Counter[Status] = Counter()
-        self._lines: Chosen[_Line] = Chosen()
+        self._counts: Counter[ReportStatus] = Counter()
+        self._lines: TopItems[_ReportLine] = TopItems()
 
-    def add(self, job: AssetJob, examined: Examined | None, row: Mapping[str, Any]) -> None:
+    def add(self, job: AssetJob, examined: CheckOutcome | None, row: Mapping[str, Any]) -> None:
         """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
-        line = _new(job, examined) if examined else _kept(job, row)
+        line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
         self._counts[line.status] += 1
         self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
 
-    def write(self, path: Path, title: str, measures: Measures, seconds: float) -> None:
+    def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
-        from meshforge.batch import Figures
-        from meshforge.cli.report import report
+        from meshforge.batch import RunFigures
+        from meshforge.cli.report import write_report_page
 
-        figures = Figures(self._counts, {}, "those that failed or have errors")
-        report(path, _shown(list(self._lines)), title=title, about=_about(measures), figures=figures, seconds=seconds)
+        figures = RunFigures(self._counts, {}, "those that failed or have errors")
+        write_report_page(
+            path,
+            _to_report_assets(list(self._lines)),
+            title=title,
+            about=_describe_measures(measures),
+            figures=figures,
+            seconds=seconds,
+        )
 
 
-def _new(job: AssetJob, examined: Examined) -> _Line:
-    notes = (*told_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
+def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
+    notes = (*describe_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
     if examined.examination is None:
-        return _Line(job, "failed", examined.error, notes, None, None)
+        return _ReportLine(job, "failed", examined.error, notes, None, None)
     status = _status(finding.severity for finding in examined.examination.findings)
     mended = examined.output if examined.fix_result and examined.fix_result.changes else None
-    return _Line(job, status, None, notes, examined.examination, mended)
+    return _ReportLine(job, status, None, notes, examined.examination, mended)
 
 
-def _kept(job: AssetJob, row: Mapping[str, Any]) -> _Line:
+def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
-    from meshforge.batch import Kept
+    from meshforge.batch import EarlierExamination
     from meshforge.checks import Finding
 
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
     fixed = found.get("fixed")
-    kept = Kept(findings, tuple(row.get("told", ())))
+    kept = EarlierExamination(findings, tuple(row.get("told", ())))
     mended = Path(fixed["out"]) if fixed and fixed["changes"] else None
-    return _Line(job, _status(finding.severity for finding in findings), None, (_KEPT,), kept, mended)
+    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, mended)
 
 
-def _status(severities: Iterable[Severity]) -> Status:
+def _status(severities: Iterable[Severity]) -> ReportStatus:
     found = set(severities)
     return "errors" if "error" in found else "warnings" if found else "clean"
 
 
-def told_changes(examined: Examined) -> tuple[str, ...]:
+def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
     """What was mended, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
     if fixed is None:
@@ -87,13 +95,13 @@ def told_changes(examined: Examined) -> tuple[str, ...]:
     return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
 
 
-def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:
+def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
     """The assets with their meshes, mended ones before and after."""
     from meshforge.batch import ReportAsset, read_again, read_job
     from meshforge.formats import load
 
-    before: list[Reader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
-    after: list[Reader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
+    before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
+    after: list[MeshReader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
     meshes = read_again([*before, *after])
     shown = []
     for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):
@@ -112,7 +120,7 @@ def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:
     return shown
 
 
-def _about(measures: Measures) -> str:
+def _describe_measures(measures: CheckOptions) -> str:
     """What was looked at."""
     parts = ["legality"]
     parts += [f"limits of {measures.engine}"] if measures.engine else []

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.apply import NOTHING, NOTHING_TO_SHOW, told_failed
-from meshforge.cli.convert_report import write_convert_report
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
+from meshforge.cli.options import (
+    NOTHING_TO_SHOW,
+    Backend,
+    DryRun,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+)
+from meshforge.cli.report import NOTHING_WRITTEN, describe_failure
 
 if TYPE_CHECKING:
-    from meshforge.asset import Feature
-    from meshforge.batch import Outcome
-    from meshforge.formats import Loss, Names, Saved
-    from meshforge.symbolic import SymbolicMesh
+    from meshforge.batch import AssetJob, AssetOutcome, RunSummary
+    from meshforge.formats import EngineName, Loss, SaveResult
+    from meshforge.symbolic import Feature, SymbolicMesh
 
 
 def convert(
@@ -34,11 +44,11 @@ def convert(
         Literal["unreal", "godot", "unity"] | None,
         typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
     ] = None,
-    labels: Labels = None,
+    labels: LabelsPath = None,
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False,
     dry_run: DryRun = False,
-    report: Report = None,
+    report: ReportPath = None,
     workers: Workers = None,
     backend: Backend = "local",
     timeout: Timeout = None,
@@ -52,7 +62,7 @@ def convert(
     stopped goes on where it was, and the exit code is 1 when some failed.
     """
     from meshforge.batch import TIMEOUT
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
 
     if len(paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
@@ -64,20 +74,20 @@ def convert(
             raise UsageError("--report is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --report FILE")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
-        return _one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
+        return _convert_one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
     if report and dry_run:
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     if overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     options = {"names": names, "link": link, "dry_run": dry_run, "workers": workers, "backend": backend}
     bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    _many(sources, Path(out), _suffix(to), labels, {**options, **bounds}, report, json=json)
+    _convert_many(sources, Path(out), _parse_suffix(to), labels, {**options, **bounds}, report, json=json)
     return None
 
 
-def _suffix(to: str) -> str:
+def _parse_suffix(to: str) -> str:
     """The suffix of a format that can be written. Raises UsageError."""
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
     from meshforge.formats import FORMATS
 
     suffix = f".{to.lower().lstrip('.')}"
@@ -87,7 +97,7 @@ def _suffix(to: str) -> str:
     return suffix
 
 
-def _many(
+def _convert_many(
     sources: Sequence[str],
     out: Path,
     suffix: str,
@@ -99,45 +109,45 @@ def _many(
 ) -> None:
     from time import perf_counter
 
-    from meshforge.batch import Summary, apply, expand, json_line, plan
-    from meshforge.batch import jobs as jobs_of
-    from meshforge.cli.output import print_json, progress, remark
+    from meshforge.batch import RunSummary, apply, expand, plan_run, to_json_line
+    from meshforge.batch import make_jobs as jobs_of
+    from meshforge.cli.terminal import print_json, progress, remark
     from meshforge.language import Program
 
-    jobs, summary, started = jobs_of(expand(sources), labels), Summary(), perf_counter()
+    jobs, summary, started = jobs_of(expand(sources), labels), RunSummary(), perf_counter()
     if len(jobs) > 1:
-        remark(str(plan(jobs, out)))
+        remark(str(plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:
         for outcome in apply(Program(), jobs, out, to=suffix, progress=advance, **options):
             summary.add(outcome)
             if json:
-                print_json(json_line(outcome), compact=True)
+                print_json(to_json_line(outcome), compact=True)
             else:
-                typer.echo(_told(outcome))
+                typer.echo(_describe_outcome(outcome))
     if not json:
-        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING * options["dry_run"])
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options["dry_run"])
     if report:
         write_convert_report(report, out, suffix, jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
-def _told(outcome: Outcome) -> str:
+def _describe_outcome(outcome: AssetOutcome) -> str:
     from meshforge.batch import Failed, Skipped
-    from meshforge.words import counted
+    from meshforge.common import pluralize
 
     if isinstance(outcome, Failed):
-        return told_failed(outcome)
+        return describe_failure(outcome)
     word = "skipped" if isinstance(outcome, Skipped) else "written"
-    line = f"{word:10} {outcome.out}: {counted(outcome.after, 'hull')}"
+    line = f"{word:10} {outcome.out}: {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
 
 
-def _one(
-    source: Path, out: Path, labels: Path | None, names: Names | None, *, link: bool, overwrite: bool, json: bool
+def _convert_one(
+    source: Path, out: Path, labels: Path | None, names: EngineName | None, *, link: bool, overwrite: bool, json: bool
 ) -> None:
-    from meshforge.cli.output import print_json, remark
+    from meshforge.cli.terminal import print_json, remark
+    from meshforge.common import pluralize
     from meshforge.formats import load, save
-    from meshforge.words import counted
 
     mesh = load(source, labels=labels)
     saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
@@ -145,35 +155,35 @@ def _one(
     if mesh.labels:
         _write_labels(mesh, saved, overwrite)
     if json:
-        return print_json(_as_data(source, saved, len(mesh.hulls), read_notes))
+        return print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     for note in (*read_notes, *saved.notes):
         remark(f"note: {note}")
-    held = [counted(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
-    remark(f"wrote {saved.path}: {', '.join([counted(len(mesh.hulls), 'hull'), *held])}")
+    held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
+    remark(f"wrote {saved.path}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
     return None
 
 
-def _as_data(source: Path, saved: Saved, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
+def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
     """The report as JSON has it."""
     report = saved.report
     return {
         "asset": str(source),
         "out": str(saved.path),
         "hulls": hulls,
-        "held": [_row(feature) for feature in report.held],
-        "lost": [{**_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
+        "held": [_to_row(feature) for feature in report.held],
+        "lost": [{**_to_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
         "notes": [*notes, *report.remarks],
     }
 
 
-def _row(thing: Feature | Loss) -> dict[str, Any]:
+def _to_row(thing: Feature | Loss) -> dict[str, Any]:
     return {"what": thing.kind.many, "count": thing.count, "names": list(thing.names)}
 
 
-def _write_labels(mesh: SymbolicMesh, saved: Saved, overwrite: bool) -> None:
+def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> None:
     from dataclasses import replace
 
-    from meshforge.cli.output import remark
+    from meshforge.cli.terminal import remark
     from meshforge.formats import labels_beside
     from meshforge.symbolic import write_labels
 
@@ -183,3 +193,25 @@ def _write_labels(mesh: SymbolicMesh, saved: Saved, overwrite: bool) -> None:
         return
     renamed = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     write_labels(path, renamed, ())
+
+
+def write_convert_report(
+    path: Path, out: Path, suffix: str, jobs: Sequence[AssetJob], summary: RunSummary, seconds: float
+) -> None:
+    """Write it; out: the folder, and suffix the format, that all were written in."""
+    from meshforge.batch import RunFigures, read_job
+    from meshforge.cli.report import compare_outcomes, write_report_page
+    from meshforge.language import Program
+
+    known = {job.id: job for job in jobs}
+    readers = [partial(read_job, known[outcome.asset]) for outcome in summary.outcomes_to_show]
+    shown = compare_outcomes(summary.outcomes_to_show, Program(), readers)
+    write_report_page(
+        path,
+        [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown],
+        title=f"{out.resolve().name} as {suffix}",
+        about="Each asset as it was read, and as what was written of it reads.",
+        figures=RunFigures.of_run(summary, {"unchanged": "written"}),
+        seconds=seconds,
+        changes=False,  # the target may have other names
+    )

@@ -1,7 +1,8 @@
-"""`meshforge demo`: the whole loop on the bundled family of tables."""
+"""`meshforge demo`: the whole loop on the bundled family of tables, as a project in a folder of its own."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import indent
@@ -9,14 +10,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from meshforge.cli.options import Workers
-from meshforge.cli.studio import Browser, Port
+from meshforge.cli.options import Browser, Port, Workers
 
 if TYPE_CHECKING:
-    from meshforge.batch.report import ReportAsset
+    from meshforge.batch import ReportAsset
     from meshforge.project import Project
 
+
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
+
+DEMO_MARK = ".meshforge-demo"
+"""The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
+STUDIO_MARK = ".meshforge-demo-studio"
+"""The mark of a folder that a demo in the studio made; what a person did there stays."""
+TABLE_LABELS, TABLE_ORIENT = ("panel", "leg", "handle", "drawer", "misc"), "+Z: Is(leg) -> Is(panel)"
 
 
 def demo(
@@ -36,21 +43,20 @@ def demo(
     With --studio you show the steps yourself; what you did is there again when you come back.
     """
     if studio:
-        _in_browser(out or _STUDIO, port, browser)
+        _open_in_browser(out or _STUDIO, port, browser)
         return
-    _run_through(out or _OUT, workers)
+    _run_all(out or _OUT, workers)
 
 
-def _run_through(out: Path, workers: int | None) -> None:
+def _run_all(out: Path, workers: int | None) -> None:
     """Everything at once, with what happened in a few lines."""
     from time import perf_counter
 
-    from meshforge.batch.report import write_report
-    from meshforge.cli.compared import compared
-    from meshforge.cli.output import progress, remark
-    from meshforge.cli.tables import demonstrated_tables
+    from meshforge.batch import write_report
+    from meshforge.cli.report import compare_outcomes
+    from meshforge.cli.terminal import progress, remark
 
-    project = demonstrated_tables(out)
+    project = create_tables(out)
     shown = project.demonstrations()
     _say(f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}")
     _say(f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}")
@@ -65,27 +71,26 @@ def _run_through(out: Path, workers: int | None) -> None:
     with progress(len(project.assets()), "editing") as advance:
         outcomes = list(project.apply(workers=workers, progress=advance))
     seconds = perf_counter() - started
-    assets = list(compared(outcomes, program, project.readers(o.asset for o in outcomes), shown))
+    assets = list(compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown))
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
         write_report(
             report, title="Tables", program=program, assets=assets, seconds=seconds, about=about, progress=advance
         )
-    _told(assets, seconds, project, report)
+    _print_result(assets, seconds, project, report)
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
-def _in_browser(out: Path, port: int, browser: bool) -> None:
+def _open_in_browser(out: Path, port: int, browser: bool) -> None:
     """The tables in the studio; those of an earlier time with all that was done there."""
-    from meshforge.cli.studio import opened
-    from meshforge.cli.tables import kept_tables
-    from meshforge.studio.serving import Opening
+    from meshforge.cli.studio import open_studio
+    from meshforge.studio.session.session import StudioOptions
 
-    opened(Opening(kept_tables(out).folder, tour=True), port=port, browser=browser)
+    open_studio(StudioOptions(open_tables(out).folder, tour=True), port=port, browser=browser)
 
 
-def _told(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
+def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
     from meshforge.checks import check
 
     edited = [asset for asset in assets if asset.after and asset.counts]
@@ -95,12 +100,12 @@ def _told(assets: Sequence[ReportAsset], seconds: float, project: Project, repor
     _say(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
     if len(edited) < len(assets):
         _say(f"{len(assets) - len(edited)} failed; the report says why.")
-    _say(f"Edited tables, each in the file format it came in: {_short(project.folder / 'edited')}")
-    _say(f"Before, after, and what each rule did: {_short(report)}")
-    _say(f"Look around: meshforge status {_short(project.folder)}")
+    _say(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
+    _say(f"Before, after, and what each rule did: {_relative_path(report)}")
+    _say(f"Look around: meshforge status {_relative_path(project.folder)}")
 
 
-def _short(path: Path) -> Path:
+def _relative_path(path: Path) -> Path:
     """A path as a person here would type it."""
     path, here = path.absolute(), Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
@@ -108,3 +113,54 @@ def _short(path: Path) -> Path:
 
 def _say(text: str) -> None:
     typer.echo(text)
+
+
+def create_tables(out: Path) -> Project:
+    """A fresh project of the tables below `out`, labelled and demonstrated. Raises UsageError as `_empty_folder`."""
+    from meshforge.samples import TABLES
+
+    _empty_folder(out, DEMO_MARK)
+    project = _create_project(out)
+    shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
+    return project
+
+
+def open_tables(out: Path) -> Project:
+    """The project that an earlier demo in the studio made below `out`, or a fresh one, labelled.
+
+    Raises UsageError where the folder holds something else.
+    """
+    from meshforge.project import Project
+
+    whole = out / STUDIO_MARK
+    if whole.exists() and whole.read_text(encoding="utf-8"):
+        return Project.open(out / "project")
+    _empty_folder(out, STUDIO_MARK)
+    project = _create_project(out)
+    whole.write_text("whole\n", encoding="utf-8")  # from now on it is a person's
+    return project
+
+
+def _empty_folder(out: Path, mark: str) -> None:
+    """An empty folder with a mark. Raises UsageError where it holds what no demo of that kind made."""
+    from meshforge.common import UsageError
+
+    if out.exists() and any(out.iterdir()) and not (out / mark).exists():
+        raise UsageError("this folder holds something else", where=str(out), remedy="Choose another: demo --out DIR")
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    (out / mark).touch()
+
+
+def _create_project(out: Path) -> Project:
+    from meshforge.project import Project
+    from meshforge.samples import TABLES
+
+    (out / "assets").mkdir()
+    for source in sorted(TABLES.glob("table_*")):
+        shutil.copyfile(source, out / "assets" / source.name)
+    pattern = out / "assets" / "*.obj"
+    project = Project.create(out / "project", [pattern], name="tables", vocabulary=TABLE_LABELS, orient=TABLE_ORIENT)
+    shutil.copytree(TABLES / "templates", project.folder / "templates")
+    project.label_from_files()
+    return project

@@ -14,7 +14,7 @@ def fmt(
     check: Annotated[bool, typer.Option("--check", help="Only tell, by exit code 1, whether it would change.")] = False,
 ) -> None:
     """Print a program in its canonical form, comments kept."""
-    from meshforge.files import write_atomically
+    from meshforge.common import write_atomically
     from meshforge.language import Program
 
     text = str(Program.read(program))

@@ -64,7 +64,7 @@ def load_command(name: str) -> TyperCommand:
     return cast(TyperCommand, typer.main.get_command(app))
 
 
-def application() -> typer.Typer:
+def build_application() -> typer.Typer:
     """The command-line application with all commands."""
     app = typer.Typer(
         name="meshforge",
@@ -76,7 +76,7 @@ def application() -> typer.Typer:
         rich_markup_mode=None,  # rich's help page alone costs a tenth of a second
         context_settings=_HELP_OPTIONS,
     )
-    app.callback()(_root)
+    app.callback()(_read_root_options)
     return app
 
 
@@ -86,7 +86,7 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-def _root(
+def _read_root_options(
     version: bool = typer.Option(
         False, "--version", help="Print the version and leave.", is_eager=True, callback=_print_version
     ),
@@ -102,7 +102,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
-        application()(prog_name="meshforge")
+        build_application()(prog_name="meshforge")
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
         sys.exit(130)
@@ -112,7 +112,7 @@ def main() -> None:
     except Exception as error:  # no traceback reaches a user who did not ask for it
         if debug:
             raise
-        from meshforge.errors import told
+        from meshforge.common import describe_error
 
-        print(f"error: {told(error, fault='--debug shows where it came from')}", file=sys.stderr)
+        print(f"error: {describe_error(error, fault='--debug shows where it came from')}", file=sys.stderr)
         sys.exit(2)

@@ -6,9 +6,17 @@ from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import AssetFiles, Workers
-from meshforge.cli.prepare import AssetTimeout, decomposed
+from meshforge.cli.options import (
+    AssetFiles,
+    AssetTimeout,
+    EngineMethod,
+    EngineOptions,
+    Hollow,
+    Workers,
+    parse_engine_settings,
+    refuse_options,
+)
+from meshforge.cli.prepare import decompose_assets
 
 
 def new(
@@ -20,10 +28,10 @@ def new(
         str, typer.Option("--orient", help="How assets are turned first: '+Z: Is(leg) -> Is(panel)'.")
     ] = "",
     method: Annotated[
-        Method | None,
+        EngineMethod | None,
         typer.Option("--decompose", help="Make hulls of opaque pieces, and of bodies without collision geometry."),
     ] = None,
-    option: Set = None,
+    option: EngineOptions = None,
     hollow: Hollow = False,
     workers: Workers = None,
     timeout: AssetTimeout = 600.0,
@@ -32,19 +40,19 @@ def new(
 
     With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
     """
+    from meshforge.common import pluralize
     from meshforge.project import Project
-    from meshforge.words import counted
 
     if method is None:
-        refuse_given(context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
-    settings = engine_settings(method, option) if method else None
-    made = Project.create(project, assets, vocabulary=_words(vocabulary), orient=orient)
-    typer.echo(f"{project}: a project of {counted(len(made.assets()), 'asset')}")
+        refuse_options(context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
+    settings = parse_engine_settings(method, option) if method else None
+    made = Project.create(project, assets, vocabulary=_split_words(vocabulary), orient=orient)
+    typer.echo(f"{project}: a project of {pluralize(len(made.assets()), 'asset')}")
     options: dict[str, Any] = {"hollow": hollow, "workers": workers, "timeout": timeout}
-    failed = decomposed(made, made.assets(), settings, **options) if settings else 0
+    failed = decompose_assets(made, made.assets(), settings, **options) if settings else 0
     typer.echo(f"Next: meshforge status {project}")
     raise typer.Exit(failed)
 
 
-def _words(text: str) -> list[str]:
+def _split_words(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]

@@ -9,13 +9,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import Json, Workers
+from meshforge.cli.options import (
+    AssetTimeout,
+    EngineMethod,
+    EngineOptions,
+    Hollow,
+    Json,
+    Workers,
+    parse_engine_settings,
+    refuse_options,
+)
 
 if TYPE_CHECKING:
-    from meshforge.project import Prepared, Project
-
-AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
+    from meshforge.project import PreparationResult, Project
 
 
 def prepare(
@@ -23,9 +29,9 @@ def prepare(
     project: Annotated[Path, typer.Argument(help="A project folder.")],
     assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None,
     method: Annotated[
-        Method | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
+        EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
     ] = None,
-    option: Set = None,
+    option: EngineOptions = None,
     only: Annotated[
         list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
     ] = None,
@@ -43,7 +49,7 @@ def prepare(
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
     from meshforge.project import Project
 
     if (method is not None) + undo + remove != 1:
@@ -52,26 +58,28 @@ def prepare(
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     opened = Project.open(project)
     if method is None:
-        refuse_given(context, ("option", "only", "again", "hollow", "workers", "timeout"), "--decompose METHOD")
-        raise typer.Exit(show(_taken_back(opened, _named(opened, assets), everything=remove), json))
-    settings = engine_settings(method, option)
+        refuse_options(context, ("option", "only", "again", "hollow", "workers", "timeout"), "--decompose METHOD")
+        raise typer.Exit(print_all(_undo_preparation(opened, _select_assets(opened, assets), everything=remove), json))
+    settings = parse_engine_settings(method, option)
     options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
-    raise typer.Exit(decomposed(opened, assets or opened.assets(), settings, json=json, **options))
+    raise typer.Exit(decompose_assets(opened, assets or opened.assets(), settings, json=json, **options))
 
 
-def decomposed(project: Project, assets: Iterable[str], settings: Any, *, json: bool = False, **options: Any) -> int:
+def decompose_assets(
+    project: Project, assets: Iterable[str], settings: Any, *, json: bool = False, **options: Any
+) -> int:
     """Decompose assets of a project and show what became of each; the exit code."""
-    from meshforge.cli.output import progress
+    from meshforge.cli.terminal import progress
 
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
         found = project.decompose(ids, settings, progress=advance, **options)
-        return show(found, json)
+        return print_all(found, json)
 
 
-def show(found: Iterable[Prepared], json: bool = False) -> int:
+def print_all(found: Iterable[PreparationResult], json: bool = False) -> int:
     """Print what became of assets; 1 where one has a problem, else 0."""
-    from meshforge.cli.output import print_json
+    from meshforge.cli.terminal import print_json
 
     failed = 0
     for done in found:
@@ -79,14 +87,14 @@ def show(found: Iterable[Prepared], json: bool = False) -> int:
         if json:
             print_json(asdict(done) | {"hulls": list(done.hulls)}, compact=True)
         else:
-            _print(done)
+            _print_one(done)
     return int(failed)
 
 
-def _print(done: Prepared) -> None:
-    from meshforge.words import counted
+def _print_one(done: PreparationResult) -> None:
+    from meshforge.common import pluralize
 
-    pieces = f"{counted(len(done.made), 'piece')} into {counted(len(done.hulls), 'hull')}"
+    pieces = f"{pluralize(len(done.made), 'piece')} into {pluralize(len(done.hulls), 'hull')}"
     typer.echo(f"{done.asset}: {pieces if done.made else 'taken back' if done.undone else 'nothing new'}")
     for step in done.undone:
         typer.echo(f"    {step}")
@@ -98,7 +106,7 @@ def _print(done: Prepared) -> None:
         typer.echo("    failed: " + problem.replace("\n", "\n    "))
 
 
-def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
+def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...]:
     """The assets that were named, each once; without names all that something was done to, those that are gone too.
 
     Raises ProjectError for a name that nothing has.
@@ -110,13 +118,13 @@ def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(assets or kept))
 
 
-def _taken_back(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[Prepared]:
+def _undo_preparation(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[PreparationResult]:
     """What became of assets whose preparation is taken back; one that fails never stops the others."""
-    from meshforge.errors import told
-    from meshforge.project import Prepared
+    from meshforge.common import describe_error
+    from meshforge.project import PreparationResult
 
     for asset in assets:
         try:
             yield project.unprepare(asset, everything=everything)
         except Exception as error:  # one asset never stops the others
-            yield Prepared(asset, problems=(told(error, asset),))
+            yield PreparationResult(asset, problems=(describe_error(error, asset),))

@@ -1,4 +1,5 @@
-"""`meshforge render`: a picture of an asset's hulls."""
+"""`meshforge render`: a picture of an asset's hulls, or numbered pictures in which a person or a model names its
+parts."""
 
 from __future__ import annotations
 
@@ -7,14 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from meshforge.cli.opening import opened
-from meshforge.cli.options import AssetFile, InProject, Labels
-from meshforge.cli.part_pictures import write_part_pictures
+from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset
 
 if TYPE_CHECKING:
-    from meshforge.views import View
+    from meshforge.rendering import View
+    from meshforge.symbolic import SymbolicMesh
+
 
 _LABELLING = "labelling"
+
+_SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
 
 
 def render(
@@ -22,7 +25,7 @@ def render(
     out: Annotated[
         Path, typer.Option("-o", "--out", help="The PNG to write; for `--views labelling` it may be a folder.")
     ],
-    labels: Labels = None,
+    labels: LabelsPath = None,
     project: InProject = None,
     color_by: Annotated[
         Literal["hull", "label", "body", "confidence"] | None,
@@ -45,22 +48,22 @@ def render(
     names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False,
 ) -> None:
     """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
-    from meshforge.cli.output import remark
-    from meshforge.views import render as picture
-    from meshforge.views import write_png
+    from meshforge.cli.terminal import remark
+    from meshforge.rendering import render as picture
+    from meshforge.rendering import write_png
 
     if views.strip() == _LABELLING:
         _check_labelling(color_by, ghost, names)
-        side = _side(size or "1024x1024")
-        remark(f"wrote {write_part_pictures(opened(asset, labels, project), out, side)}")
+        side = _parse_side(size or "1024x1024")
+        remark(f"wrote {write_part_pictures(open_asset(asset, labels, project), out, side)}")
         return
-    mesh = opened(asset, labels, project)
+    mesh = open_asset(asset, labels, project)
     visuals = tuple(mesh.asset.visuals) if ghost and mesh.asset else None
     image = picture(
         mesh,
-        views=_views(views),
+        views=_parse_views(views),
         color_by=color_by or ("label" if mesh.labels else "hull"),
-        size=_pixels(size or "900x700"),
+        size=_parse_pixels(size or "900x700"),
         ghost=visuals,
         labels=names,
     )
@@ -69,7 +72,7 @@ def render(
 
 
 def _check_labelling(color_by: str | None, ghost: bool, names: bool) -> None:
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
 
     for given, option in ((color_by, "--color-by"), (ghost, "--ghost"), (names, "--names")):
         if given:
@@ -79,18 +82,18 @@ def _check_labelling(color_by: str | None, ghost: bool, names: bool) -> None:
             )
 
 
-def _side(text: str) -> int:
-    from meshforge.errors import UsageError
+def _parse_side(text: str) -> int:
+    from meshforge.common import UsageError
 
-    width, height = _pixels(text)
+    width, height = _parse_pixels(text)
     if width != height:
         raise UsageError(f"pictures for labelling are square, {text} is not", remedy=f"Give --size {width}x{width}.")
     return width
 
 
-def _views(text: str) -> list[View]:
-    from meshforge.errors import UsageError
-    from meshforge.views import VIEWS
+def _parse_views(text: str) -> list[View]:
+    from meshforge.common import UsageError
+    from meshforge.rendering import VIEWS
 
     known: dict[str, View] = {view: view for view in VIEWS}
     names = [name.strip() for name in text.split(",")]
@@ -100,10 +103,43 @@ def _views(text: str) -> list[View]:
     return [known[name] for name in names]
 
 
-def _pixels(text: str) -> tuple[int, int]:
-    from meshforge.errors import UsageError
+def _parse_pixels(text: str) -> tuple[int, int]:
+    from meshforge.common import UsageError
 
     width, cross, height = text.lower().partition("x")
     if not (cross and width.isdigit() and height.isdigit() and 16 <= int(width) <= 8192 and 16 <= int(height) <= 8192):
         raise UsageError(f"--size {text} is not a size", remedy="Give it as WIDTHxHEIGHT, for example 900x700.")
     return int(width), int(height)
+
+
+def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
+    """Writes what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
+
+    size: pixels along each picture's sides. Returns what is written, in words. Raises UsageError for a mesh without
+    hulls, and where it cannot be written.
+    """
+    from meshforge.common import UsageError, pluralize
+    from meshforge.rendering import draw_labeling_pictures, make_contact_sheet, write_png
+
+    taken = draw_labeling_pictures(mesh, size=size)
+    if not taken:
+        raise UsageError(
+            "there are no hulls to be named", remedy="`meshforge decompose` makes hulls, and `new --decompose` too."
+        )
+    if out.suffix and not out.is_dir():
+        write_png(
+            out,
+            make_contact_sheet(
+                [image for shot in taken for image in (shot.marked, shot.plain)], columns=_SHEET_COLUMNS
+            ),
+        )
+        return f"{out}: {pluralize(len(taken), 'picture')}, each with its plain one"
+    for k, shot in enumerate(taken, 1):
+        stem = f"{k:02}-{_file_name(shot.name)}"
+        write_png(out / f"{stem}.png", shot.marked)
+        write_png(out / f"{stem}-plain.png", shot.plain)
+    return f"{pluralize(len(taken), 'picture')} to {out}, each with its plain one"
+
+
+def _file_name(name: str) -> str:
+    return "-".join(name.replace(",", " ").split())

@@ -8,9 +8,8 @@ from typing import Annotated
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import Json
-from meshforge.cli.prepare import show
+from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Json, parse_engine_settings, refuse_options
+from meshforge.cli.prepare import print_all
 
 
 def split(
@@ -25,9 +24,9 @@ def split(
         str, typer.Option("--across", metavar="X,Y,Z", help="The direction across the plane; part #1 is on that side.")
     ] = "",
     method: Annotated[
-        Method | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
+        EngineMethod | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
     ] = None,
-    option: Set = None,
+    option: EngineOptions = None,
     hollow: Hollow = False,
     json: Json = False,
 ) -> None:
@@ -36,22 +35,22 @@ def split(
     The plane is given in metres in the frame that the asset comes in (root frame, joints at zero), as `info` shows it.
     The parts are called HULL#0, HULL#1, ... and take over its label. Take it back with: meshforge prepare --undo.
     """
-    from meshforge.errors import UsageError
+    from meshforge.common import UsageError
     from meshforge.project import Project
 
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
         raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
     opened = Project.open(project)
     if method is None:
-        refuse_given(context, ("option", "hollow"), "--decompose METHOD")
-        done = opened.cut(asset, hull, _vector(at, "--at"), _direction(across, "--across"))
+        refuse_options(context, ("option", "hollow"), "--decompose METHOD")
+        done = opened.cut(asset, hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
     else:
-        done = opened.split(asset, hull, engine_settings(method, option), hollow=hollow)
-    show([done], json)
+        done = opened.split(asset, hull, parse_engine_settings(method, option), hollow=hollow)
+    print_all([done], json)
 
 
-def _vector(text: str, option: str) -> tuple[float, float, float]:
-    from meshforge.errors import UsageError
+def _parse_vector(text: str, option: str) -> tuple[float, float, float]:
+    from meshforge.common import UsageError
 
     try:
         x, y, z = map(float, text.split(","))
@@ -62,10 +61,10 @@ def _vector(text: str, option: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _direction(text: str, option: str) -> tuple[float, float, float]:
-    from meshforge.errors import UsageError
+def _parse_direction(text: str, option: str) -> tuple[float, float, float]:
+    from meshforge.common import UsageError
 
-    vector = _vector(text, option)
+    vector = _parse_vector(text, option)
     if not any(vector):
         raise UsageError(f"{option} {text}: a direction is needed, so one of the numbers is not zero")
     return vector

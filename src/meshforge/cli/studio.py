@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from meshforge.studio.serving import Opening
+from meshforge.cli.options import Browser, Port
 
-Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
-Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
+if TYPE_CHECKING:
+    from meshforge.studio.session.session import StudioOptions
 
 
 def studio(
@@ -28,16 +27,16 @@ def studio(
 
     The studio answers on this machine only, to the address with its token that is printed.
     """
-    from meshforge.studio.serving import Opening
+    from meshforge.studio.session.session import StudioOptions
 
-    opened(Opening(project, export), port=port, browser=browser, page=page)
+    open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 
 
-def opened(opening: Opening, *, port: int, browser: bool, page: Path | None = None) -> None:
+def open_studio(opening: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    from meshforge.studio.serving import BUILT, serve
+    from meshforge.studio.api.server import PAGE_FOLDER, serve
 
-    serve(opening, _say, port=port, browser=browser, page=page or BUILT)
+    serve(opening, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
 
 
 def _say(address: str) -> None:

@@ -1,8 +1,11 @@
-"""`meshforge synthesize`: learn the program of a project from its demonstrations, asking where they leave it open."""
+"""`meshforge synthesize`: learn the program of a project from its demonstrations; list and take back earlier
+answers."""
 
 from __future__ import annotations
 
+import shlex
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -11,9 +14,11 @@ import typer
 from meshforge.cli.options import Json
 
 if TYPE_CHECKING:
-    from meshforge.cli.lessons import Lessons
-    from meshforge.cli.outcome_text import About
-    from meshforge.synthesis import Outcome
+    from meshforge.cli.synthesize_session import LearningSession
+    from meshforge.cli.synthesize_text import LearningContext
+    from meshforge.project import Project
+    from meshforge.store import AnswersFile, RepairLine
+    from meshforge.synthesis import LearningOutcome
 
 
 def synthesize(
@@ -57,36 +62,34 @@ def synthesize(
     In a terminal it asks where the demonstrations leave a rule open, or where a label is probably wrong; Ctrl-C ends
     the search. Exit code 1 when no program was found; then the nearest one is named, and where it differs.
     """
-    from meshforge.cli import said
-    from meshforge.cli.conversation import Conversation
-    from meshforge.cli.given_answers import read_given
-    from meshforge.cli.lessons import Lessons
-    from meshforge.cli.output import print_json
-    from meshforge.cli.scripted import check_all_asked, scripted
-    from meshforge.errors import UsageError
+    from meshforge.cli.synthesize_dialog import Conversation
+    from meshforge.cli.synthesize_script import check_all_asked, read_answers, run_script
+    from meshforge.cli.synthesize_session import LearningSession
+    from meshforge.cli.terminal import print_json
+    from meshforge.common import UsageError
     from meshforge.language import Program
     from meshforge.project import Project
-    from meshforge.synthesis import Options, outcome_json
+    from meshforge.synthesis import Options, outcome_to_json
 
     if accept_repairs and reject_repairs:
         raise UsageError("--accept-repairs and --reject-repairs exclude each other")
     opened = Project.open(project)
     if forget:
-        said.forget(opened, project, forget)
+        forget_answers(opened, project, forget)
         return
     if list_answers:
-        said.list_answers(opened, project, json)
+        print_answers(opened, project, json)
         return
     options = Options(strategy=strategy, layers=layers, repair=not no_repair, budget=budget)
-    lessons = Lessons(opened, options, keep=not dry_run, follow=Program.read(follow) if follow else None)
-    given = read_given(answers, opened) if answers else None
+    lessons = LearningSession(opened, options, keep=not dry_run, follow=Program.read(follow) if follow else None)
+    given = read_answers(answers, opened) if answers else None
     verdict = accept_repairs if accept_repairs or reject_repairs else None
     asks = is_interactive() and not (json or dry_run) and given is None and verdict is None
-    outcome = Conversation(lessons, input, typer.echo).run() if asks else scripted(lessons, given, verdict)
+    outcome = Conversation(lessons, input, typer.echo).run() if asks else run_script(lessons, given, verdict)
     if json:
-        print_json(outcome_json(outcome))
+        print_json(outcome_to_json(outcome))
     else:
-        _print(outcome, lessons, project, asks)
+        _print_outcome(outcome, lessons, project, asks)
     check_all_asked(opened, given, outcome)
     raise typer.Exit(int(outcome.program is None))
 
@@ -96,28 +99,27 @@ def is_interactive() -> bool:
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
-def _print(outcome: Outcome, lessons: Lessons, folder: Path, asked: bool) -> None:
+def _print_outcome(outcome: LearningOutcome, lessons: LearningSession, folder: Path, asked: bool) -> None:
     """The result to stdout, remarks to stderr, with the open question unless a person was asked it."""
-    from meshforge.cli.cards import answer_help, choices_card
-    from meshforge.cli.outcome_text import remarks, result
-    from meshforge.cli.output import remark
+    from meshforge.cli.synthesize_text import format_answer_help, format_choices, format_remarks, format_result
+    from meshforge.cli.terminal import remark
 
-    about = _about(lessons, folder, outcome)
-    typer.echo(result(outcome, about))
+    about = _context_of(lessons, folder, outcome)
+    typer.echo(format_result(outcome, about))
     if outcome.followed:
         typer.echo("\n" + "\n".join(outcome.followed))
-    more = remarks(outcome, about)
+    more = format_remarks(outcome, about)
     if more:
         remark(f"\n{more}")
     if outcome.question and not asked:
-        remark(f"\n{choices_card(outcome.question)}\n{answer_help(outcome.question, about.folder_word)}")
+        remark(f"\n{format_choices(outcome.question)}\n{format_answer_help(outcome.question, about.folder_word)}")
 
 
-def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
-    from meshforge.cli.outcome_text import About
+def _context_of(lessons: LearningSession, folder: Path, outcome: LearningOutcome) -> LearningContext:
+    from meshforge.cli.synthesize_text import LearningContext
 
     said = lessons.project.answers()
-    return About(
+    return LearningContext(
         folder,
         assets=len(lessons.project.assets()),
         in_use=len(lessons.ids_in_use),
@@ -127,3 +129,53 @@ def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
         kept=lessons.keep,
         stopped=lessons.stopped,
     )
+
+
+def print_answers(project: Project, folder: Path, json: bool) -> None:
+    """List all answers and repairs by their ids."""
+    from meshforge.cli.terminal import print_json, remark
+
+    said = project.answers()
+    if json:
+        print_json(said.model_dump(mode="json", by_alias=True))
+        return
+    for line in _answer_lines(said):
+        typer.echo(line)
+    if said.ids:
+        remark(f"To take one back: meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(said.ids[0])}")
+    else:
+        remark("nothing was answered, mended or refused yet")
+
+
+def _answer_lines(said: AnswersFile) -> Iterator[str]:
+    from meshforge.common import join_names, pluralize
+
+    for line in said.answers:
+        hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
+        yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
+    yield from (f"{line.id}  mended, was {_describe_before(line)}" for line in said.confirmed)
+    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in said.rejected)
+
+
+def _describe_before(line: RepairLine) -> str:
+    return line.was or "without a label"
+
+
+def forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
+    """Take back what has one of these ids, or everything by `all`."""
+    from meshforge.cli.terminal import remark
+    from meshforge.common import pluralize
+
+    if "all" in ids:
+        count = len(project.answers().ids)
+        notes = list(project.forget_answers())
+        typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
+    else:
+        notes = []
+        for said in ids:
+            note = project.take_back(said)
+            notes += [note] if note else []
+            typer.echo(f"taken back: {said}")
+    for note in notes:
+        remark(note)
+    remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")

@@ -1,4 +1,4 @@
-"""What a format is: a reader and a writer of assets, registered by one line in `registry`."""
+"""What a format is: a reader and a writer of assets, the output it makes, and what that output loses."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from meshforge.asset import Asset, Feature, What
-from meshforge.formats.losses import Loss
+from meshforge.common import join_names, pluralize
+from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _PATHS = (
     "ROS_PACKAGE_PATH",
@@ -22,6 +22,31 @@ _PATHS = (
 )
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """Things of one kind that are not in the output as they were.
+
+    why: the reason, a clause; instead: how they are there all the same (`written as triangles`), None where they are
+    not; unnamed: how many there are that have no name.
+    """
+
+    kind: FeatureKind
+    names: tuple[str, ...]
+    why: str
+    instead: str | None = None
+    unnamed: int = 0
+
+    @property
+    def count(self) -> int:
+        return len(self.names) + self.unnamed
+
+    def __str__(self) -> str:
+        named = f" ({join_names(self.names, 3)})" if self.names else ""
+        verb = "is" if self.count == 1 else "are"
+        head = f"{pluralize(self.count, self.kind.one, self.kind.many)}{named}"
+        return f"{head} {verb} {self.instead or 'left out'}: {self.why}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +100,9 @@ class Format(ABC):
     writable: ClassVar[bool] = True
     title: ClassVar[str]
     up: ClassVar[Literal["y", "z"] | None] = None
-    holds: ClassVar[frozenset[What]] = frozenset()
-    could: ClassVar[frozenset[What]] = frozenset()
-    instead: ClassVar[Mapping[What, str]] = {}
+    holds: ClassVar[frozenset[FeatureKind]] = frozenset()
+    could: ClassVar[frozenset[FeatureKind]] = frozenset()
+    instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
@@ -103,7 +128,7 @@ class Format(ABC):
         raise self._creation_error(asset)
 
     def _creation_error(self, asset: Asset) -> Exception:
-        from meshforge.errors import AssetError
+        from meshforge.common import AssetError
 
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
 
@@ -122,3 +147,11 @@ class Format(ABC):
     def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
+
+
+def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
+    """A note on hulls that the file holds under other names."""
+    if not names:
+        return ()
+    shown = join_names([f"{old} is now {new}" for old, new in names.items()], 3)
+    return (f"hulls are called otherwise in what is written: {shown}",)

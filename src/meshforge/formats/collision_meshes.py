@@ -7,13 +7,16 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.errors import AssetError, MeshForgeError
-from meshforge.formats.meshfile import RawSurface
+from meshforge.common import AssetError, MeshForgeError
+from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
+from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.references import Resolver
-from meshforge.formats.triangles import pieces_of, read_triangles
 from meshforge.geometry import Piece
 
 _SHOWN = 120  # characters of a reference in a message
+
+SurfaceSelector = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[RawSurface]]
+"""What a `MeshUse.part` stands for among the surfaces of a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,24 +51,20 @@ def refuse_missing(uses: Iterable[MeshUse]) -> None:
     if lost:
         others = f" (and {len(lost) - 1} more like it)" if len(lost) > 1 else ""
         raise AssetError(
-            f"the mesh {_short(lost[0].reference)!r} of collision {lost[0].label!r} is not there{others}",
+            f"the mesh {_shorten(lost[0].reference)!r} of collision {lost[0].label!r} is not there{others}",
             where=lost[0].place,
             remedy=lost[0].resolver.advice(lost[0].reference),
         )
 
 
-Chosen = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[RawSurface]]
-"""What a `MeshUse.part` stands for among the surfaces of a file."""
-
-
-def _all(surfaces: Sequence[RawSurface], _: tuple[str, ...]) -> Sequence[RawSurface]:
+def _select_all(surfaces: Sequence[RawSurface], _: tuple[str, ...]) -> Sequence[RawSurface]:
     return surfaces
 
 
 class CollisionMeshes:
     """The mesh files of one asset; chosen: what elements use of them."""
 
-    def __init__(self, chosen: Chosen = _all) -> None:
+    def __init__(self, chosen: SurfaceSelector = _select_all) -> None:
         self._chosen = chosen
         self._files: dict[Path, Sequence[RawSurface]] = {}
         self._surfaces: dict[tuple[Path, tuple[str, ...]], Sequence[RawSurface]] = {}
@@ -92,7 +91,7 @@ class CollisionMeshes:
         if key not in self._pieces:
             surfaces = self.surfaces(use)
             try:
-                self._pieces[key] = pieces_of(surfaces, name=str(use.path))
+                self._pieces[key] = split_into_pieces(surfaces, name=str(use.path))
             except MeshForgeError as error:
                 raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
         return self._pieces[key]
@@ -110,7 +109,7 @@ class CollisionMeshes:
         return tuple((path, digest_of(path)) for path in several)
 
 
-class KeptMeshes:
+class SourceMeshes:
     """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were."""
 
     def __init__(self, digests: Iterable[tuple[Path, str]], where: str) -> None:
@@ -136,5 +135,5 @@ def digest_of(path: Path) -> str:
     return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
 
 
-def _short(reference: str) -> str:
+def _shorten(reference: str) -> str:
     return reference if len(reference) <= _SHOWN else f"{reference[:_SHOWN]}..."

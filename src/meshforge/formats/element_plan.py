@@ -1,27 +1,20 @@
-"""What an edit makes of each collision element: left alone, removed, parted into its kept pieces, joined by new."""
+"""What an edit makes of each collision element: left alone, removed, split into the pieces that stay, joined by new
+ones."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError, nearest
-from meshforge.formats.slots import Slot, at_end, in_place, lead_inside
+from meshforge.common import AssetError, nearest_name
+from meshforge.formats.collision_pieces import CollisionElement
+from meshforge.formats.slots import Slot, append_elements, child_indent_of, replace_element
 from meshforge.formats.xml import Element, Splice
 from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Geom
 
 
-@dataclass(frozen=True, slots=True)
-class Authored:
-    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and opaque ones."""
-
-    link: str
-    names: tuple[str, ...]
-
-
-class Maker(Protocol):
+class ElementMaker(Protocol):
     """Makes elements for one document of a format; data: its text."""
 
     @property
@@ -37,7 +30,7 @@ class Maker(Protocol):
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
 
 
-class Plan:
+class ElementPlan:
     """The collision elements of the output.
 
     places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
@@ -47,10 +40,10 @@ class Plan:
     def __init__(
         self,
         asset: Asset,
-        authored: Sequence[Authored],
+        authored: Sequence[CollisionElement],
         elements: Sequence[Element],
         links: Mapping[str, Element],
-        maker: Maker,
+        maker: ElementMaker,
     ) -> None:
         self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
         self.places: list[tuple[Element, list[Slot]]] = []
@@ -78,8 +71,8 @@ class Plan:
         """The edits of the document's text."""
         data = self.maker.data
         edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].is_untouched))
-        edits = [in_place(data, element, slots) for element, slots in edited]
-        return edits + [at_end(data, self.links[link], slots) for link, slots in self.ends.items()]
+        edits = [replace_element(data, element, slots) for element, slots in edited]
+        return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
         kept = {g.name for g in self.asset.geoms if g.parent is None} | {o.name for o in self.asset.opaque}
@@ -104,7 +97,7 @@ class Plan:
         own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
-        lead = lead_inside(self.maker.data, link)
+        lead = child_indent_of(self.maker.data, link)
         slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
@@ -114,7 +107,7 @@ class Plan:
     def _link_of(self, geom: Geom) -> Element:
         if geom.body in self.links:
             return self.links[geom.body]
-        like = nearest(geom.body, self.links)
+        like = nearest_name(geom.body, self.links)
         raise AssetError(
             f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
             where=str(self.asset.path),

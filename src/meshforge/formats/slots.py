@@ -1,4 +1,5 @@
-"""Elements of an edited description before they are text, authored, copied or new, and where they go."""
+"""Collision elements of an edited description before they are text, authored, copied or new: what they are called,
+and where they go."""
 
 from __future__ import annotations
 
@@ -9,13 +10,14 @@ from dataclasses import dataclass
 from meshforge.formats.xml import (
     Element,
     Splice,
-    attribute,
-    indent,
-    newline,
-    removed,
-    spliced,
-    without_comments,
+    apply_splices,
+    indent_of,
+    newline_of,
+    remove_element,
+    set_attribute,
+    strip_comments,
 )
+from meshforge.symbolic import unique_names
 
 _TAG = re.compile(rb"<([^\s/>]+)")
 
@@ -45,55 +47,99 @@ class Slot:
     def to_bytes(self, data: bytes) -> bytes:
         """Its text; data: the authored document."""
         if self.source is None:
-            return spliced(self.text, [attribute(self.text, _new(self.text), "name", self.name)])
+            return apply_splices(self.text, [set_attribute(self.text, _parse_element(self.text), "name", self.name)])
         edits = self.edits
         if self.name != self.source.attributes.get("name"):
-            edits = (attribute(data, self.source, "name", self.name), *edits)
-        text = spliced(data, edits, self.source.start, self.source.end)
-        return without_comments(text) if self.copy else text
+            edits = (set_attribute(data, self.source, "name", self.name), *edits)
+        text = apply_splices(data, edits, self.source.start, self.source.end)
+        return strip_comments(text) if self.copy else text
 
 
-def in_place(data: bytes, element: Element, slots: Sequence[Slot]) -> Splice:
+def replace_element(data: bytes, element: Element, slots: Sequence[Slot]) -> Splice:
     """What stands in the place of an authored element; nothing takes its line away."""
     if not slots:
-        return removed(data, element)
-    return Splice(element.start, element.end, _joined(data, slots, indent(data, element.start)))
+        return remove_element(data, element)
+    return Splice(element.start, element.end, _join_slots(data, slots, indent_of(data, element.start)))
 
 
-def at_end(data: bytes, parent: Element, slots: Sequence[Slot]) -> Splice:
+def append_elements(data: bytes, parent: Element, slots: Sequence[Slot]) -> Splice:
     """What is added at the end of an element."""
-    line_end, before = newline(data), indent(data, parent.start) or b""
+    line_end, before = newline_of(data), indent_of(data, parent.start) or b""
     if parent.children:
         last = parent.children[-1]
-        lead = indent(data, last.start)
-        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _joined(data, slots, lead))
+        lead = indent_of(data, last.start)
+        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _join_slots(data, slots, lead))
     lead = before + b"  "
-    added = lead + _joined(data, slots, lead) + line_end
+    added = lead + _join_slots(data, slots, lead) + line_end
     if data[parent.inside - 2 : parent.inside] == b"/>":
         closing_tag = b"</%s>" % parent.tag.encode()
         return Splice(parent.inside - 2, parent.inside, b">" + line_end + added + before + closing_tag)
     closing = data.rfind(b"</", parent.inside, parent.end)
-    blanks = indent(data, closing)
+    blanks = indent_of(data, closing)
     if blanks is None:
         return Splice(closing, closing, line_end + added + before)
     return Splice(closing - len(blanks), closing - len(blanks), added)
 
 
-def lead_inside(data: bytes, parent: Element) -> bytes:
+def child_indent_of(data: bytes, parent: Element) -> bytes:
     """The blanks before the children of an element."""
     if parent.children:
-        return indent(data, parent.children[-1].start) or b""
-    return (indent(data, parent.start) or b"") + b"  "
+        return indent_of(data, parent.children[-1].start) or b""
+    return (indent_of(data, parent.start) or b"") + b"  "
 
 
-def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
+def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
     """Elements one after another, each on lines of its own where the first is."""
-    gap = b"" if lead is None else newline(data) + lead
+    gap = b"" if lead is None else newline_of(data) + lead
     return gap.join(slot.to_bytes(data) for slot in slots)
 
 
-def _new(text: bytes) -> Element:
+def _parse_element(text: bytes) -> Element:
     """The element of a text that has no name attribute."""
     found = _TAG.match(text)
     assert found is not None  # a text is an element
     return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
+
+
+def name_element_pieces(elements: Sequence[tuple[str, str | None, int]]) -> list[tuple[str, ...]]:
+    """The names that the pieces of collision elements read as; for each element its link, name attribute and pieces.
+
+    `link/name`, or `link/geomK` where the K-th element of a link has no name; `#k` for one of several pieces.
+    """
+    count: dict[str, int] = {}
+    bases = []
+    for link, name, _ in elements:
+        bases.append(f"{link}/{name or 'geom' + str(count.get(link, 0))}")
+        count[link] = count.get(link, 0) + 1
+    each = [
+        [base] if pieces == 1 else [f"{base}#{k}" for k in range(pieces)]
+        for base, (_, _, pieces) in zip(unique_names(bases), elements, strict=True)
+    ]
+    unique = iter(unique_names(name for names in each for name in names))
+    return [tuple(next(unique) for _ in names) for names in each]
+
+
+def assign_names(slots: Sequence[Slot]) -> dict[str, str]:
+    """Name the elements, given in the order of the output, that would else read back under other names.
+
+    Returns the names that cannot be had all the same, with what they read back as: a hull of a format whose names do
+    not begin with the body, or an element that its author called like a piece of another.
+    """
+    for _ in range(4):
+        for slot, _names in _find_misread(slots):
+            slot.name = name_attribute_of(slot)
+    return {
+        wanted: name for slot, names in _find_misread(slots) for wanted, name in zip(slot.names, names, strict=True)
+    }
+
+
+def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
+    """The elements that read back under other names, with these."""
+    read = name_element_pieces([(slot.body, slot.name, len(slot.names)) for slot in slots])
+    return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
+
+
+def name_attribute_of(slot: Slot) -> str:
+    """The name attribute under which a slot's pieces have their names: that of the first, without link and `#0`."""
+    name = slot.names[0].removeprefix(f"{slot.body}/")
+    return name if len(slot.names) == 1 else name.removesuffix("#0")

@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, overload
 
-from meshforge.asset import Asset, Surface
-from meshforge.errors import MeshForgeError
-from meshforge.formats.mesh_parts import placed
-from meshforge.formats.triangles import read_triangles
+from meshforge.common import MeshForgeError
+from meshforge.formats.base import Loss
+from meshforge.formats.collision_pieces import place_surface
+from meshforge.formats.mesh_reader import read_triangles
 from meshforge.geometry import Floats, Pose, Shape
+from meshforge.symbolic import Asset, FeatureKind, Surface
 
 Rgba = tuple[float, float, float, float]
 
@@ -45,7 +46,7 @@ class Visual:
             read = read_triangles(self.what)
         except MeshForgeError:
             return []
-        found = [placed(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
+        found = [place_surface(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
         return [replace(surface, rgba=self.rgba) for surface in found]
 
 
@@ -94,3 +95,16 @@ def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
     first = asset.bodies[0].name if asset.bodies else ""
     found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
     return [(visual.body or first, visual) for visual in found]
+
+
+def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[Loss]]:
+    """The surfaces of visuals with their bodies and colours, and what cannot be read."""
+    found: list[tuple[str, Surface]] = []
+    refused: list[str] = []
+    for body, visual in visuals_of(asset):
+        surfaces = visual.surfaces() if isinstance(visual, Visual) else [visual]
+        found += [(body, replace(surface, rgba=visual.rgba)) for surface in surfaces if len(surface.faces)]
+        if not surfaces:
+            refused.append(body)
+    names = tuple(dict.fromkeys(refused))
+    return found, [Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if refused else []

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from meshforge.errors import ProgramError
-from meshforge.language.build_action import build_action
-from meshforge.language.comments import attached
-from meshforge.language.places import Source
-from meshforge.language.program import Comments, HeaderComments, Program, Rule, check_threshold
+from meshforge.common import ProgramError
+from meshforge.language.actions.arguments import Argument, FileArgument, TokenKind, join_alternatives
+from meshforge.language.actions.base import Action, ActionArgument
+from meshforge.language.actions.basic import ACTIONS
+from meshforge.language.print import Comments, Rule
 from meshforge.language.syntax import (
+    OPERATORS,
     All,
     Attach,
-    Base,
+    BaseExtractor,
     Diff,
     Direction,
     Extractor,
@@ -23,92 +24,77 @@ from meshforge.language.syntax import (
     Orient,
     Union,
     check_direction,
+    check_threshold,
 )
-from meshforge.language.syntax_errors import likely
-from meshforge.language.trees import Text, nodes, tokens
+from meshforge.language.syntax_errors import likely_word, quote_code
+from meshforge.language.text import TreeReader, start_of, subtrees_of, tokens_of
 
 if TYPE_CHECKING:
     from lark import Token
 
-    from meshforge.language.trees import Node
+    from meshforge.language.text import Node
 
-_SETS: dict[str, type[Union] | type[Intersect] | type[Diff]] = {
+
+_SET_OPERATORS: dict[str, type[Union] | type[Intersect] | type[Diff]] = {
     "union": Union,
     "intersect": Intersect,
     "diff": Diff,
 }
 
-
-def build_program(source: Source, tree: Node) -> Program:
-    """The program of a `program` node."""
-    statements = nodes(tree)
-    text = Text(source)
-    headers = _headers(text, [node for node in statements if node.data != "rule"])
-    labels = _declared(text, headers["labels"]) if "labels" in headers else ()
-    text = Text(source, labels)
-    comments, end = attached(source.text, [node.meta.line for node in statements])
-    of = dict(zip(map(id, statements), comments, strict=True))
-    return Program(
-        labels,
-        build_orient(text, headers["orient"]) if "orient" in headers else None,
-        tuple(build_rule(text, node, of[id(node)]) for node in statements if node.data == "rule"),
-        _threshold(text, headers.get("contact")),
-        _threshold(text, headers.get("extremity")),
-        HeaderComments(**{name: of[id(node)] for name, node in headers.items()}, end=end),
-    )
+_TOKEN_KINDS: dict[str, TokenKind] = {"NAME": "word", "STRING": "text", "NUMBER": "number", "DIRECTION": "direction"}
 
 
-def build_rule(text: Text, tree: Node, comments: Comments) -> Rule:
+def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
     """The rule of a `rule` node."""
-    extractor, action, *label = nodes(tree)
+    extractor, action, *label = subtrees_of(tree)
     parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
-def build_extractor(text: Text, tree: Node) -> Extractor:
-    """The extractor of a node of the grammar's `_extractor`."""
+def build_extractor(text: TreeReader, tree: Node) -> Extractor:
+    """The extractor of a node of the grammar's `rename_in_extractor`."""
     match tree.data:
         case "attach":
-            selected, anchor = nodes(tree)
-            return Attach(_base(text, selected), _base(text, anchor))
+            selected, anchor = subtrees_of(tree)
+            return Attach(_build_base(text, selected), _build_base(text, anchor))
         case "geo":
-            return Geo(_base(text, nodes(tree)[0]), _direction(text, tokens(tree)[0]))
+            return Geo(_build_base(text, subtrees_of(tree)[0]), _build_direction(text, tokens_of(tree)[0]))
         case "union" | "intersect" | "diff":
-            kind = _SETS[tree.data]
-            left, right = nodes(tree)
+            kind = _SET_OPERATORS[tree.data]
+            left, right = subtrees_of(tree)
             return kind(build_extractor(text, left), build_extractor(text, right))
         case _:
-            return _base(text, tree)
+            return _build_base(text, tree)
 
 
-def build_orient(text: Text, tree: Node) -> Orient:
+def build_orient(text: TreeReader, tree: Node) -> Orient:
     """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
-    given = nodes(tree)
-    pairs = tuple(_pair(text, node) for node in given)
+    given = subtrees_of(tree)
+    pairs = tuple(_build_pair(text, node) for node in given)
     wrong = given[min(2, len(given) - 1)]
-    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens(tree)) > 0))
+    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
 
 
-def _pair(text: Text, tree: Node) -> LandmarkPair:
-    start, end = nodes(tree)
-    return LandmarkPair(_direction(text, tokens(tree)[0]), _base(text, start), _base(text, end))
+def _build_pair(text: TreeReader, tree: Node) -> LandmarkPair:
+    start, end = subtrees_of(tree)
+    return LandmarkPair(_build_direction(text, tokens_of(tree)[0]), _build_base(text, start), _build_base(text, end))
 
 
-def _base(text: Text, tree: Node) -> Base:
-    return All() if tree.data == "all" else Is(text.read_label(nodes(tree)[0]))
+def _build_base(text: TreeReader, tree: Node) -> BaseExtractor:
+    return All() if tree.data == "all" else Is(text.read_label(subtrees_of(tree)[0]))
 
 
-def _direction(text: Text, token: Token) -> Direction:
+def _build_direction(text: TreeReader, token: Token) -> Direction:
     try:
         check_direction(token)
     except ProgramError as error:
-        like = likely(token[1:], ["+X", "+Y", "+Z"])
+        like = likely_word(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
         raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
     return cast(Direction, str(token))
 
 
-def _headers(text: Text, statements: list[Node]) -> dict[str, Node]:
+def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
     headers: dict[str, Node] = {}
     for node in statements:
         if node.data in headers:
@@ -118,9 +104,9 @@ def _headers(text: Text, statements: list[Node]) -> dict[str, Node]:
     return headers
 
 
-def _declared(text: Text, tree: Node) -> tuple[str, ...]:
+def build_labels(text: TreeReader, tree: Node) -> tuple[str, ...]:
     labels: list[str] = []
-    for node in nodes(tree):
+    for node in subtrees_of(tree):
         label = text.read_label(node)
         if label in labels:
             raise text.error_at(node, f"the label {label!r} is declared twice", "Leave one of them out.")
@@ -128,9 +114,68 @@ def _declared(text: Text, tree: Node) -> tuple[str, ...]:
     return tuple(labels)
 
 
-def _threshold(text: Text, tree: Node | None) -> float | None:
+def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
     if tree is None:
         return None
-    (token,) = tokens(tree)
+    (token,) = tokens_of(tree)
     text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
     return float(token)
+
+
+def build_action(text: TreeReader, tree: Node) -> Action:
+    """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
+    (name,) = tokens_of(tree)[:1]
+    given = [part for part in tree.children[1:] if part is not None]
+    kind = ACTIONS.get(name)
+    if kind is None:
+        raise _unknown_action(text, name)
+    takes = list(kind.arguments().values())
+    if len(given) > len(takes):
+        raise text.error_at(given[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
+    if len(given) < kind.min_arguments():
+        raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
+    values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, given, strict=False)]
+    return text.locate_errors(tree, lambda: kind(*values))
+
+
+def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
+    known = f"Actions are {join_alternatives(ACTIONS)}."
+    if name in OPERATORS:
+        return text.error_at(name, f"{name} selects hulls, it is no action", known)
+    like = likely_word(name, ACTIONS)
+    return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
+
+
+def _build_argument(text: TreeReader, kind: type[Action], argument: Argument, given: Node | Token) -> Any:
+    """The value of an argument, read as its kind says."""
+    from lark import Tree
+
+    if isinstance(argument, ActionArgument) and isinstance(given, Tree):
+        return build_action(text, given)
+    token = _bare_token(given)
+    if token is not None:
+        content = text.unquote(token) if token.type == "STRING" else str(token)
+        value = argument.read(_TOKEN_KINDS[token.type], content)
+        if value is not None:
+            return value
+    raise _misfit_error(text, kind, argument, given)
+
+
+def _bare_token(given: Node | Token) -> Token | None:
+    """The piece of text that an argument is; None where it has arguments of its own."""
+    from lark import Token
+
+    if isinstance(given, Token):
+        return given
+    return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
+
+
+def _misfit_error(text: TreeReader, kind: type[Action], argument: Argument, given: Node | Token) -> ProgramError:
+    thing = text.source.piece_at(start_of(given))
+    remedy = f"Write {kind.usage()}."
+    like = likely_word(thing.strip('"'), argument.choices)
+    if like:
+        remedy = f"Did you mean {like}? {remedy}"
+    elif isinstance(argument, FileArgument) and "\\" in thing:
+        remedy = "Write / between the folders of a path."
+    return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

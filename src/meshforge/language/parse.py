@@ -1,60 +1,43 @@
-"""Program text to nodes; every error has its line, its column and a caret."""
+"""Program text to parse trees, comments and nodes; every error has its line, its column and a caret."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from meshforge.errors import ProgramError
-from meshforge.language.actions import Action
-from meshforge.language.build import build_extractor, build_orient, build_program
-from meshforge.language.build_action import build_action
-from meshforge.language.places import Source
-from meshforge.language.program import Program
+from meshforge.language.actions.base import Action
+from meshforge.language.build import build_action, build_extractor, build_orient
+from meshforge.language.print import CommentLines, Comments
 from meshforge.language.syntax import Extractor, Orient
 from meshforge.language.syntax_errors import syntax_error
-from meshforge.language.trees import Text
+from meshforge.language.text import ProgramText, TreeReader
 
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
 
 
-def parse(text: str, name: str = "program") -> Program:
-    """The program in a text. Raises ProgramError at `name:line:column`."""
-    source = Source(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
-    try:
-        return build_program(source, _tree(source, "program"))
-    except RecursionError:
-        raise ProgramError("its extractors are nested too deep", where=name) from None
-
-
-def read(path: Path) -> Program:
-    """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
-    try:
-        return parse(path.read_text(encoding="utf-8"), str(path))
-    except OSError as error:
-        raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
-    except UnicodeDecodeError:
-        raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
+_TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """The extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_extractor(Text(source), _child(_tree(source, "only_extractor")))
+    source = ProgramText(text.strip(), name)
+    return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
 
 def parse_action(text: str, name: str = "action") -> Action:
     """The action in a text. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_action(Text(source), _child(_tree(source, "only_action")))
+    source = ProgramText(text.strip(), name)
+    return build_action(TreeReader(source), _only_child(parse_tree(source, "only_action")))
 
 
 def parse_orient(text: str, name: str = "orient") -> Orient:
     """The orientation directive in a text, `orient ...` as in a program. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_orient(Text(source), _child(_tree(source, "only_orient")))
+    source = ProgramText(text.strip(), name)
+    return build_orient(TreeReader(source), _only_child(parse_tree(source, "only_orient")))
 
 
 @cache
@@ -70,7 +53,7 @@ def _grammar() -> Lark:
     )
 
 
-def _tree(source: Source, start: str) -> Tree[Token]:
+def parse_tree(source: ProgramText, start: str) -> Tree[Token]:
     """The parse tree of a text. Raises ProgramError where it has none."""
     from lark import Token, UnexpectedCharacters, UnexpectedToken
     from lark.exceptions import UnexpectedInput
@@ -89,9 +72,40 @@ def _tree(source: Source, start: str) -> Tree[Token]:
         raise syntax_error(source, offset, accepted, before) from None
 
 
-def _child(tree: Tree[Token]) -> Tree[Token]:
+def _only_child(tree: Tree[Token]) -> Tree[Token]:
     from lark import Tree
 
     (child,) = tree.children
     assert isinstance(child, Tree)
     return child
+
+
+def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
+    """The comments of the statements on some lines (from 1, rising), and those after the last one.
+
+    A comment alone on its line belongs to the next statement; empty lines between are kept, several as one.
+    """
+    found = [_comment_of(line) for line in text.split("\n")]
+    comments, done = [], 0
+    for line in lines:
+        comments.append(Comments(_squeeze_blanks(found[done : line - 1], first=done == 0), found[line - 1]))
+        done = line
+    end = _squeeze_blanks(found[done:], first=done == 0)
+    return comments, end[:-1] if end[-1:] == (None,) else end
+
+
+def _comment_of(line: str) -> str | None:
+    """The comment in a line of program text, without its `#`."""
+    for match in _TEXT_OR_COMMENT.finditer(line):
+        if match["comment"] is not None:
+            return match["comment"].rstrip()
+    return None
+
+
+def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines:
+    """The lines with several empty ones as one, and none at the start of a text."""
+    out: list[str | None] = []
+    for line in lines:
+        if line is not None or (out[-1] is not None if out else not first):
+            out.append(line)
+    return tuple(out)

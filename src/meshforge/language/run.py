@@ -1,4 +1,4 @@
-"""A program's run on one mesh: oriented, edited rule by rule, returned in the frame it came in."""
+"""One rule on one mesh in the canonical frame, and the way into that frame and back."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.errors import MeshForgeError, ProgramError
 from meshforge.geometry import Pose
-from meshforge.language.apply import Applied, apply_action
-from meshforge.language.evaluate import select_mask
+from meshforge.language.actions.edit import Template
+from meshforge.language.apply import ActionResult, apply_action
 from meshforge.language.orient import orient_mesh
-from meshforge.language.program import Program, Rule
-from meshforge.language.syntax import EXTREMITY, Orient
-from meshforge.language.template import Template, check_templates
-from meshforge.symbolic import Hull, SymbolicMesh, bits
+from meshforge.language.print import Rule
+from meshforge.language.syntax import EXTREMITY, Orient, select_mask
+from meshforge.symbolic import Hull, SymbolicMesh, bits_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,30 +41,9 @@ class RuleTrace:
         }
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class RunResult:
-    """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
-
-    mesh: SymbolicMesh
-    trace: tuple[RuleTrace, ...]
-
-
-def run(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
-    """The program's edit of a mesh.
-
-    Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
-    has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
-    cannot be made.
-    """
-    try:
-        check_templates(program.templates, templates)
-        _check_labels(program, mesh)
-        return _run(program, mesh, templates)
-    except MeshForgeError as error:
-        raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
-
-
-def stage(mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None) -> tuple[SymbolicMesh, Pose]:
+def to_canonical_frame(
+    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None
+) -> tuple[SymbolicMesh, Pose]:
     """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
 
     contact: the program's epsilon, None keeps the mesh's.
@@ -78,11 +55,11 @@ def stage(mesh: SymbolicMesh, orient: Orient | None, contact: float | None = Non
     return staged, pose
 
 
-def unstage(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
-    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `stage`."""
+def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
     back = pose.inverse()
     turned = not np.array_equal(pose.rotation, np.eye(3))
-    hulls = tuple(_home(incoming, hull, back if turned else None) for hull in staged.hulls)
+    hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)
     same = incoming.scale is None and len(hulls) == len(incoming.hulls)
     if same and all(a is b for a, b in zip(hulls, incoming.hulls, strict=True)):
         return incoming
@@ -95,34 +72,16 @@ def apply_rule(
     templates: Mapping[str, Template] | None = None,
     extremity: float | None = None,
     used: frozenset[str] = frozenset(),
-) -> tuple[tuple[str, ...], Applied]:
+) -> tuple[tuple[str, ...], ActionResult]:
     """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
     mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
-    selected = tuple(mesh.hulls[index].name for index in sorted(bits(mask)))
+    selected = tuple(mesh.hulls[index].name for index in sorted(bits_of(mask)))
     return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
 
 
-def _run(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
-    current, pose = stage(mesh, program.orient, program.contact)
-    trace, used = [], frozenset[str]()
-    for number, rule in enumerate(program.rules, 1):
-        selected, applied = apply_rule(current, rule, templates, program.extremity, used)
-        current, used = applied.mesh, applied.used
-        trace.append(RuleTrace(number, selected, applied.made, applied.note, applied.sources))
-    return RunResult(unstage(mesh, current, pose), tuple(trace))
-
-
-def _home(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
+def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
     """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
     if hull.name in incoming.index:
         original = incoming.hull_of(hull.name)
         return original if original.annotation == hull.annotation else original.with_label(hull.annotation)
     return hull.move(back) if back else hull
-
-
-def _check_labels(program: Program, mesh: SymbolicMesh) -> None:
-    if program.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
-        raise ProgramError(
-            "no labels: the program asks for labels, and no hull has one",
-            remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
-        )

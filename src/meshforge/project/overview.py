@@ -1,4 +1,4 @@
-"""Puts the status of a project together from its files and from the stamps of its outputs."""
+"""The status of a project, put together from its files and from the stamps of its outputs."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, Spread, Stamp, Task, inputs_of, read_stamp
-from meshforge.errors import MeshForgeError
+from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
+from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project.accepting import standing
-from meshforge.project.advice import advice
-from meshforge.project.applying import jobs, task
-from meshforge.project.beginning import first_to_show
-from meshforge.project.demonstrating import astray
-from meshforge.project.reviewing import Review, output_digest
-from meshforge.project.status import AssetStatus, State, Status
-from meshforge.project.survey import Facts, geometry_digest, survey
-from meshforge.symbolic import LabelFile, label_homes
+from meshforge.project.accept import program_state_of
+from meshforge.project.advice import advise
+from meshforge.project.demonstrate import find_unknown_hulls
+from meshforge.project.family import suggest_first_demonstration
+from meshforge.project.review import output_digest
+from meshforge.project.run import build_jobs, build_task
+from meshforge.project.status import AssetStatus, OutputState, Status
+from meshforge.store import AssetFacts, Review, geometry_digest, survey
+from meshforge.symbolic import LabelFile, match_labels
 
 if TYPE_CHECKING:
     from meshforge.project.project import Project
 
 
-def status(
+def compute_status(
     project: Project,
     only: Collection[str] | None,
     others: Iterable[AssetStatus],
@@ -37,17 +37,17 @@ def status(
     """
     for asset in only or ():
         project.path(asset)
-    settings, ids, work, reviews = project.settings, project.found.ids, jobs(project, only), project.reviews()
-    spread = Spread(workers=workers, stop=stop)
+    settings, ids, work, reviews = project.settings, project.found.ids, build_jobs(project, only), project.reviews()
+    spread = ExecutionOptions(workers=workers, stop=stop)
     facts = survey(project.found, project.layout, only, spread=spread, progress=progress)
-    program, what, problem = _program(project)
-    assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    stands = standing(project, program)
+    program, what, problem = _read_program(project)
+    assets = tuple(_asset_status(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
+    stands = program_state_of(project, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    first = partial(first_to_show, project) if only is None else _unchosen
-    advised = advice(project.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
+    first = partial(suggest_first_demonstration, project) if only is None else _choose_none
+    advised = advise(project.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
     return Status(
         settings.name,
         assets,
@@ -55,31 +55,33 @@ def status(
         rules,
         stands.outdated,
         problem,
-        _lost(project),
+        _find_lost_ids(project),
         advised,
         stands.question,
     )
 
 
-def _unchosen(assets: Sequence[str]) -> None:
+def _choose_none(assets: Sequence[str]) -> None:
     """Of a project that is looked at in part no asset stands out."""
 
 
-def _program(project: Project) -> tuple[Program | None, Task | None, str | None]:
+def _read_program(project: Project) -> tuple[Program | None, ApplyTask | None, str | None]:
     """The program, what applying it means, and why it cannot be applied."""
     program = None
     try:
         program = project.program()
-        return program, task(project, program) if program else None, None
+        return program, build_task(project, program) if program else None, None
     except MeshForgeError as error:
         return program, None, error.message
 
 
-def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, review: Review | None) -> AssetStatus:
+def _asset_status(
+    project: Project, job: AssetJob, facts: AssetFacts, what: ApplyTask | None, review: Review | None
+) -> AssetStatus:
     stamp = read_stamp(project.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
-    file, unreadable = _labels(project, job)
-    homes = label_homes(LabelFile() if facts.error else file, facts.hulls)
+    file, unreadable = _read_labels(project, job)
+    homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
     said = review if review and review.output == output_digest(stamp) else None
     return AssetStatus(
         id=job.id,
@@ -87,10 +89,10 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
         labelled=len(homes.labels),
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
         demonstrated=project.layout.demonstration(job.id).exists(),
-        output=_state(stamp),
-        stale=_stale(stamp, job, facts, what),
+        output=_output_state(stamp),
+        stale=_find_changes(stamp, job, facts, what),
         error=facts.error or unreadable or failed,
-        flags=(*_astray(project, job.id, facts), *(stamp.flags if stamp else ())),
+        flags=(*_describe_unknown_hulls(project, job.id, facts), *(stamp.flags if stamp else ())),
         review=said.verdict if said else None,
         prepared=facts.prepared,
         sources=facts.sources,
@@ -105,20 +107,20 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
     )
 
 
-def _astray(project: Project, asset: str, facts: Facts) -> Iterator[str]:
+def _describe_unknown_hulls(project: Project, asset: str, facts: AssetFacts) -> Iterator[str]:
     """A sentence for each hull that is demonstrated and is no more."""
     try:
         steps = () if facts.error else project.steps(asset)
     except MeshForgeError as error:
         yield error.message
         return
-    for rule, name in astray(steps, facts.hulls):
+    for rule, name in find_unknown_hulls(steps, facts.hulls):
         parts = facts.replaced.get(name)
         fate = f"was split into {', '.join(parts)}" if parts else "is gone"
         yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
-def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
+def _read_labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
     """The labels of an asset, and why they cannot be read."""
     try:
         return project.labels(job.id), None
@@ -126,11 +128,11 @@ def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
         return LabelFile(), error.message
 
 
-def _state(stamp: Stamp | None) -> State:
+def _output_state(stamp: Stamp | None) -> OutputState:
     return stamp.status if stamp else "none"
 
 
-def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) -> tuple[str, ...]:
+def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, what: ApplyTask | None) -> tuple[str, ...]:
     """What changed since the output was made; of written files only whether they are there."""
     if not stamp or not stamp.inputs or not what:
         return ()
@@ -139,7 +141,7 @@ def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) 
     return (*now.changes(stamp.inputs), *(["output"] if gone else []))
 
 
-def _lost(project: Project) -> tuple[str, ...]:
+def _find_lost_ids(project: Project) -> tuple[str, ...]:
     """The ids that something is kept for, though there is no such asset."""
     kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.ids_with(kind)}
     kept |= set(project.layout.ids_with_preparation())

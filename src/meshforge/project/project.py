@@ -1,4 +1,4 @@
-"""The project folder: its state lies in files alone, every change is one atomic write under the project's lock."""
+"""A project as people use it: a `Store` whose further methods are the use cases, one statement each."""
 
 from __future__ import annotations
 
@@ -9,72 +9,80 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.batch import (
-    HERE,
+    IN_PROCESS,
     TIMEOUT,
     AssetJob,
+    AssetOutcome,
+    AssetSet,
     Backend,
     Correction,
-    Found,
-    Outcome,
-    Spread,
+    ExecutionOptions,
+    Preparation,
     apply,
-    locked,
-    named_templates,
+    cut_hull,
+    hold_lock,
+    load_named_templates,
+    read_preparation,
 )
 from meshforge.formats import Mass
-from meshforge.geometry.decompose import CoacdSettings, DecomposeSettings
-from meshforge.language import Action, Orient, Program, Template
-from meshforge.preparation import Preparation, cut_hull, read_preparation
-from meshforge.project import (
-    accepting,
-    adding,
-    answering,
-    applying,
-    correcting,
-    decomposing,
-    demonstrating,
-    learning,
-    meeting,
-    opening,
-    overview,
-    preparing,
-    reading,
-    renaming,
-    reviewing,
-    rules,
-    templating,
+from meshforge.geometry import CoacdSettings, DecomposeSettings
+from meshforge.labels import (
+    LabelFileOptions,
+    LabelOffers,
+    LabelOutcome,
+    OfferCache,
+    OutcomeCallback,
+    PatternPairs,
+    PropagationResult,
+    Proposals,
+    Stage,
+    Tally,
+    VlmForecast,
+    VlmResult,
+    ignore_report,
+    ignore_stage,
+    merge,
+    progress,
 )
-from meshforge.project.accepting import Standing
-from meshforge.project.answers_file import AnswersFile
-from meshforge.project.labels import labelling, naming, planning, proposing, sheets, tallying
-from meshforge.project.labels.from_files import filing
-from meshforge.project.labels.from_files.reading import Filing
-from meshforge.project.labels.labelling import Labelled
-from meshforge.project.labels.name_patterns import Meanings
-from meshforge.project.labels.offering import Offered, Offers
-from meshforge.project.labels.propagation import propagating
-from meshforge.project.labels.propagation.propagating import Carried
-from meshforge.project.labels.propagation.stages import Stage, untold
-from meshforge.project.labels.proposing import Proposals
-from meshforge.project.labels.taking import Report, unheard
-from meshforge.project.labels.tallying import Tally
-from meshforge.project.labels.vlm import forecast as vlm_forecast
-from meshforge.project.labels.vlm import labelling as vlm_labelling
-from meshforge.project.labels.vlm.forecast import VlmForecast
-from meshforge.project.labels.vlm.labelling import VlmLabelled
-from meshforge.project.labels.vlm.settings import VlmSettings
-from meshforge.project.layout import Layout
-from meshforge.project.preparing import Prepared
-from meshforge.project.reviewing import Review, Verdict
-from meshforge.project.settings import Settings, orientation, read_settings, set_orientation, set_vocabulary
+from meshforge.labels import progress as progress_module
+from meshforge.labels.from_files import label_by_files
+from meshforge.labels.names import label_by_names
+from meshforge.labels.propagation import label_by_propagation
+from meshforge.labels.vlm import label_by_vlm as vlm_forecast
+from meshforge.labels.vlm import label_by_vlm as vlm_labelling
+from meshforge.language import Action, Orient, Program, Template
+from meshforge.project import accept as accept_module
+from meshforge.project import answer as answer_module
+from meshforge.project import demonstrate as demonstrate_module
+from meshforge.project import learn, overview, prepare, run
+from meshforge.project import rename_label as rename_label_module
+from meshforge.project import review as review_module
+from meshforge.project.accept import ProgramState
+from meshforge.project.prepare import PreparationResult
 from meshforge.project.status import AssetStatus, Status
-from meshforge.symbolic import LabelFile, Source, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, Options, Question, Repair, Step
-from meshforge.synthesis import Correction as LabelCorrection
-from meshforge.synthesis import Outcome as Lesson
+from meshforge.store import (
+    AnswersFile,
+    Layout,
+    Review,
+    Settings,
+    Verdict,
+    VlmSettings,
+    feedback,
+    orientation,
+    read_settings,
+    set_orientation,
+    set_vocabulary,
+)
+from meshforge.store import folder as folder_module
+from meshforge.store import meshes as meshes_module
+from meshforge.store import program as program_module
+from meshforge.store import steps as steps_module
+from meshforge.symbolic import LabelFile, LabelSource, SymbolicMesh
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Options, Question, Repair, Step
+from meshforge.synthesis import LearningOutcome as Lesson
 
 if TYPE_CHECKING:
-    from meshforge.perception.vlm import Bill
+    from meshforge.labels import Usage
 
 
 @dataclass(frozen=True)
@@ -85,7 +93,7 @@ class Project:
     """
 
     folder: Path
-    found: Found = field(repr=False)
+    found: AssetSet = field(repr=False)
 
     # Opening
 
@@ -102,13 +110,13 @@ class Project:
 
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
-        return Project.open(opening.create(folder, assets, name, vocabulary, orient))
+        return Project.open(folder_module.create_folder(folder, assets, name, vocabulary, orient))
 
     @staticmethod
     def open(folder: str | Path) -> Project:
         """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
         folder = Path(folder).absolute()
-        return Project(folder, opening.found_assets(folder))
+        return Project(folder, folder_module.find_assets(folder))
 
     @property
     def layout(self) -> Layout:
@@ -117,7 +125,7 @@ class Project:
 
     def lock(self) -> AbstractContextManager[None]:
         """The project's lock, under which files are read, changed and written; a thread may take it again and again."""
-        return locked(self.layout.lock, str(self.folder), again=True)
+        return hold_lock(self.layout.lock, str(self.folder), again=True)
 
     # Settings
 
@@ -146,7 +154,7 @@ class Project:
 
         Raises ProjectError: no such label, the new one is there already, or no program could write it.
         """
-        renaming.rename(self, old, new)
+        rename_label_module.rename_label(self, old, new)
 
     def set_orientation(self, orient: Orient | str | None) -> None:
         """Set the orientation directive; a text has the form it has in a program."""
@@ -160,16 +168,16 @@ class Project:
 
     def path(self, asset: str) -> Path:
         """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
-        return opening.path_of(self.folder, self.found, asset)
+        return folder_module.path_of(self.folder, self.found, asset)
 
     def add_assets(self, paths: Iterable[str | Path]) -> Project:
         """The project with more assets: files below the folder that ids count from. Raises ProjectError for others."""
-        adding.add(self, paths)
+        folder_module.add_assets(self, paths)
         return Project.open(self.folder)
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-        return reading.mesh(self, asset)
+        return meshes_module.read_mesh(self, asset)
 
     def meshes(self) -> Iterator[SymbolicMesh]:
         """All assets with their labels, one after the other; those that cannot be read are left out."""
@@ -177,11 +185,11 @@ class Project:
 
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """The same with their ids, of some assets only."""
-        return reading.named_meshes(self, self.assets() if assets is None else tuple(assets))
+        return meshes_module.read_named_meshes(self, self.assets() if assets is None else tuple(assets))
 
     def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
         """What reads each of some assets as `mesh` does, in this process or another."""
-        return tuple(place.read_mesh for place in reading.places(self, assets))
+        return tuple(place.read_mesh for place in meshes_module.asset_files_of(self, assets))
 
     # Preparation
 
@@ -203,7 +211,7 @@ class Project:
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
         keeping: Callable[[str], AbstractContextManager[object]] = nullcontext,
-    ) -> Iterator[Prepared]:
+    ) -> Iterator[PreparationResult]:
         """Make hulls of what has none: opaque pieces, and what bodies without collision geometry show.
 
         assets: all when None; settings: CoACD's defaults when None; only: names of pieces and bodies, or patterns;
@@ -212,7 +220,7 @@ class Project:
         written. What is done stays done when the caller stops in the midst.
         """
         ids, how = self.assets() if assets is None else tuple(dict.fromkeys(assets)), settings or CoacdSettings()
-        return decomposing.decompose(
+        return prepare.decompose(
             self,
             ids,
             how,
@@ -226,49 +234,51 @@ class Project:
             keeping=keeping,
         )
 
-    def cut(self, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> Prepared:
+    def cut(self, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> PreparationResult:
         """Cut a hull along the plane through `at` (3,) [m] across `across` (3,), in the frame that the asset comes in.
 
         Raises GeometryError: no such hull, or a plane that misses it.
         """
-        return preparing.change(self, asset, lambda source, before: cut_hull(source, before, hull, at, across))
+        return prepare.change_preparation(
+            self, asset, lambda source, before: cut_hull(source, before, hull, at, across)
+        )
 
     def split(
         self, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
-    ) -> Prepared:
+    ) -> PreparationResult:
         """Split a hull by a decomposition of what its body shows, or of the opaque piece that it was made of.
 
         Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
         """
-        return preparing.split(self, asset, hull, settings or CoacdSettings(), hollow)
+        return prepare.split(self, asset, hull, settings or CoacdSettings(), hollow)
 
-    def unprepare(self, asset: str, *, everything: bool = False) -> Prepared:
+    def unprepare(self, asset: str, *, everything: bool = False) -> PreparationResult:
         """Take back the last thing that was done to an asset before the program, or everything.
 
         Everything also of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
         """
-        return preparing.unprepare(self, asset, everything)
+        return prepare.unprepare(self, asset, everything)
 
     # Labels
 
     def labels(self, asset: str) -> LabelFile:
         """The labels of an asset as they are kept; empty where there are none."""
-        return reading.kept_labels(self.layout.labels(asset))
+        return meshes_module.read_labels_file(self.layout.labels(asset))
 
     def set_labels(
-        self, asset: str, labels: Mapping[str, str | None], *, source: Source = "user", confidence: float = 1.0
-    ) -> Labelled:
+        self, asset: str, labels: Mapping[str, str | None], *, source: LabelSource = "user", confidence: float = 1.0
+    ) -> LabelOutcome:
         """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
-        return labelling.give(self, asset, labels, source, confidence)
+        return merge.set_labels(self, asset, labels, source, confidence)
 
     def label_from_files(
         self,
         source: Path | None = None,
-        how: Filing | None = None,
+        how: LabelFileOptions | None = None,
         *,
-        spread: Spread = HERE,
-        report: Report = unheard,
-    ) -> tuple[Labelled, ...]:
+        spread: ExecutionOptions = IN_PROCESS,
+        report: OutcomeCallback = ignore_report,
+    ) -> tuple[LabelOutcome, ...]:
         """Take over what files say: labels files, segmented points and meshes, and PartNet's semantics of links.
 
         source: a file for a single asset, a folder that mirrors the assets, or None for those beside them; how: the way
@@ -276,47 +286,55 @@ class Project:
         asset that crashes or hangs costs no more than itself; unless said, the work is done in this process. report:
         called with what became of each asset, as soon as its labels are written, in the order of the assets.
         """
-        return filing.take_over(self, source, how or Filing(), spread, report)
+        return label_by_files.label_from_files(self, source, how or LabelFileOptions(), spread, report)
 
     def propose_from_files(
         self,
         source: Path | None = None,
-        how: Filing | None = None,
+        how: LabelFileOptions | None = None,
         vocabulary: Sequence[str] | None = None,
         *,
-        spread: Spread = HERE,
+        spread: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
-        return filing.from_files(self, source, how or Filing(), vocabulary, spread)
+        return label_by_files.propose_from_files(self, source, how or LabelFileOptions(), vocabulary, spread)
 
-    def label_offers(self) -> Offered:
-        """What `label_from_files` and `label_from_names` would give; see `Offers` for asking often."""
-        return Offers().of(self)
+    def label_offers(self) -> LabelOffers:
+        """What `label_from_files` and `label_from_names` would give; see `OfferCache` for asking often."""
+        return OfferCache().of(self)
 
     def label_from_names(
-        self, meanings: Meanings = (), *, spread: Spread = HERE, report: Report = unheard
-    ) -> tuple[Labelled, ...]:
+        self,
+        meanings: PatternPairs = (),
+        *,
+        spread: ExecutionOptions = IN_PROCESS,
+        report: OutcomeCallback = ignore_report,
+    ) -> tuple[LabelOutcome, ...]:
         """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
 
         By patterns first: `meanings`, then those of the project's settings; then by the words of the vocabulary, and
         words that are nearly those. spread, report: as of `label_from_files`.
         Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
         """
-        return naming.label_from_names(self, meanings, spread, report)
+        return label_by_names.label_from_names(self, meanings, spread, report)
 
     def propose_from_names(
-        self, meanings: Meanings = (), vocabulary: Sequence[str] | None = None, *, spread: Spread = HERE
+        self,
+        meanings: PatternPairs = (),
+        vocabulary: Sequence[str] | None = None,
+        *,
+        spread: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
-        return proposing.from_names(self, meanings, vocabulary, spread)
+        return label_by_names.propose_from_names(self, meanings, vocabulary, spread)
 
     def plan_labels(self) -> str:
         """What there is to be labelled, in words: how many assets of what, and how many have labels by now."""
-        return planning.planned(self)
+        return progress.describe_label_plan(self)
 
     def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
         """How many hulls have which labels: from where, and how sure."""
-        return tallying.tally(self, progress)
+        return progress_module.tally(self, progress)
 
     def draw_labels(
         self, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
@@ -325,16 +343,16 @@ class Project:
 
         Sheets of an earlier time are replaced. Raises UsageError where one cannot be written.
         """
-        return sheets.contact_sheets(self, folder, assets, progress)
+        return progress_module.write_contact_sheets(self, folder, assets, progress)
 
     def propagate_labels(
         self,
         *,
-        spread: Spread = HERE,
-        stage: Stage = untold,
-        report: Report = unheard,
-        keeping: propagating.Keeping = nullcontext,
-    ) -> Carried:
+        spread: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
+        report: OutcomeCallback = ignore_report,
+        keeping: label_by_propagation.WriteBlock = nullcontext,
+    ) -> PropagationResult:
         """Carry the labels of a few assets to all others; what a person or a file says stays.
 
         How the hulls of an asset look is kept in the project, so that another time is quick. spread, report: as of
@@ -343,23 +361,27 @@ class Project:
         Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop, with nothing
         written.
         """
-        return propagating.propagate(self, spread, stage, report, keeping)
+        return label_by_propagation.propagate_labels(self, spread, stage, report, keeping)
 
     def propose_propagated(
-        self, vocabulary: Sequence[str] | None = None, *, spread: Spread = HERE, stage: Stage = untold
+        self,
+        vocabulary: Sequence[str] | None = None,
+        *,
+        spread: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
     ) -> Proposals:
         """What `propagate_labels` would give, with nothing written; vocabulary: one to be tried."""
-        return propagating.foretold(self, vocabulary, spread, stage)
+        return label_by_propagation.propose_propagated(self, vocabulary, spread, stage)
 
     def label_with_vlm(
         self,
         settings: VlmSettings | None = None,
         *,
-        progress: Callable[[Bill], None] | None = None,
+        progress: Callable[[Usage], None] | None = None,
         stop: Callable[[], bool] | None = None,
         keeping: Callable[[], AbstractContextManager[object]] | None = None,
-        spread: Spread = HERE,
-    ) -> VlmLabelled:
+        spread: ExecutionOptions = IN_PROCESS,
+    ) -> VlmResult:
         """Ask a vision-language model for labels; what a person or a file says stays.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
@@ -376,46 +398,46 @@ class Project:
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
         vocabulary: Sequence[str] | None = None,
-        spread: Spread = HERE,
+        spread: ExecutionOptions = IN_PROCESS,
     ) -> VlmForecast:
         """What `label_with_vlm` would send and cost, with nothing sent; the same options; vocabulary: another one."""
-        return vlm_forecast.forecast(self, settings or self.settings.vlm, progress, stop, vocabulary, spread)
+        return vlm_forecast.forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, spread)
 
     # Demonstrations
 
     def demonstrations(self) -> dict[str, Demonstration]:
         """What was demonstrated, by asset."""
-        return demonstrating.demonstrations(self)
+        return demonstrate_module.demonstrations(self)
 
     def steps(self, asset: str) -> tuple[Step, ...]:
         """The steps that were demonstrated on an asset; none where nothing was."""
-        return demonstrating.steps(self.layout.demonstration(asset))
+        return steps_module.read_steps(self.layout.demonstration(asset))
 
     def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
         """Set the steps that are demonstrated on an asset; no steps take the demonstration away."""
-        demonstrating.demonstrate(self, asset, tuple(steps))
+        demonstrate_module.demonstrate(self, asset, tuple(steps))
 
     def move_rule(self, rule: int, to: int) -> None:
         """Put a rule at another place in all demonstrations and answers. Raises UsageError for a wrong number."""
-        rules.move(self, rule, to)
+        demonstrate_module.move_rule(self, rule, to)
 
     def delete_rule(self, rule: int) -> None:
         """Take a rule out of all demonstrations, and the answers about it. Raises UsageError for a wrong number."""
-        rules.delete(self, rule)
+        demonstrate_module.delete_rule(self, rule)
 
     # The program
 
     def templates(self, names: Iterable[str]) -> dict[str, Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
-        return named_templates(names, self.layout.templates)
+        return load_named_templates(names, self.layout.templates)
 
     def template_names(self) -> tuple[str, ...]:
         """The names of all templates in the project's folder of them, as actions write them."""
-        return templating.names(self)
+        return program_module.list_templates(self)
 
     def add_template(self, name: str, data: bytes) -> None:
         """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
-        templating.add(self, name, data)
+        program_module.add_template(self, name, data)
 
     def program(self) -> Program | None:
         """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
@@ -423,11 +445,11 @@ class Project:
 
     def accept(self, program: Program) -> None:
         """Make it the project's program."""
-        accepting.accept(self, program)
+        program_module.write_program(self, program)
 
-    def program_state(self) -> Standing:
+    def program_state(self) -> ProgramState:
         """How the program stands to what it was learned from, and whether a person wrote it."""
-        return accepting.present_standing(self)
+        return accept_module.read_program_state(self)
 
     def synthesize(
         self,
@@ -447,52 +469,52 @@ class Project:
         meshes: the assets by id, where they are in memory already (`Family`); else they are read, of very many some.
         follow: a program somebody had in mind; the outcome tells what became of it.
         """
-        how = learning.LessonPlan(
+        how = learn.LearnOptions(
             accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes, follow=follow
         )
-        return learning.learn(self, how)
+        return learn.learn_program(self, how)
 
     def mesh_before_rule(
         self, asset: str, rule: int, program: Program, meshes: Mapping[str, SymbolicMesh] | None = None
     ) -> SymbolicMesh:
         """An asset as a rule of a program meets it: turned, and edited by the rules before."""
-        return meeting.met(self, asset, rule, program, meshes)
+        return run.mesh_before_rule(self, asset, rule, program, meshes)
 
     # What a person said while it was learned
 
     def answers(self) -> AnswersFile:
         """All answers to questions, and all repairs of labels that were confirmed or refused."""
-        return answering.answers(self)
+        return feedback.read_answers(self)
 
     def answer(self, question: Question, choice: int | None) -> str:
         """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`."""
-        return self.add_answer(answering.chosen(question, choice))
+        return self.add_answer(answer_module.answer_by_choice(question, choice))
 
     def add_answer(self, answer: Answer) -> str:
         """The same for any selection, whether it was asked for or not. Raises ProjectError: no such asset or rule."""
-        return answering.answer(self, answer)
+        return answer_module.add_answer(self, answer)
 
     def confirm(self, right: LabelCorrection) -> str:
         """Repair a label, as a `Repair` proposes it or not; give the repair's id `ASSET#HULL=LABEL`.
 
         Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
         """
-        return answering.confirm(self, right)
+        return answer_module.confirm_repair(self, right)
 
     def reject(self, wrong: LabelCorrection) -> str:
         """Refuse a repair, so that it is not proposed again; give its id."""
-        return answering.reject(self, wrong)
+        return answer_module.reject_repair(self, wrong)
 
     def take_back(self, said: str) -> str | None:
         """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
 
         Gives a sentence where that label was changed since, and is left alone. Raises ProjectError for an unknown id.
         """
-        return answering.take_back(self, said)
+        return answer_module.take_back(self, said)
 
     def forget_answers(self) -> tuple[str, ...]:
         """Take back everything; gives the sentences about labels that are left alone."""
-        return answering.forget(self)
+        return answer_module.take_back_all(self)
 
     def apply(
         self,
@@ -509,12 +531,12 @@ class Project:
         backend: Backend = "local",
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
-    ) -> Iterator[Outcome]:
+    ) -> Iterator[AssetOutcome]:
         """Run the program on all assets or those of some ids, into `edited/` or `out`.
 
         All else as of `meshforge.batch.apply`. Raises ProjectError for an asset that is not there.
         """
-        program, work, templates = applying.work(self, only)
+        program, work, templates = run.build_work(self, only)
         return apply(
             program,
             work,
@@ -534,25 +556,25 @@ class Project:
 
     def work(self) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
         """What `apply` runs: the program, a job for each asset, and the templates. Raises ProjectError: no program."""
-        return applying.work(self, None)
+        return run.build_work(self, None)
 
     # After the program
 
     def corrections(self, asset: str) -> tuple[Correction, ...]:
         """The edits by hand that are replayed on an asset after the program."""
-        return correcting.corrections(self.layout.corrections(asset))
+        return steps_module.read_corrections(self.layout.corrections(asset))
 
     def correct(self, asset: str, select: Iterable[str], action: Action, label: str | None = None) -> None:
         """Add an edit by hand on hulls of an asset, by the names they have after the program and the edits before."""
-        correcting.correct(self, asset, sorted(set(select)), action, label)
+        run.correct(self, asset, sorted(set(select)), action, label)
 
     def drop_corrections(self, asset: str) -> None:
         """Take all edits by hand away from an asset."""
-        correcting.drop(self, asset)
+        run.drop_corrections(self, asset)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""
-        return reviewing.reviews(self.layout.review)
+        return feedback.read_reviews(self.layout.review)
 
     def review(self, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:
         """Accept or flag the output of one or several assets, or take that back by None; it counts until that changes.
@@ -560,7 +582,7 @@ class Project:
         One that is accepted by itself was looked at: learning keeps to what the program selected there.
         Raises ProjectError, with nothing written, where there is no output that a verdict could be about.
         """
-        reviewing.review(self, [assets] if isinstance(assets, str) else assets, verdict, note)
+        review_module.review_assets(self, [assets] if isinstance(assets, str) else assets, verdict, note)
 
     def status(
         self,
@@ -574,6 +596,6 @@ class Project:
         """How far everything is, what is stale, and the next sensible step.
 
         only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
-        known already. workers, progress, stop: as of `meshforge.batch.isolated`, for assets that have to be read.
+        known already. workers, progress, stop: as of `meshforge.batch.run_isolated`, for assets that have to be read.
         """
-        return overview.status(self, only, others, workers, progress, stop)
+        return overview.compute_status(self, only, others, workers, progress, stop)

@@ -6,10 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from meshforge.project.advice import Advice
 from meshforge.symbolic import Label
 
-State = Literal["none", "edited", "unchanged", "failed"]
+OutputState = Literal["none", "edited", "unchanged", "failed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +31,7 @@ class AssetStatus:
     labelled: int = 0
     doubtful: tuple[str, ...] = ()
     demonstrated: bool = False
-    output: State = "none"
+    output: OutputState = "none"
     stale: tuple[str, ...] = ()
     error: str | None = None
     flags: tuple[str, ...] = ()
@@ -109,3 +108,11 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "flags": list(asset.flags),
         "review": asset.review,
     }
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """What to do next; command: what to type, None where there is nothing to type."""
+
+    say: str
+    command: str | None = None

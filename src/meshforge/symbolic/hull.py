@@ -1,11 +1,26 @@
-"""The symbolic hull: a convex shape with a name, a body and a label."""
+"""The symbolic hull, a convex shape with a name, a body and a label; and the label, with its confidence and source."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
-from meshforge.symbolic.labels import Label
+
+LabelSource = Literal["vlm", "propagated", "name", "file", "user", "repair", "edit"]
+LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
+HUMAN_SOURCES = frozenset({"user", "repair"})
+GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
+"""Sources of labels that are not guessed: a person, or a file that somebody made."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A label with its confidence in 0..1 and its source."""
+
+    name: str
+    confidence: float = 1.0
+    source: LabelSource = "user"
 
 
 @dataclass(frozen=True, eq=False, slots=True)

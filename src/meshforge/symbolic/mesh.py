@@ -1,24 +1,28 @@
-"""The symbolic collision mesh: hulls with labels, AABBs and the contact graph, immutable."""
+"""The symbolic collision mesh: hulls, their contact graph, and selections of hulls as bit sets."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import dist
 
 import numpy as np
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import MeshForgeError
-from meshforge.geometry import Aabb, Floats, bounds
-from meshforge.symbolic.contact import NEAR_MISS, ContactGraph, contact_graph
-from meshforge.symbolic.hull import Hull
-from meshforge.symbolic.labels import Label
+from meshforge.common import MeshForgeError
+from meshforge.geometry import Aabb, Floats, Shape, bounds, close_pairs
+from meshforge.symbolic.asset import Asset, Geom
+from meshforge.symbolic.hull import Hull, Label
 
 EPSILON = 0.002
 """Contact threshold as a share of the diagonal (paper, implementation)."""
+
+ContactGraph = Mapping[tuple[int, int], float]
+"""Distance [m] of each pair (i, j), i < j, that is within reach."""
+
+NEAR_MISS = 3.0
+"""Pairs within this many times the contact distance are kept, to be shown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +94,7 @@ class SymbolicMesh:
 
     def neighbours(self, index: int) -> frozenset[int]:
         """Indices of the hulls in contact with hull `index`; never itself."""
-        return bits(self.adjacency[index])
+        return bits_of(self.adjacency[index])
 
     @property
     def near_misses(self) -> tuple[tuple[int, int, float], ...]:
@@ -122,7 +126,7 @@ class SymbolicMesh:
         """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
         if "graph" in self.__dict__ and edited.contact_distance == self.contact_distance:
-            known, now = _by_shape(self.hulls), _by_shape(edited.hulls)
+            known, now = _positions_by_shape(self.hulls), _positions_by_shape(edited.hulls)
             kept = {now[shape]: known[shape] for shape in now if shape in known}
             reach = self.contact_distance * NEAR_MISS
             graph = contact_graph([h.shape for h in edited.hulls], reach, known=self.graph, kept=kept)
@@ -136,14 +140,14 @@ class SymbolicMesh:
         return self.asset.with_geoms(Geom(h.name, h.body, h.shape, h.parent) for h in self.hulls)
 
 
-def _by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
+def _positions_by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
     """Position of each shape object by its identity, without those that several hulls share."""
     ids = [id(hull.shape) for hull in hulls]
     seen = Counter(ids)
     return {shape: k for k, shape in enumerate(ids) if seen[shape] == 1}
 
 
-def bits(mask: int) -> frozenset[int]:
+def bits_of(mask: int) -> frozenset[int]:
     """The positions of the set bits."""
     found = []
     while mask:
@@ -159,3 +163,58 @@ def mask_of(indices: Iterable[int]) -> int:
     for index in indices:
         mask |= 1 << index
     return mask
+
+
+def contact_graph(
+    shapes: Sequence[Shape],
+    reach: float,
+    known: ContactGraph | None = None,
+    kept: Mapping[int, int] | None = None,
+) -> ContactGraph:
+    """Distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
+
+    known, kept: distances of an earlier list of shapes, and for each shape that was in it, its index there;
+    pairs of two kept shapes are taken over, all others are measured.
+    """
+    if known is None or not kept:
+        return close_pairs(shapes, reach)
+    back = {old: new for new, old in kept.items()}
+    found = {
+        (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
+    }
+    if len(kept) < len(shapes):
+        found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
+    return dict(sorted(found.items()))
+
+
+def split_by_body(mesh: SymbolicMesh, mask: int) -> list[int]:
+    """The parts of a selection in one body each, as bit sets, in order of their lowest index."""
+    parts: dict[str, int] = {}
+    for index, hull in enumerate(mesh.hulls):
+        if mask >> index & 1:
+            parts[hull.body] = parts.get(hull.body, 0) | 1 << index
+    return list(parts.values())
+
+
+def split_by_contact(mesh: SymbolicMesh, mask: int) -> list[int]:
+    """The connected components of a selection within one body each, as bit sets, in order of their lowest index.
+
+    mask: the selection as a bit set. Hulls outside the selection, or of another body, connect nothing.
+    """
+    found = []
+    for part in split_by_body(mesh, mask):
+        while part:
+            found.append(_reach(mesh.adjacency, part & -part, part))
+            part &= ~found[-1]
+    return sorted(found, key=lambda component: component & -component)
+
+
+def _reach(adjacency: tuple[int, ...], seed: int, allowed: int) -> int:
+    """All positions that can be reached from the seed within those allowed."""
+    reached = frontier = seed
+    while frontier:
+        lowest = frontier & -frontier
+        fresh = adjacency[lowest.bit_length() - 1] & allowed & ~reached
+        reached |= fresh
+        frontier = (frontier ^ lowest) | fresh
+    return reached

@@ -20,7 +20,7 @@ from benchmark.baselines.blender.process import Blender, Limits
 from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
 from benchmark.tasks import task
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.geometry import convex_hull, digest
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.benchmark.blender_script import SHELLS

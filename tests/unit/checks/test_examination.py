@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import ReportAsset, write_report
-from meshforge.checks import Measures, examine_mesh, pictures
+from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.geometry import Box
 from meshforge.language import Program
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 from tests.unit.cli.in_process import Run, runner
 
-ALL = Measures("mujoco", fit=True, clearance=True, physics=True)
+ALL = CheckOptions("mujoco", fit=True, clearance=True, physics=True)
 
 
 def urdf(filled: bool) -> str:
@@ -47,14 +47,14 @@ def test_all_that_is_asked_for_comes_with_its_findings() -> None:
 
 
 def test_what_is_not_asked_for_is_not_measured() -> None:
-    found = examine_mesh(cup(WHOLE), Measures())
+    found = examine_mesh(cup(WHOLE), CheckOptions())
     assert found.to_json() == {} and found.descriptions == () and found.findings == ()
 
 
 def test_an_asset_that_shows_nothing_says_so() -> None:
-    found = examine_mesh(cup(WHOLE, shown=()), Measures(fit=True, clearance=True))
+    found = examine_mesh(cup(WHOLE, shown=()), CheckOptions(fit=True, clearance=True))
     assert found.descriptions == (f"note: {found.notes[0]}",) and "nothing is shown" in found.notes[0]
-    assert list(pictures(cup(WHOLE, shown=()), found)) == []
+    assert list(draw_examination(cup(WHOLE, shown=()), found)) == []
 
 
 def test_the_command_line_measures_an_edit_against_what_was_before(run: Run) -> None:

@@ -5,10 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Opaque
 from meshforge.checks import Finding, check
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Opaque, SymbolicMesh
 
 CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate()
 

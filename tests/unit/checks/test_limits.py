@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.checks import ENGINES, check
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull, polygon_sizes
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, SymbolicMesh
 
 
 def mesh(*shapes: Shape) -> SymbolicMesh:

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from meshforge.cli import question_pictures
-from meshforge.cli.conversation import Conversation
-from meshforge.cli.lessons import Lessons
+from meshforge.cli import synthesize_session
+from meshforge.cli.synthesize_dialog import Conversation
+from meshforge.cli.synthesize_session import LearningSession
 from meshforge.project import Project
-from meshforge.synthesis import Ambiguous, Found, NeedsRepair, NoProgram, Options, Outcome
+from meshforge.synthesis import Ambiguous, Found, LearningOutcome, NeedsRepair, NoProgram, Options
 from tests.unit.project.shelves import PLAIN, SHELVED, ambiguous, mislabelled
 
 HIGHEST = "labels board, leg, knob\n\nGeo(Is(board), +Z) => Delete\n"
@@ -20,11 +20,11 @@ HIGHEST = "labels board, leg, knob\n\nGeo(Is(board), +Z) => Delete\n"
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(question_pictures, "SIZE", (240, 160))
+    monkeypatch.setattr(synthesize_session, "PICTURE_SIZE", (240, 160))
     monkeypatch.chdir(tmp_path)
 
 
-def talk(project: Project, *lines: str) -> tuple[Outcome, str, list[str]]:
+def talk(project: Project, *lines: str) -> tuple[LearningOutcome, str, list[str]]:
     """The outcome when a person types these lines and then has enough, all that was to be read, and the pictures."""
     seen, pictures = list[str](), list[str]()
     typed: Iterator[str] = iter(lines)
@@ -40,7 +40,7 @@ def talk(project: Project, *lines: str) -> tuple[Outcome, str, list[str]]:
             raise EOFError
         return line
 
-    outcome = Conversation(Lessons(project, Options()), ask, seen.append).run()
+    outcome = Conversation(LearningSession(project, Options()), ask, seen.append).run()
     assert not project.layout.questions.exists()
     assert next(typed, None) is None
     return outcome, "\n".join(seen), pictures
@@ -124,9 +124,9 @@ def test_having_enough_amid_the_labels_keeps_what_was_said(tmp_path: Path) -> No
 
 def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     project = ambiguous(tmp_path)
-    learn, failed = Lessons.learn, Project.open(project.folder).synthesize
+    learn, failed = LearningSession.learn, Project.open(project.folder).synthesize
 
-    def without_program(self: Lessons) -> Outcome:
+    def without_program(self: LearningSession) -> LearningOutcome:
         """As if no rule agreed with the answer."""
         if not project.answers().ids:
             return learn(self)
@@ -135,7 +135,7 @@ def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monk
         nearest = _missing(project)
         return NoProgram(rules=(), readings=(), tried=(), seconds={}, nearest=nearest.nearest, why="none fits")
 
-    monkeypatch.setattr(Lessons, "learn", without_program)
+    monkeypatch.setattr(LearningSession, "learn", without_program)
     outcome, seen, _ = talk(project, "1", "y", "1", "n")
     assert isinstance(outcome, NoProgram)
     assert seen.count("With your answer about rack2.obj there is no program: none fits") == 2

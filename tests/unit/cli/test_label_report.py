@@ -85,7 +85,7 @@ def test_labels_of_names_give_the_same_page(run: Run) -> None:
 
 
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.report.PICTURED", 2)
+    monkeypatch.setattr("meshforge.batch.MOST_PICTURED", 2)
     run("label", "p", "--report", "r.html")
     page = opened("r.html")
     assert kinds(page) == ["problems", "problems"] and figures(page)["assets"] == "4"

@@ -12,10 +12,11 @@ from typing import Any, get_args, get_type_hints
 import pytest
 
 from meshforge import synthesis
-from meshforge.cli.interruption import interruptible
 from meshforge.cli.synthesize import synthesize
+from meshforge.cli.terminal import catch_interrupt
 from meshforge.language import Delete
-from meshforge.project import Project, learning
+from meshforge.project import Project
+from meshforge.project import learn as learn_module
 from meshforge.synthesis import LAYERS, Step
 from meshforge.synthesis.options import STRATEGIES
 from tests.unit.cli.in_process import Run, runner
@@ -246,7 +247,7 @@ def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
         os.kill(os.getpid(), signal.SIGINT)
         return learn(*demos, **options)
 
-    monkeypatch.setattr(learning, "synthesize", interrupted)
+    monkeypatch.setattr(learn_module, "synthesize", interrupted)
     told = run("synthesize", "racks")
     assert told.code == 1
     assert told.out.startswith("stopped while rule 1 was searched for\n")
@@ -254,7 +255,7 @@ def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
 
 
 def test_the_second_interrupt_ends_the_program() -> None:
-    with pytest.raises(KeyboardInterrupt), interruptible() as stop:
+    with pytest.raises(KeyboardInterrupt), catch_interrupt() as stop:
         os.kill(os.getpid(), signal.SIGINT)
         assert stop()
         os.kill(os.getpid(), signal.SIGINT)
@@ -266,7 +267,9 @@ def test_a_search_without_time_tells_how_to_give_it_more(
 ) -> None:
     mislabelled(tmp_path)
     learn = synthesis.synthesize
-    monkeypatch.setattr(learning, "synthesize", lambda *given, **more: learn(*given, **more | {"stop": lambda: True}))
+    monkeypatch.setattr(
+        learn_module, "synthesize", lambda *given, **more: learn(*given, **more | {"stop": lambda: True})
+    )
     told = run("synthesize", "racks", "--budget", "0.1")
     assert told.code == 1
     assert told.out.startswith("the time ran out while rule 1 was searched for; --budget SECONDS gives more\n")

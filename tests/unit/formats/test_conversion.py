@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.formats import read, save
 from meshforge.geometry import Floats
+from meshforge.symbolic import Asset
 from tests.conversion_samples import SAMPLES
 from tests.gltf_files import KHR, SceneFile
 from tests.soups import box

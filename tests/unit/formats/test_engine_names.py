@@ -9,18 +9,17 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshforge.asset import Asset, Geom, Opaque, Surface
 from meshforge.checks import check
-from meshforge.errors import AssetError, UsageError
-from meshforge.formats import Names, read, save
+from meshforge.common import AssetError, UsageError
+from meshforge.formats import EngineName, read, save
 from meshforge.geometry import Box, Pose, Sphere, convex_hull
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, Geom, Opaque, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors
 from tests.soups import Soup, angle, box, together
 
-NAMED: list[tuple[Names, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
+NAMED: list[tuple[EngineName, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
 
 
 def names(asset: Asset) -> list[str]:
@@ -285,7 +284,7 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
     ],
 )
 def test_formats_without_such_names_are_refused_with_those_that_have_them(
-    place: str, engine: Names, message: str, tmp_path: Path
+    place: str, engine: EngineName, message: str, tmp_path: Path
 ) -> None:
     with pytest.raises(UsageError) as caught:
         save(SAMPLES["crowd"](), tmp_path / place, names=engine)

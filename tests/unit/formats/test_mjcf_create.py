@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
-from meshforge.formats import Saved, read, save
+from meshforge.formats import SaveResult, read, save
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
+from meshforge.symbolic import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.conversion_samples import TURNED, block, foreign, wedge
 from tests.soups import angle
 from tests.urdf_sample import boxes_obj
@@ -21,7 +21,7 @@ from tests.urdf_sample import boxes_obj
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 
 
-def made(asset: Asset, folder: Path) -> tuple[Asset, Any, Saved]:
+def made(asset: Asset, folder: Path) -> tuple[Asset, Any, SaveResult]:
     """The asset written as MJCF and read back, and the model that MuJoCo compiles."""
     saved = save(asset, folder / "out" / "m.xml")
     return read(saved.path), mujoco.MjModel.from_xml_path(str(saved.path)), saved

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
+from meshforge.symbolic import Geom
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
 

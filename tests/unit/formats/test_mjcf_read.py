@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Surface
 from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere
+from meshforge.symbolic import Surface
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
 
 MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.mjcf.document import MjcfDocument
+from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 
 SOUND = '<geom name="a" size="1"/><body name="b" pos="1 0 0"><geom type="mesh" mesh="m"/></body>'

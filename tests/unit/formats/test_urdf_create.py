@@ -9,13 +9,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from meshforge.formats import save
 from meshforge.formats.base import Output
-from meshforge.formats.reporting import report
-from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.conversion import report_conversion
+from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import boxes_obj, put, read
 
@@ -36,7 +36,7 @@ def created(asset: Asset, tmp_path: Path) -> tuple[Asset, Path, Output]:
 
 
 def told(asset: Asset, output: Output) -> tuple[str, ...]:
-    return report(asset, None, UrdfFormat(), output).sentences
+    return report_conversion(asset, None, UrdfFormat(), output).sentences
 
 
 CART = foreign(

@@ -10,9 +10,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
-from meshforge.formats.xml import Splice, parsed, spliced
+from meshforge.formats.xml import Splice, apply_splices, parse_xml
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
 from tests.urdf_sample import put, read, robot, sample, write
 
@@ -67,8 +67,8 @@ def edited(draw: st.DrawFn, asset: Asset) -> Asset:
 
 def _outside(data: bytes) -> bytes:
     """The text without collision elements and blanks."""
-    links = list(parsed(data, "x").each("link"))
-    cut = spliced(data, [Splice(c.start, c.end, b"") for link in links for c in link.each("collision")])
+    links = list(parse_xml(data, "x").each("link"))
+    cut = apply_splices(data, [Splice(c.start, c.end, b"") for link in links for c in link.each("collision")])
     return re.sub(rb"\s+", b"", cut)
 
 

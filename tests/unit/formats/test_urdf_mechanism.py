@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.asset import Inertial, Joint, Mechanism
 from meshforge.geometry import Pose
+from meshforge.symbolic import Inertial, Joint, Mechanism
 from tests.urdf_sample import read, robot, sample
 
 LINKS = '<link name="a"/><link name="b"/>'

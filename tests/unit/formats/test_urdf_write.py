@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
-from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, same_shape
+from meshforge.common import AssetError
+from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.urdf_sample import HULLS, SAMPLE, THREE, corner_obj, link, made, put, read, robot, sample, without, write
 
 TURNED = Pose.from_rpy([0.3, -0.2, 0.7], [0.4, -1.1, 2.0])
@@ -67,7 +67,7 @@ def test_pieces_that_stay_get_an_element_and_a_file_each(tmp_path: Path) -> None
     assert output.main.decode() == SAMPLE[:start] + first + second + sphere
     again = rewritten(edited, tmp_path)
     for old, new in zip(edited.geoms, again.geoms, strict=True):
-        assert old.name == new.name and same_shape(old.shape, new.shape)
+        assert old.name == new.name and is_same_shape(old.shape, new.shape)
 
 
 def test_the_triangles_of_a_kept_piece_are_those_of_the_author(tmp_path: Path) -> None:

@@ -14,15 +14,15 @@ from meshforge.geometry import (
     Pose,
     Sphere,
     digest,
-    frozen_floats,
-    frozen_ints,
-    same_shape,
+    freeze_floats,
+    freeze_ints,
+    is_same_shape,
 )
 
 
 def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
     source = np.zeros((2, 3))
-    frozen = frozen_floats(source, (-1, 3))
+    frozen = freeze_floats(source, (-1, 3))
     source[0, 0] = 1
     assert frozen[0, 0] == 0
     with pytest.raises(ValueError, match="read-only"):
@@ -31,14 +31,14 @@ def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
 
 def test_an_array_of_another_shape_is_refused() -> None:
     with pytest.raises(ValueError, match=r"\(-1, 3\) was expected, not \(2, 2\)"):
-        frozen_floats(np.zeros((2, 2)), (-1, 3))
+        freeze_floats(np.zeros((2, 2)), (-1, 3))
     with pytest.raises(ValueError, match="was expected"):
-        frozen_ints([1, 2], (3,))
+        freeze_ints([1, 2], (3,))
 
 
 def test_nothing_is_an_array_of_no_rows() -> None:
-    assert frozen_floats([], (-1, 3)).shape == (0, 3)
-    assert frozen_ints([], (-1, 3)).shape == (0, 3)
+    assert freeze_floats([], (-1, 3)).shape == (0, 3)
+    assert freeze_ints([], (-1, 3)).shape == (0, 3)
 
 
 def test_a_pose_takes_lists() -> None:
@@ -68,9 +68,9 @@ def test_a_box_around_boxes_holds_them() -> None:
 
 def test_shapes_and_poses_pickle() -> None:
     for shape in (Box.of_bounds(Aabb([0, 0, 0], [1, 2, 3])), Sphere(Pose.identity(), 2.0)):
-        assert same_shape(pickle.loads(pickle.dumps(shape)), shape)
+        assert is_same_shape(pickle.loads(pickle.dumps(shape)), shape)
     hull = Box.of_bounds(Aabb([0, 0, 0], [1, 2, 3])).tessellate()
-    assert same_shape(pickle.loads(pickle.dumps(hull)), hull)
+    assert is_same_shape(pickle.loads(pickle.dumps(hull)), hull)
 
 
 def test_volumes_of_round_shapes_are_analytic() -> None:
@@ -99,10 +99,10 @@ def test_a_digest_tells_place_size_and_kind_apart() -> None:
 
 def test_shapes_of_two_kinds_are_never_the_same() -> None:
     box = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
-    assert same_shape(box, box)
-    assert not same_shape(box, box.tessellate())
-    assert not same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])))
-    assert same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)
+    assert is_same_shape(box, box)
+    assert not is_same_shape(box, box.tessellate())
+    assert not is_same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])))
+    assert is_same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)
 
 
 @pytest.mark.parametrize("rpy", [(0.3, -1.2, 2.9), (0, 0, 0), (np.pi, 0, 0), (0, np.pi, 0), (0, 0, np.pi), (2, 3, -1)])

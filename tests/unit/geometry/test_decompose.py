@@ -8,19 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError, UsageError
+from meshforge.common import GeometryError, UsageError
 from meshforge.geometry import Floats, Ints, is_convex
-from meshforge.geometry.decompose import (
-    CoacdSettings,
-    DecomposeSettings,
-    DecompositionCancelledError,
-    VhacdSettings,
-    cache_folder,
-    child,
-    decompose,
-)
-from meshforge.geometry.decompose.cache import cache_key, read_entry, write_entry
-from meshforge.geometry.decompose.surface import sound_triangles
+from meshforge.geometry.decomposition import process
+from meshforge.geometry.decomposition.cache import cache_folder, cache_key, read_entry, write_entry
+from meshforge.geometry.decomposition.process import DecompositionCancelledError
+from meshforge.geometry.decomposition.run import decompose
+from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.triangles import clean_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
 COARSE = VhacdSettings(resolution=5000, max_convex_hulls=4)
@@ -48,7 +43,7 @@ CUBE = prism([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
 def fake_engine(monkeypatch: pytest.MonkeyPatch, folder: Path, code: str) -> None:
     script = folder / "engine.py"
     script.write_text(code)
-    monkeypatch.setattr(child, "worker", SimpleNamespace(__file__=str(script)))
+    monkeypatch.setattr(process, "worker", SimpleNamespace(__file__=str(script)))
 
 
 @pytest.mark.parametrize(
@@ -158,7 +153,7 @@ def test_an_engine_that_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch,
 
 def test_sheets_get_a_thickness_and_needles_are_left_out(tmp_path: Path) -> None:
     sheet, needle = CUBE[0] * [1, 1, 0], CUBE[0] * [1, 0, 0]
-    write_entry(tmp_path, cache_key(sound_triangles(*CUBE), QUICK), [(sheet, CUBE[1]), (needle, CUBE[1])])
+    write_entry(tmp_path, cache_key(clean_triangles(*CUBE), QUICK), [(sheet, CUBE[1]), (needle, CUBE[1])])
     notes: list[str] = []
     (hull,) = decompose(*CUBE, QUICK, cache=tmp_path, note=notes.append)
     assert hull.aabb.size == pytest.approx([1, 1, 1e-4 * 3**0.5])
@@ -201,7 +196,7 @@ def test_a_cache_that_cannot_be_written_is_a_note(tmp_path: Path) -> None:
 
 
 def test_the_key_tells_geometry_and_settings_apart() -> None:
-    cube, l_shape = sound_triangles(*CUBE), sound_triangles(*L_SHAPE)
+    cube, l_shape = clean_triangles(*CUBE), clean_triangles(*L_SHAPE)
     keys = {cache_key(m, s) for m in (cube, l_shape) for s in (QUICK, COARSE, CoacdSettings(), CoacdSettings(seed=1))}
     assert len(keys) == 8
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.geometry import Box, Cylinder, Floats, Pose, Sphere, convex_hull
 from meshforge.language import (
     ACTIONS,
     PRIMITIVES,
     Action,
+    ActionResult,
     Add,
-    Applied,
     Delete,
     Each,
     Merge,
@@ -26,7 +26,7 @@ from tests.unit.language.scenes import box, hull, mesh, table, wedge
 TEMPLATES = {"wedge.obj": wedge()}
 
 
-def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> Applied:
+def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> ActionResult:
     mask = sum(1 << scene.index[name] for name in names or scene.index)
     return apply_action(scene, mask, action, TEMPLATES, label)
 

@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
-from meshforge.errors import GeometryError, MeshForgeError, ProgramError
+from meshforge.common import GeometryError, MeshForgeError, ProgramError
 from meshforge.geometry import Box, Pose, convex_hull
-from meshforge.language import Delete, Is, Program, Rule, apply_rule, stage, unstage
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.language import Delete, Is, Program, Rule, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.symbolic import Asset, Body, Document, Geom, Label, SymbolicMesh
 from tests.unit.language.scenes import box, hull, mesh, table, wedge
 
 TABLES = """
@@ -169,14 +168,14 @@ def test_an_edited_mesh_lowers_to_an_asset_whose_made_geoms_name_their_parent() 
 def test_replaying_rule_by_rule_gives_what_the_run_gives() -> None:
     program = Program.parse(TABLES)
     scene = lying()
-    current, pose = stage(scene, program.orient, program.contact)
+    current, pose = to_canonical_frame(scene, program.orient, program.contact)
     assert current.scale == current.diagonal
     used = frozenset[str]()
     for rule, traced in zip(program.rules, program.run(scene).trace, strict=True):
         selected, applied = apply_rule(current, rule, used=used)
         assert (selected, applied.made) == (traced.selected, traced.made)
         current, used = applied.mesh, applied.used
-    result = unstage(scene, current, pose)
+    result = from_canonical_frame(scene, current, pose)
     assert [h.name for h in result.hulls] == [h.name for h in program.run(scene).mesh.hulls]
 
 

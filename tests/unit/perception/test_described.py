@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 
 from benchmark.assets import samples
 from meshforge.geometry import Aabb, Box, Floats, Polytope, Pose
-from meshforge.perception.propagation.describe import WIDTH
-from meshforge.perception.propagation.metric import weights
-from meshforge.perception.propagation.points import inside, on_surface
-from meshforge.perception.propagation.sketch import Sketcher
+from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
+from meshforge.labels.propagation.propagate import metric_weights
+from meshforge.labels.propagation.surroundings import points_inside, points_on_surface
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.synthesis_boxes import boxes
 
@@ -22,20 +21,20 @@ CHAIR = samples("chair", calibration=True)[0].mesh
 
 
 def described(mesh: SymbolicMesh) -> Floats:
-    return Sketcher(mesh).describe().rows
+    return MeshDescriber(mesh).describe().rows
 
 
 def test_every_hull_has_a_row_of_finite_numbers_as_wide_as_the_metric() -> None:
     rows = described(CHAIR)
-    assert rows.shape == (len(CHAIR.hulls), WIDTH) == (len(CHAIR.hulls), len(weights()))
+    assert rows.shape == (len(CHAIR.hulls), ROW_WIDTH) == (len(CHAIR.hulls), len(metric_weights()))
     assert np.isfinite(rows).all()
-    assert (weights() > 0).all()
+    assert (metric_weights() > 0).all()
 
 
 def test_no_hulls_have_no_rows_and_one_alone_has_one() -> None:
-    assert described(boxes()).shape == (0, WIDTH)
+    assert described(boxes()).shape == (0, ROW_WIDTH)
     alone = described(SymbolicMesh(CHAIR.hulls[:1]))
-    assert alone.shape == (1, WIDTH)
+    assert alone.shape == (1, ROW_WIDTH)
     assert np.isfinite(alone).all()
 
 
@@ -46,7 +45,7 @@ def test_neither_place_nor_size_nor_yaw_changes_a_row(yaw: float, x: float, scal
     moved = [Hull(hull.name, "body", shape, hull.annotation) for hull, shape in zip(CHAIR.hulls, shapes, strict=True)]
     far = np.abs(described(SymbolicMesh(tuple(moved), scale=CHAIR.diagonal * scale)) - described(CHAIR))
     assert np.median(far) < 1e-6
-    assert far @ weights() == pytest.approx(0.0, abs=0.25)  # a point may change its ring by a rounding
+    assert far @ metric_weights() == pytest.approx(0.0, abs=0.25)  # a point may change its ring by a rounding
 
 
 def test_the_order_of_hulls_does_not_matter() -> None:
@@ -76,8 +75,8 @@ def test_points_are_where_they_should_be() -> None:
     first, second, third = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(second - first, third - first)
     reach = (normals * first).sum(axis=1)
-    within = inside(hull.vertices, np.zeros(2), 8)
+    within = points_inside(hull.vertices, np.zeros(2), 8)
     assert (within @ normals.T <= reach + 1e-12).all()
-    on = on_surface(hull.vertices[hull.faces], 500)
+    on = points_on_surface(hull.vertices[hull.faces], 500)
     assert (on @ normals.T <= reach + 1e-9).all()
     assert ((np.abs(on @ normals.T - reach) / np.linalg.norm(normals, axis=1)).min(axis=1) < 1e-9).all()

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.errors import UsageError
-from meshforge.perception.names import EXACT, Names, Told, fitting, pattern_of, said, told, words_of
-from meshforge.perception.names.words import common, fillers, is_same, parted, places
+from meshforge.common import UsageError
+from meshforge.labels.names.hull_names import HullNames, NameMatch, find_pattern, match_names, pattern_of
+from meshforge.labels.names.match import match_label
+from meshforge.labels.names.words import EXACT, common, fillers, is_same, places, split_joined_word, words_of
 
 VOCABULARY = ("drawer", "handle", "door", "knob", "leg", "top", "back", "frame", "shelf", "panel", "seat", "armrest")
 SURE = 0.5
@@ -79,7 +80,7 @@ def test_plurals_are_the_same_word(one: str, several: str) -> None:
     ],
 )
 def test_what_a_name_says_and_how_surely(name: str, label: str, confidence: float) -> None:
-    found = said(name, VOCABULARY)
+    found = match_label(name, VOCABULARY)
     assert found is not None
     assert (found.label, found.confidence) == (label, confidence)
 
@@ -117,18 +118,20 @@ def test_what_a_name_says_and_how_surely(name: str, label: str, confidence: floa
     ],
 )
 def test_words_that_only_look_alike_say_nothing(name: str) -> None:
-    assert said(name, (*VOCABULARY, "lid", "plate", "board", "chair", "button", "table")) is None
+    assert match_label(name, (*VOCABULARY, "lid", "plate", "board", "chair", "button", "table")) is None
 
 
 def test_the_longer_label_counts_and_two_alike_say_nothing() -> None:
-    assert said("drawer_front", ("drawer", "drawer front")) == said("drawerfront", ("drawer", "drawer front"))
-    found = said("shelf_2_boards", ("shelf", "board", "shelf board"))
+    assert match_label("drawer_front", ("drawer", "drawer front")) == match_label(
+        "drawerfront", ("drawer", "drawer front")
+    )
+    found = match_label("shelf_2_boards", ("shelf", "board", "shelf board"))
     assert found and found.label == "shelf board"
-    assert said("door", ("Door", "door")) is None
+    assert match_label("door", ("Door", "door")) is None
 
 
 def test_a_label_that_means_nothing_gives_way() -> None:
-    found = said("base_link", ("base", "link"))
+    found = match_label("base_link", ("base", "link"))
     assert found and found.label == "base"
 
 
@@ -136,14 +139,14 @@ def test_a_label_that_means_nothing_gives_way() -> None:
 def test_the_word_of_a_label_says_it(label: str, before: str, after: str) -> None:
     assume(label not in places())
     for word in (label, label.upper(), label.title(), f"{label}s"):
-        found = said(f"{before}{word}{after}", VOCABULARY)
+        found = match_label(f"{before}{word}{after}", VOCABULARY)
         assert found is not None
         assert (found.label, found.confidence, found.exact) == (label, EXACT, True)
 
 
 @given(st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=12))
 def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> None:
-    found = said(word, VOCABULARY)
+    found = match_label(word, VOCABULARY)
     if found and not found.exact:
         assert word not in common() | fillers()
         assert word[0] == found.label[0]
@@ -152,15 +155,15 @@ def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> 
 
 @given(st.sampled_from(sorted(common())))
 def test_no_common_word_is_taken_for_another(word: str) -> None:
-    found = said(word, VOCABULARY)
-    assert found is None or (found.exact and is_same(parted(word, VOCABULARY)[-1], found.label))
+    found = match_label(word, VOCABULARY)
+    assert found is None or (found.exact and is_same(split_joined_word(word, VOCABULARY)[-1], found.label))
 
 
 @given(
     st.lists(st.sampled_from(VOCABULARY), unique=True, min_size=1), st.sampled_from(["oak_drwr", "doors", "legHandle"])
 )
 def test_the_order_of_the_vocabulary_does_not_matter(vocabulary: list[str], name: str) -> None:
-    assert said(name, vocabulary) == said(name, vocabulary[::-1])
+    assert match_label(name, vocabulary) == match_label(name, vocabulary[::-1])
 
 
 def test_the_lists_of_words_hold_no_word_twice_over() -> None:
@@ -172,44 +175,50 @@ def test_the_lists_of_words_hold_no_word_twice_over() -> None:
 
 
 def test_the_own_name_counts_first_then_what_is_its_own_then_the_body_then_the_rest() -> None:
-    names = Names("b1/geom0", "left_door", (("mesh", "handle"), ("class", "leg"), ("material", "seat")))
-    assert told(names, VOCABULARY) == Told("handle", 0.7, "mesh", "handle", "word")
-    assert told(Names("b/knob", "left_door", names.mentions[1:]), VOCABULARY) == Told(
+    names = HullNames("b1/geom0", "left_door", (("mesh", "handle"), ("class", "leg"), ("material", "seat")))
+    assert match_names(names, VOCABULARY) == NameMatch("handle", 0.7, "mesh", "handle", "word")
+    assert match_names(HullNames("b/knob", "left_door", names.mentions[1:]), VOCABULARY) == NameMatch(
         "knob", 0.7, "hull", "b/knob", "word"
     )
-    bare = Names("left_door/geom0", "left_door", (("class", "leg"), ("material", "seat")))
-    assert told(bare, VOCABULARY) == Told("door", 0.6, "body", "left_door", "word")
-    assert told(Names("x/geom0", "x", bare.mentions), VOCABULARY) == Told("leg", 0.6, "class", "leg", "word")
-    assert told(Names("x/geom0", "x", (("material", "seat"),)), VOCABULARY) == Told(
+    bare = HullNames("left_door/geom0", "left_door", (("class", "leg"), ("material", "seat")))
+    assert match_names(bare, VOCABULARY) == NameMatch("door", 0.6, "body", "left_door", "word")
+    assert match_names(HullNames("x/geom0", "x", bare.mentions), VOCABULARY) == NameMatch(
+        "leg", 0.6, "class", "leg", "word"
+    )
+    assert match_names(HullNames("x/geom0", "x", (("material", "seat"),)), VOCABULARY) == NameMatch(
         "seat", 0.5, "material", "seat", "word"
     )
 
 
 def test_a_name_that_is_unsure_gives_way_to_a_surer_one() -> None:
-    names = Names("b/drawer_top", "b", (("mesh", "draw"),))
-    assert told(Names("b/draw", "oak_door"), VOCABULARY) == Told("door", 0.6, "body", "oak_door", "word")
-    only = told(names, VOCABULARY)
+    names = HullNames("b/drawer_top", "b", (("mesh", "draw"),))
+    assert match_names(HullNames("b/draw", "oak_door"), VOCABULARY) == NameMatch(
+        "door", 0.6, "body", "oak_door", "word"
+    )
+    only = match_names(names, VOCABULARY)
     assert only and only.confidence < SURE and only.name == "drawer_top"
 
 
 def test_names_of_its_own_that_contradict_each_other_make_it_unsure() -> None:
-    names = Names("b/drawer", "b", (("mesh", "drawer_handle"),))
-    assert told(names, VOCABULARY) == Told("drawer", 0.45, "hull", "drawer", "word")
-    agreeing = Names("handle/drawer", "handle", (("mesh", "drawer1"), ("material", "seat")))
-    assert told(agreeing, VOCABULARY) == Told("drawer", 0.7, "hull", "drawer", "word")
+    names = HullNames("b/drawer", "b", (("mesh", "drawer_handle"),))
+    assert match_names(names, VOCABULARY) == NameMatch("drawer", 0.45, "hull", "drawer", "word")
+    agreeing = HullNames("handle/drawer", "handle", (("mesh", "drawer1"), ("material", "seat")))
+    assert match_names(agreeing, VOCABULARY) == NameMatch("drawer", 0.7, "hull", "drawer", "word")
 
 
 def test_the_body_of_a_format_without_bodies_says_nothing() -> None:
-    assert told(Names("geom0", "body"), ("body",)) is None
+    assert match_names(HullNames("geom0", "body"), ("body",)) is None
 
 
 def test_patterns_come_before_words_and_may_leave_a_hull_bare() -> None:
-    names = Names("door/knob1", "door")
+    names = HullNames("door/knob1", "door")
     glob, none = pattern_of("*DOOR*", "frame"), pattern_of("/^knob[0-9]$/", "")
-    assert told(names, VOCABULARY, [glob]) == Told("frame", 0.9, "body", "door", "pattern")
-    assert told(names, VOCABULARY, [glob, none]) == Told(None, 0.9, "hull", "knob1", "pattern")
-    assert told(names, VOCABULARY, [pattern_of("door/*", "leg")]) == Told("leg", 0.9, "hull", "door/knob1", "pattern")
-    assert told(names, VOCABULARY, [pattern_of("nob", "leg")]) == told(names, VOCABULARY)
+    assert match_names(names, VOCABULARY, [glob]) == NameMatch("frame", 0.9, "body", "door", "pattern")
+    assert match_names(names, VOCABULARY, [glob, none]) == NameMatch(None, 0.9, "hull", "knob1", "pattern")
+    assert match_names(names, VOCABULARY, [pattern_of("door/*", "leg")]) == NameMatch(
+        "leg", 0.9, "hull", "door/knob1", "pattern"
+    )
+    assert match_names(names, VOCABULARY, [pattern_of("nob", "leg")]) == match_names(names, VOCABULARY)
 
 
 def test_an_expression_that_is_none_is_refused() -> None:
@@ -230,5 +239,5 @@ def test_globs_fit_whole_names_whatever_their_case(pattern: str, name: str) -> N
 def test_the_first_pattern_that_fits_wins(patterns: list[str], name: str) -> None:
     made = [pattern_of(text, str(k)) for k, text in enumerate(patterns)]
     fits = [k for k, pattern in enumerate(made) if pattern.matches(name)]
-    found = fitting(name, made)
+    found = find_pattern(name, made)
     assert (int(found.label) if found else None) == (fits[0] if fits else None)

@@ -11,7 +11,7 @@ import pytest
 from benchmark.assets import Sample, samples
 from benchmark.labels.fitting import PURE
 from meshforge.geometry import Pose
-from meshforge.perception import Propagated, propagate
+from meshforge.labels import FamilyPosterior, propagate
 from meshforge.symbolic import Label, SymbolicMesh
 from tests.synthesis_boxes import boxes
 
@@ -25,7 +25,7 @@ def asking(rows: Sequence[Sample], told: Sequence[int]) -> list[SymbolicMesh]:
 
 
 @cache
-def advised(category: str, count: int) -> tuple[Propagated, tuple[int, ...]]:
+def advised(category: str, count: int) -> tuple[FamilyPosterior, tuple[int, ...]]:
     """What is found with so many meshes labelled, each the one that was advised."""
     rows = samples(category, calibration=True)
     told: list[int] = []
@@ -70,7 +70,7 @@ def test_meshes_that_lie_on_another_side_get_the_labels_they_get_upright(turn: t
     assert np.mean(same) > 0.9
 
 
-def names_of(found: Propagated, mesh: int) -> list[str | None]:
+def names_of(found: FamilyPosterior, mesh: int) -> list[str | None]:
     return [label.name if label else None for label in found.labels(mesh)]
 
 
@@ -95,7 +95,9 @@ def test_chances_are_chances() -> None:
 def test_a_label_that_nobody_told_is_not_found_and_a_single_one_is_everywhere() -> None:
     rows = samples("cup", calibration=True)[:3]
     mesh = rows[0].mesh
-    only = mesh.with_labels({hull.name: None for hull in mesh.hulls[1:]}).with_labels({mesh.hulls[0].name: Label("wall")})
+    only = mesh.with_labels({hull.name: None for hull in mesh.hulls[1:]}).with_labels(
+        {mesh.hulls[0].name: Label("wall")}
+    )
     found = propagate([only, *asking(rows[1:], [])])
     assert found.family.labels == ("wall",)
     assert {label.name for k in range(3) for label in found.labels(k) if label} == {"wall"}
@@ -129,13 +131,15 @@ def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> N
 
 
 def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
-    from meshforge.perception.propagation.family import Family, Scale
-    from meshforge.perception.propagation.likeness import by_likeness
+    from meshforge.label_model.family import ColumnScale, FamilyTable
+    from meshforge.label_model.posterior import vote_by_similarity
 
     count, rare = 7_000, 7
     rows = np.linspace(0.0, 1.0, count)[:, None]
-    family = Family(rows, Scale.of(rows), np.arange(count), np.full(count, -1), (), np.zeros((0, 2), np.int64))
+    family = FamilyTable(
+        rows, ColumnScale.of(rows), np.arange(count), np.full(count, -1), (), np.zeros((0, 2), np.int64)
+    )
     told = family.with_labels(["rare" if k < rare else "common" for k in range(count - 10)] + [None] * 10)
-    chances = by_likeness(told, np.ones(1))
+    chances = vote_by_similarity(told, np.ones(1))
     assert chances.argmax(axis=1)[-10:].tolist() == [0] * 10
     assert told.labels == ("common", "rare")

@@ -6,10 +6,10 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from meshforge.asset import Asset
+from meshforge.batch import Preparation, decompose_asset
 from meshforge.formats import read
-from meshforge.geometry.decompose import CoacdSettings, VhacdSettings
-from meshforge.preparation import Preparation, decompose_asset
+from meshforge.geometry.decomposition.settings import CoacdSettings, VhacdSettings
+from meshforge.symbolic import Asset
 from tests.urdf_sample import boxes_obj, corner_obj
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)

@@ -6,35 +6,36 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Opaque, Surface
-from meshforge.errors import AssetError
+from meshforge.batch import Preparation, apply_preparation, decompose_asset, find_sources, replay_preparation
+from meshforge.common import AssetError
 from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
-from meshforge.geometry.decompose import DecomposeSettings
-from meshforge.preparation import Preparation, decompose_asset, fitting, prepared, sources
-from meshforge.symbolic import SymbolicMesh
+from meshforge.geometry.decomposition.settings import DecomposeSettings
+from meshforge.symbolic import Opaque, Surface, SymbolicMesh
 from tests.unit.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
 
 
 def test_opaque_pieces_and_bodies_that_only_show_something_can_be_decomposed(tmp_path: Path) -> None:
     asset = read(write_stand(tmp_path))
-    assert {source.what: source.kind for source in sources(asset)} == PIECES
-    assert [source.base for source in sources(asset)] == ["frame/body", "cover/geom0"]
+    assert {source.what: source.kind for source in find_sources(asset)} == PIECES
+    assert [source.base for source in find_sources(asset)] == ["frame/body", "cover/geom0"]
 
 
 def test_planes_and_the_like_have_no_triangles_and_stay_opaque(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
     plane = Opaque("ground", "body", "an endless plane")
-    assert sources(replace(asset, opaque=(plane,))) == ()
+    assert find_sources(replace(asset, opaque=(plane,))) == ()
 
 
 def test_a_prepared_asset_is_not_noted_to_have_no_collision_geometry(tmp_path: Path) -> None:
     path = write_stand(tmp_path)
     path.write_text(re.sub(r"(?s)<collision.*</collision>", "", path.read_text()))
     asset = read(path)
-    (gone,) = {*asset.notes} - {*prepared(asset, decompose_asset(asset, Preparation(), QUICK).preparation).notes}
+    (gone,) = {*asset.notes} - {
+        *apply_preparation(asset, decompose_asset(asset, Preparation(), QUICK).preparation).notes
+    }
     assert gone == NO_GEOMETRY
-    assert prepared(asset, Preparation()).notes == asset.notes
+    assert apply_preparation(asset, Preparation()).notes == asset.notes
 
 
 def test_assets_of_hulls_have_nothing_to_be_done(tmp_path: Path) -> None:
@@ -47,7 +48,7 @@ def test_assets_of_hulls_have_nothing_to_be_done(tmp_path: Path) -> None:
 def test_the_hulls_take_the_place_of_what_they_were_made_of(tmp_path: Path, settings: DecomposeSettings) -> None:
     asset = read(write_stand(tmp_path))
     done = decompose_asset(asset, Preparation(), settings)
-    ready = prepared(asset, done.preparation)
+    ready = apply_preparation(asset, done.preparation)
     made = {geom.name: geom for geom in ready.geoms[len(asset.geoms) :]}
     assert ready.opaque == () and ready.geoms[: len(asset.geoms)] == asset.geoms
     bodies = {name.partition("/")[0] for name in made}
@@ -67,7 +68,7 @@ def test_what_it_comes_to_is_told(tmp_path: Path) -> None:
 
 def test_the_edited_file_has_the_hulls_in_the_place_of_the_piece(tmp_path: Path) -> None:
     asset, preparation = stand(tmp_path / "in")
-    mesh = SymbolicMesh.of(prepared(asset, preparation))
+    mesh = SymbolicMesh.of(apply_preparation(asset, preparation))
     saved = save(mesh, tmp_path / "out/stand.urdf")
     back = load(saved.path)
     assert sorted(hull.name for hull in back.hulls) == sorted(hull.name for hull in mesh.hulls)
@@ -115,7 +116,7 @@ def test_a_piece_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> N
     done = decompose_asset(bad, Preparation(), QUICK)
     assert [(lost.what, "no area" in lost.why) for lost in done.failed] == [("frame/wire", True)]
     assert [entry.what for entry in done.made] == ["frame/body", "cover"]
-    assert [piece.name for piece in prepared(bad, done.preparation).opaque] == ["frame/wire"]
+    assert [piece.name for piece in apply_preparation(bad, done.preparation).opaque] == ["frame/wire"]
 
 
 BALL = '<collision><geometry><sphere radius="1"/></geometry></collision>'
@@ -133,7 +134,7 @@ BALL = '<collision><geometry><sphere radius="1"/></geometry></collision>'
 def test_a_preparation_stays_where_other_things_change(tmp_path: Path, old: str, new: str) -> None:
     asset, preparation = stand(tmp_path)
     asset.path.write_text(asset.path.read_text().replace(old, new))
-    assert len(prepared(read(asset.path), preparation).geoms) == 5
+    assert len(apply_preparation(read(asset.path), preparation).geoms) == 5
 
 
 @pytest.mark.parametrize(
@@ -150,9 +151,9 @@ def test_a_preparation_is_never_applied_to_other_geometry(tmp_path: Path, old: s
     asset.path.write_text(asset.path.read_text().replace(old, new))
     changed = read(asset.path)
     with pytest.raises(AssetError, match=f"out of date: {problem}") as caught:
-        prepared(changed, preparation)
+        apply_preparation(changed, preparation)
     assert "meshforge prepare" in caught.value.message
-    kept = fitting(changed, preparation)
+    kept = replay_preparation(changed, preparation)
     assert len(kept.lost) == 1 and len(kept.preparation.steps[0].replaced) == 1
     done = decompose_asset(changed, preparation, QUICK)
-    assert len(done.dropped) == 1 and prepared(changed, done.preparation).opaque == ()
+    assert len(done.dropped) == 1 and apply_preparation(changed, done.preparation).opaque == ()

@@ -5,19 +5,19 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
-from meshforge.formats import read
-from meshforge.preparation import (
+from meshforge.batch import (
     Preparation,
+    apply_preparation,
     cut_hull,
     decompose_asset,
-    prepared,
     read_preparation,
     read_prepared,
     record_digest,
     remove_preparation,
     write_preparation,
 )
+from meshforge.common import AssetError
+from meshforge.formats import read
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.preparation.samples import VOXELS, stand, write_boxes
 
@@ -126,5 +126,5 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
 
 def test_nothing_prepared_is_nothing_done(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
-    assert prepared(asset, Preparation()).geoms == asset.geoms
+    assert apply_preparation(asset, Preparation()).geoms == asset.geoms
     remove_preparation(tmp_path / "nowhere")

@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.asset import Surface
+from meshforge.batch.preparation.decompose import describe_fit, measure_uncovered
 from meshforge.geometry import Aabb, Box, Polytope
-from meshforge.preparation.fit import told_fit, uncovered
+from meshforge.symbolic import Surface
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Polytope:
@@ -26,28 +26,28 @@ SURFACE = Surface(WHOLE.vertices, WHOLE.faces)
     ],
 )
 def test_volume_and_surface_that_are_off_are_told(hulls: list[Polytope], told: str) -> None:
-    assert told_fit(SURFACE, hulls, solid=True) == told
+    assert describe_fit(SURFACE, hulls, solid=True) == told
 
 
 def test_what_overlaps_counts_once() -> None:
-    assert told_fit(SURFACE, [WHOLE, WHOLE], solid=True) == "2 hulls, the same volume"
+    assert describe_fit(SURFACE, [WHOLE, WHOLE], solid=True) == "2 hulls, the same volume"
 
 
 def test_what_is_no_solid_has_no_volume_to_compare() -> None:
-    assert told_fit(SURFACE, [WHOLE], solid=False) == "1 hull"
+    assert describe_fit(SURFACE, [WHOLE], solid=False) == "1 hull"
     open_above = Surface(SURFACE.vertices, SURFACE.faces[(SURFACE.vertices[SURFACE.faces][:, :, 2] < 1).any(axis=1)])
     bent = open_above.vertices.copy()
     bent[np.argmax(bent.sum(axis=1)), 2] += 0.2  # the hole is not planar any more
-    assert "volume" not in told_fit(Surface(bent, open_above.faces), [WHOLE], solid=True)
+    assert "volume" not in describe_fit(Surface(bent, open_above.faces), [WHOLE], solid=True)
 
 
 def test_two_sides_of_one_sheet_have_no_volume_to_compare() -> None:
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 1e-9], [0, 1, 0]], float)
     both = Surface(square, np.array([[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]]))
-    assert told_fit(both, [box((0, 0, -1e-3), (1, 1, 1e-3))], solid=True) == "1 hull"
+    assert describe_fit(both, [box((0, 0, -1e-3), (1, 1, 1e-3))], solid=True) == "1 hull"
 
 
 def test_the_share_outside_is_that_of_the_area() -> None:
-    assert uncovered(SURFACE, []) == 1.0
-    assert uncovered(SURFACE, [WHOLE]) == 0.0
-    assert uncovered(SURFACE, [box((0, 0, 0), (2, 1, 1))]) == pytest.approx(0.5, abs=0.02)
+    assert measure_uncovered(SURFACE, []) == 1.0
+    assert measure_uncovered(SURFACE, [WHOLE]) == 0.0
+    assert measure_uncovered(SURFACE, [box((0, 0, 0), (2, 1, 1))]) == pytest.approx(0.5, abs=0.02)

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError, GeometryError
+from meshforge.batch import Preparation, apply_preparation, cut_hull, split_hull
+from meshforge.common import AssetError, GeometryError
 from meshforge.formats import load, read, save
-from meshforge.preparation import Preparation, cut_hull, prepared, split_hull
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.preparation.samples import QUICK, stand, write_boxes, write_stand
 from tests.urdf_sample import corner_obj
@@ -18,7 +18,7 @@ NONE = Preparation()
 def test_a_cut_hull_becomes_two_in_its_place(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
     done = cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (1, 0, 0))
-    ready = prepared(asset, done)
+    ready = apply_preparation(asset, done)
     assert [geom.name for geom in ready.geoms] == ["geom0#0", "geom0#1#0", "geom0#1#1", "geom0#2"]
     assert [geom.shape.volume for geom in ready.geoms] == pytest.approx([1, 0.5, 1.5, 1])
     assert [geom.parent for geom in ready.geoms] == [None, "geom0#1", "geom0#1", None]
@@ -26,7 +26,7 @@ def test_a_cut_hull_becomes_two_in_its_place(tmp_path: Path) -> None:
 
 def test_the_side_that_the_direction_shows_is_the_second(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
-    ready = prepared(asset, cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (-1, 0, 0)))
+    ready = apply_preparation(asset, cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (-1, 0, 0)))
     assert [geom.shape.volume for geom in ready.geoms][1:3] == pytest.approx([1.5, 0.5])
 
 
@@ -34,9 +34,9 @@ def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: 
     asset = read(write_boxes(tmp_path / "row.obj"))
     once = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
     twice = cut_hull(asset, once, "geom0#1#1", (0, 0.5, 0), (0, 1, 0))
-    names = {geom.name: geom.parent for geom in prepared(asset, twice).geoms if geom.parent}
+    names = {geom.name: geom.parent for geom in apply_preparation(asset, twice).geoms if geom.parent}
     assert names == {f"geom0#1#{k}": "geom0#1" for k in ("0", "1#0", "1#1")}
-    assert [geom.name for geom in prepared(asset, twice.with_only(twice.steps[:1])).geoms if geom.parent] == [
+    assert [geom.name for geom in apply_preparation(asset, twice.with_only(twice.steps[:1])).geoms if geom.parent] == [
         "geom0#1#0",
         "geom0#1#1",
     ]
@@ -45,7 +45,7 @@ def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: 
 def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path: Path) -> None:
     asset = read(write_stand(tmp_path / "in"))
     done = cut_hull(asset, NONE, "frame/foot", (0, 0, -1), (1, 1, 0))
-    saved = save(SymbolicMesh.of(prepared(asset, done)), tmp_path / "out/stand.urdf")
+    saved = save(SymbolicMesh.of(apply_preparation(asset, done)), tmp_path / "out/stand.urdf")
     back = {hull.name: hull.volume for hull in load(saved.path).hulls}
     assert back == {"frame/foot#0": pytest.approx(2.0), "frame/foot#1": pytest.approx(2.0)}
     assert done.steps[0].replaced[0].told == "2 hulls"
@@ -55,7 +55,7 @@ def test_hulls_of_a_decomposition_inherit_from_the_piece(tmp_path: Path) -> None
     asset, preparation = stand(tmp_path)
     done = cut_hull(asset, preparation, "frame/body#0", (0, 0, 0.5), (0, 0, 1))
     bare = cut_hull(asset, done, "cover/geom0#0", (0, 0, 2.25), (0, 0, 1))
-    parents = {geom.name: geom.parent for geom in prepared(asset, bare).geoms}
+    parents = {geom.name: geom.parent for geom in apply_preparation(asset, bare).geoms}
     assert parents["frame/body#0#1"] == "frame/body"
     assert parents["cover/geom0#0#1"] is None
 
@@ -84,7 +84,7 @@ def test_a_hull_is_split_by_what_its_body_shows(tmp_path: Path) -> None:
     path.write_text(f'<robot name="r"><link name="a">{shown}{crude}</link></robot>')
     asset = read(path)
     done = split_hull(asset, NONE, "a/geom0", QUICK)
-    parts = prepared(asset, done).geoms
+    parts = apply_preparation(asset, done).geoms
     assert [geom.name for geom in parts] == ["a/geom0#0", "a/geom0#1"]
     assert sum(geom.shape.volume for geom in parts) == pytest.approx(5.0, rel=0.02)
     assert done.steps[0].replaced[0].told == "2 hulls; 44% of its volume is in no part"
@@ -98,13 +98,13 @@ def test_a_hull_of_an_opaque_piece_is_split_by_that_piece(tmp_path: Path) -> Non
     asset = read(path)
     crude = cut_hull(asset, _as_one_hull(tmp_path), "geom0#0", (0, 0, 0.5), (0, 0, 1))
     done = split_hull(asset, crude, "geom0#0#1", QUICK)
-    parts = [geom for geom in prepared(asset, done).geoms if geom.name.startswith("geom0#0#1#")]
+    parts = [geom for geom in apply_preparation(asset, done).geoms if geom.name.startswith("geom0#0#1#")]
     assert len(parts) == 2 and sum(g.shape.volume for g in parts) == pytest.approx(2.5, rel=0.02)
 
 
 def _as_one_hull(folder: Path) -> Preparation:
-    from meshforge.geometry.decompose import CoacdSettings
-    from meshforge.preparation import decompose_asset
+    from meshforge.batch import decompose_asset
+    from meshforge.geometry.decomposition.settings import CoacdSettings
 
     coarse = CoacdSettings(threshold=1, resolution=200, mcts_iterations=20, mcts_nodes=8)
     done = decompose_asset(read(folder / "corner.obj"), Preparation(), coarse)
@@ -127,13 +127,13 @@ def test_a_split_hull_that_changed_since_is_noticed(tmp_path: Path) -> None:
     done = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
     path.write_text(path.read_text().replace("v 3.0", "v 3.5"))
     with pytest.raises(AssetError, match="geom0#1 has another geometry now"):
-        prepared(read(path), done)
+        apply_preparation(read(path), done)
 
 
 def test_vertices_of_the_hull_stay_bit_for_bit(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
     whole = next(geom.shape for geom in asset.geoms if geom.name == "geom0#1")
-    parts = prepared(asset, cut_hull(asset, NONE, "geom0#1", (2, 0.3, 0.4), (0.3, 0.2, 0.1))).geoms[1:3]
+    parts = apply_preparation(asset, cut_hull(asset, NONE, "geom0#1", (2, 0.3, 0.4), (0.3, 0.2, 0.1))).geoms[1:3]
     corners = {row.tobytes() for part in parts for row in part.shape.vertices + 0.0}
     assert {row.tobytes() for row in whole.vertices + 0.0} <= corners
     assert np.isclose(sum(part.shape.volume for part in parts), whole.volume)

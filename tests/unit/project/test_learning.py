@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from meshforge.language import Delete, Merge, Program
-from meshforge.project import Family, Project
+from meshforge.project import FamilyMeshes, Project
 from meshforge.symbolic import Label
 from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -137,7 +137,7 @@ def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path
 
 def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    family = Family(project)
+    family = FamilyMeshes(project)
     before = family.meshes()
     project.set_labels(SHELVED, {"shelf": None, "knob": "leg"})
     after = family.meshes()
@@ -149,6 +149,13 @@ def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
 def test_an_asset_is_shown_as_the_rule_meets_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     program = Program.parse("labels board, leg, knob\nIs(leg) => Merge\nIs(board) => Delete\n")
-    assert {hull.name for hull in project.mesh_before_rule(SHELVED, 2, program).hulls} == {"top", "shelf", "knob", "left~1"}
+    assert {hull.name for hull in project.mesh_before_rule(SHELVED, 2, program).hulls} == {
+        "top",
+        "shelf",
+        "knob",
+        "left~1",
+    }
     assert project.mesh_before_rule(SHELVED, 1, program).index == project.mesh(SHELVED).index
-    assert "left" in project.mesh_before_rule(PLAIN, 2, program).index  # there it was shown that the rule does not take it
+    assert (
+        "left" in project.mesh_before_rule(PLAIN, 2, program).index
+    )  # there it was shown that the rule does not take it

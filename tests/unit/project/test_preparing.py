@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import Edited, Failed
-from meshforge.batch import status as word
-from meshforge.errors import AssetError, GeometryError, ProjectError
+from meshforge.batch import status_of as word
+from meshforge.common import AssetError, GeometryError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge
-from meshforge.project import Prepared, Project
+from meshforge.project import PreparationResult, Project
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
@@ -71,7 +71,7 @@ def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     before = tree(project.folder / "prepared")
     again = list(Project.open(project.folder).decompose(settings=VOXELS, workers=0))
-    assert again == [Prepared(HIGH), Prepared(LOW)]
+    assert again == [PreparationResult(HIGH), PreparationResult(LOW)]
     assert tree(project.folder / "prepared") == before
 
 

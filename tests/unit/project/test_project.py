@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import status as word
-from meshforge.errors import DemonstrationError, MeshForgeError, ProgramError, ProjectError
+from meshforge.batch import status_of as word
+from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Program, Replace
 from meshforge.project import Project

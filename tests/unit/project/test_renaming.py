@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import MeshForgeError, ProjectError
+from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
-from meshforge.synthesis import Answer, Correction, Step
+from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, labelled, learned
@@ -23,8 +23,8 @@ def saying(folder: Path) -> Project:
     project.accept(Program.parse(text))
     project.correct(SECOND, ["top"], Merge(), "leg")
     project.add_answer(Answer(2, THIRD, LEGS))
-    project.confirm(Correction(FIRST, "crumb", "misc", "leg"))
-    project.reject(Correction(SECOND, "top", "top", "leg"))
+    project.confirm(LabelCorrection(FIRST, "crumb", "misc", "leg"))
+    project.reject(LabelCorrection(SECOND, "top", "top", "leg"))
     return project
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Program
-from meshforge.project import AssetStatus, Project, Standing, Status, first_to_show
+from meshforge.project import AssetStatus, ProgramState, Project, Status, suggest_first_demonstration
 from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -38,14 +38,14 @@ def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> N
 
 def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed_over(tmp_path: Path) -> None:
     project = labelled(tmp_path)
-    first = first_to_show(project, project.assets())
+    first = suggest_first_demonstration(project, project.assets())
     advised = of(project).next
     assert first in project.assets()
     assert f"best first on {first}." in advised.say
     assert first in (advised.command or "")
     project.path(first).write_text("no obj")
-    assert first_to_show(project, project.assets()) not in (first, None)
-    assert first_to_show(project, ()) is None
+    assert suggest_first_demonstration(project, project.assets()) not in (first, None)
+    assert suggest_first_demonstration(project, ()) is None
 
 
 def test_labels_that_lie_nowhere_are_asked_for(tmp_path: Path) -> None:
@@ -264,18 +264,18 @@ def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
 
 
 def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
-    assert demonstrated(tmp_path / "a").program_state() == Standing()
+    assert demonstrated(tmp_path / "a").program_state() == ProgramState()
     project = learned(tmp_path / "b")
-    assert project.program_state() == Standing()
+    assert project.program_state() == ProgramState()
     project.demonstrate(SECOND, STEPS[:1])
-    assert project.program_state() == Standing(outdated=True)
+    assert project.program_state() == ProgramState(outdated=True)
     for text in ("labels top\nAll => Merge\n", "nonsense"):
         (project.folder / "program.mf").write_text(text)
-        assert project.program_state() == Standing(by_hand=True)
+        assert project.program_state() == ProgramState(by_hand=True)
     project.synthesize()
-    assert project.program_state() == Standing()
+    assert project.program_state() == ProgramState()
     (project.folder / ".meshforge/learned.json").unlink()
-    assert project.program_state() == Standing(by_hand=True)
+    assert project.program_state() == ProgramState(by_hand=True)
 
 
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:

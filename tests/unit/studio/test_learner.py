@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import MeshForgeError, ProgramError
+from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import Program, parse_action, parse_extractor, select
-from meshforge.project import Project, looked_at
+from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
-from meshforge.studio.learner import Learner, Superseded, work
-from meshforge.studio.learner.bell import Bell
-from meshforge.studio.learner.line import Line
-from meshforge.studio.learner.reach import Origins
-from meshforge.studio.learner.shelf import LIFE, Shelf, Stopped
+from meshforge.studio.learning import process
+from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache, ReadInterrupted
+from meshforge.studio.learning.queue import CancelFlag, LatestOnlyQueue, Superseded
+from meshforge.studio.learning.results import HullOrigins
+from meshforge.studio.learning.scheduler import Learner
 from meshforge.studio.workers import Workers
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -89,7 +89,7 @@ def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project,
 
 def test_a_hull_made_of_made_hulls_has_all_their_origins() -> None:
     mesh = SymbolicMesh(())
-    origins = Origins(mesh)
+    origins = HullOrigins(mesh)
     origins._own.update({"a": frozenset({0}), "b": frozenset({1}), "c": frozenset({2})})
     origins.add(["a~1"], [["a", "b"]])
     origins.add(["a~2"], [["a~1", "c"]])
@@ -126,14 +126,14 @@ def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(proj
 def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("meshforge.project.family.MOST", 4)
-    bell = Bell()
-    rows = work.reach(project.folder, bell.make_token("reach"), BUNDLED)
-    found = work.generalise(project.folder, bell.make_token("generalise"), "Is(leg)", 1, None)
+    monkeypatch.setattr("meshforge.project.family.MOST_ASSETS", 4)
+    bell = CancelFlag()
+    rows = process.compute_reach(project.folder, bell.make_token("reach"), BUNDLED)
+    found = process.generalise(project.folder, bell.make_token("generalise"), "Is(leg)", 1, None)
     bell.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
-    assert [row.asset for row in rows] == list(found.assets) == list(looked_at(project))
+    assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
 
 
 def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
@@ -201,7 +201,7 @@ def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> 
 
 def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one() -> None:
     workers = Workers(1)
-    line = Line(workers)
+    line = LatestOnlyQueue(workers)
     try:
         died: Future[int] = line.put("lesson", os._exit, 3)
         waiting: Future[int] = line.put("reach", abs, -4)
@@ -224,7 +224,7 @@ def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, 
 
 def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
     workers = Workers(1)
-    line = Line(workers)
+    line = LatestOnlyQueue(workers)
     try:
         first: Future[int] = line.put("lesson", abs, -1)
         second: Future[int] = line.put("reach", abs, -2)
@@ -237,7 +237,7 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
 
 
 def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
-    bell = Bell()
+    bell = CancelFlag()
     try:
         lesson, reach = bell.make_token("lesson"), bell.make_token("reach")
         assert not lesson.stop()
@@ -251,7 +251,7 @@ def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
 
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
-    project, shelf = demo_project(tmp_path), Shelf()
+    project, shelf = demo_project(tmp_path), FamilyCache()
     before = dict(shelf.read_meshes(project, project.assets(), go_on))
     project.set_labels(OTHER, {"convex_00": "misc"})
     project.cut("table_03.obj", "convex_00", before["table_03.obj"].hulls[0].shape.centroid.tolist(), (1, 0, 0))
@@ -262,15 +262,15 @@ def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
     assert after[OTHER].hulls[1].shape is before[OTHER].hulls[1].shape
     assert len(after["table_03.obj"].hulls) == len(before["table_03.obj"].hulls) + 1
     assert set(before) - set(after) == {"table_04.obj"}
-    with pytest.raises(Stopped):
+    with pytest.raises(ReadInterrupted):
         list(shelf.read_meshes(project, project.assets(), lambda: True))
 
 
 def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
-    project, shelf = demo_project(tmp_path), Shelf()
+    project, shelf = demo_project(tmp_path), FamilyCache()
     before = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     known = dict(before.graph)
-    for _ in range(LIFE):
+    for _ in range(RENEW_AFTER):
         shelf.count_run()
     after = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     assert after is not before

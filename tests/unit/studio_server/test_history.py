@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.history import History
 from tests.examples import examples

@@ -11,13 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
-from meshforge.studio.edits import Edit
-from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, RenameLabel
-from meshforge.studio.edits.own import Propagate
+from meshforge.studio.edits.base import Edit
+from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, Propagate, RenameLabel
 from meshforge.studio.history import History
-from meshforge.studio.state.relabelling import Relabelling
+from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.labelling import CarriedOver
+from meshforge.studio.wire.jobs import CarriedOver
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
@@ -56,7 +55,7 @@ def cards(project: Project) -> list[Card]:
 
 
 def carried(project: Project, history: History) -> CarriedOver | None:
-    return Relabelling(history).propagation_state(project, cards(project))
+    return LabelChanges(history).propagation_state(project, cards(project))
 
 
 def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
@@ -73,7 +72,7 @@ def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
 
 def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    relabelling = Relabelling(history)
+    relabelling = LabelChanges(history)
     assert relabelling.last_change(HULLS) is None
     carry(project, history)
     found = relabelling.last_change(HULLS)
@@ -85,7 +84,7 @@ def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(
     assert relabelling.last_change(HULLS) is None
     history.undo(project)
     assert relabelling.last_change(HULLS) == found
-    assert Relabelling(History(project)).last_change(HULLS) == found, "a studio that is opened anew knows it, too"
+    assert LabelChanges(History(project)).last_change(HULLS) == found, "a studio that is opened anew knows it, too"
     history.undo(project)
     assert relabelling.last_change(HULLS) is None
     history.redo(project)
@@ -97,7 +96,7 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
     carry(project, history)
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history)
-    found = Relabelling(history).last_change(HULLS)
+    found = LabelChanges(history).last_change(HULLS)
     assert found and found.settled == 1
     assert [one.model_dump() for one in found.assets] == [
         {"asset": "t2.obj", "new": (), "changed": (NAMES.index("top"),), "was": ("misc",)}
@@ -107,7 +106,7 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
 def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     carry(project, history)
-    relabelling = Relabelling(history)
+    relabelling = LabelChanges(history)
     first = relabelling.last_change({"t2.obj": NAMES})
     assert first and [one.asset for one in first.assets] == ["t2.obj"]
     both = relabelling.last_change(HULLS)
@@ -118,7 +117,7 @@ def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
     project = family(tmp_path)
     history = History(project)
     history.do(project, LabelFromNames())
-    found = Relabelling(history).last_change(HULLS)
+    found = LabelChanges(history).last_change(HULLS)
     assert found and found.way == "label-names"
     assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
 
@@ -153,7 +152,7 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
 
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    relabelling = Relabelling(history)
+    relabelling = LabelChanges(history)
     relabelling.note_no_change(0, "t2.obj")
     assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
     carry(project, history)
@@ -165,7 +164,9 @@ def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
     history.undo(project)
     history.undo(project)
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), "before it was said"
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), (
+        "before it was said"
+    )
 
 
 def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path: Path) -> None:
@@ -207,7 +208,7 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     history.do(project, label("t1.obj", "crumb", "misc"))
     known = cards(project)
     project.layout.labels("t1.obj").write_text("{")
-    assert Relabelling(history).propagation_state(project, known) == CarriedOver(unused=0, next="t1.obj")
+    assert LabelChanges(history).propagation_state(project, known) == CarriedOver(unused=0, next="t1.obj")
 
 
 MOVES = st.lists(

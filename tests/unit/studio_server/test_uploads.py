@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import UsageError
-from meshforge.studio.assets.uploads import Uploads, confined, save
+from meshforge.common import UsageError
 from meshforge.studio.errors import TooLargeError
+from meshforge.studio.uploads import Uploads, confine_path, save_stream
 
 
 async def chunks(*parts: bytes) -> AsyncIterator[bytes]:
@@ -25,19 +25,19 @@ async def chunks(*parts: bytes) -> AsyncIterator[bytes]:
 )  # fmt: skip
 def test_paths_with_tricks_are_refused(path: str) -> None:
     with pytest.raises(UsageError):
-        confined(path)
+        confine_path(path)
 
 
 @pytest.mark.parametrize("path", ["x.obj", "robot/meshes/Arm 1.stl", "möbel/tür.obj"])
 def test_plain_paths_are_taken(path: str) -> None:
-    assert confined(path).as_posix() == path
+    assert confine_path(path).as_posix() == path
 
 
 def test_a_file_that_is_too_large_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(TooLargeError):
-        asyncio.run(save(tmp_path / "a", chunks(b"123", b"456"), 5))
+        asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"456"), 5))
     assert not list(tmp_path.iterdir())
-    asyncio.run(save(tmp_path / "a", chunks(b"123", b"45"), 5))
+    asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"45"), 5))
     assert (tmp_path / "a").read_bytes() == b"12345"
 
 

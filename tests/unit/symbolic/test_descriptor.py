@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Aabb, Box, Pose
-from meshforge.symbolic import DESCRIBED, Hull, SymbolicMesh, descriptors
+from meshforge.symbolic import DESCRIPTOR_NAMES, Hull, SymbolicMesh, descriptors
 from tests.synthesis_boxes import boxes, table
 
 
@@ -14,13 +14,13 @@ def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
 
 def test_every_hull_has_a_row_of_finite_numbers() -> None:
     rows = descriptors([table(), boxes(), table(legs=2)])
-    assert rows.shape == (len(table().hulls) + len(table(legs=2).hulls), len(DESCRIBED))
+    assert rows.shape == (len(table().hulls) + len(table(legs=2).hulls), len(DESCRIPTOR_NAMES))
     assert np.isfinite(rows).all()
 
 
 def test_no_meshes_have_no_rows() -> None:
-    assert descriptors([]).shape == (0, len(DESCRIBED))
-    assert descriptors([boxes()]).shape == (0, len(DESCRIBED))
+    assert descriptors([]).shape == (0, len(DESCRIPTOR_NAMES))
+    assert descriptors([boxes()]).shape == (0, len(DESCRIPTOR_NAMES))
 
 
 def test_a_larger_copy_elsewhere_is_described_alike() -> None:

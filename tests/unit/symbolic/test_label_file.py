@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Aabb, Box, digest
 from meshforge.symbolic import Hull, Label, SymbolicMesh, read_labels, write_labels
 

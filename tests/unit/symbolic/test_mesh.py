@@ -5,10 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.geometry import Aabb, Box, Pose, Sphere
-from meshforge.symbolic import Hull, Label, SymbolicMesh, bits, mask_of
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Label, SymbolicMesh, bits_of, mask_of
 
 
 def box(x: float, size: float = 1.0) -> Box:
@@ -126,5 +125,5 @@ def test_a_mesh_made_in_memory_has_no_asset_to_become() -> None:
 
 
 def test_bit_sets_and_indices_are_inverse() -> None:
-    assert bits(mask_of([0, 3, 70])) == {0, 3, 70}
-    assert (bits(0), mask_of([])) == (frozenset(), 0)
+    assert bits_of(mask_of([0, 3, 70])) == {0, 3, 70}
+    assert (bits_of(0), mask_of([])) == (frozenset(), 0)

@@ -14,11 +14,11 @@ from meshforge.synthesis import (
     Answer,
     Demonstration,
     Found,
+    LearningOutcome,
     NoProgram,
     Options,
-    Outcome,
     Step,
-    outcome_json,
+    outcome_to_json,
     synthesize,
 )
 from tests.synthesis_cupboards import cupboard, cupboards, meant, selected, shown, with_rare_doors
@@ -28,11 +28,11 @@ DEMOS = shown(MESHES, ["c0"], "Is(handle) => Delete")
 BOTH, BY_DRAWER, BY_DOOR = {"pull", "knob"}, {"pull"}, {"knob"}
 
 
-def learned(*answers: Answer, demos: list[Demonstration] = DEMOS) -> Outcome:
+def learned(*answers: Answer, demos: list[Demonstration] = DEMOS) -> LearningOutcome:
     return synthesize(demos, MESHES, answers=answers, options=Options(repair=False))
 
 
-def rules(outcome: Outcome) -> list[str]:
+def rules(outcome: LearningOutcome) -> list[str]:
     return [show(rule.extractor) for rule in outcome.rules]
 
 
@@ -129,7 +129,7 @@ def test_of_several_answers_to_one_question_the_last_counts() -> None:
 
 def test_the_order_of_answers_about_different_assets_does_not_matter() -> None:
     answers = [Answer(1, "c1", BOTH), Answer(1, "c2", {"pull"}), Answer(1, "c5", None)]
-    one, other = (outcome_json(learned(*row)) for row in (answers, answers[::-1]))
+    one, other = (outcome_to_json(learned(*row)) for row in (answers, answers[::-1]))
     assert {**one, "seconds": 0} == {**other, "seconds": 0}
 
 
@@ -196,7 +196,7 @@ def test_an_answer_that_no_extractor_agrees_with_leaves_no_program_and_says_what
     outcome = synthesize(DEMOS, alike, answers=[Answer(1, "x", {"drawer"})], options=Options(repair=False))
     assert isinstance(outcome, NoProgram)
     assert "an answer was given for x: it can be taken back" in outcome.advice
-    json.dumps(outcome_json(outcome))
+    json.dumps(outcome_to_json(outcome))
 
 
 def test_answers_to_every_question_end_in_a_program_that_agrees_with_all_of_them() -> None:

@@ -9,9 +9,9 @@ import pytest
 from meshforge.language import Delete, parse_extractor
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, NoProgram, Options, Step, synthesize
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.failure import advice
-from meshforge.synthesis.search.miss import NearMiss
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.diagnosis import give_advice
+from meshforge.synthesis.search.smallest import NearestExtractor
 from tests.synthesis_boxes import boxes
 
 ROW = boxes(
@@ -35,8 +35,8 @@ def told(
     extractor: str = "Is(leg)",
     answered: Sequence[str] = (),
 ) -> tuple[str, ...]:
-    miss = NearMiss(parse_extractor(extractor), examples[0].name, tuple(extra), tuple(missing))
-    return advice(miss, examples, answered)
+    miss = NearestExtractor(parse_extractor(extractor), examples[0].name, tuple(extra), tuple(missing))
+    return give_advice(miss, examples, answered)
 
 
 @pytest.mark.parametrize(("extra", "missing", "said"), [

@@ -6,7 +6,7 @@ from itertools import count
 
 import pytest
 
-from meshforge.errors import DemonstrationError, ProgramError
+from meshforge.common import DemonstrationError, ProgramError
 from meshforge.language import (
     All,
     Attach,
@@ -23,7 +23,7 @@ from meshforge.language import (
 )
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, NoProgram, Options, Step, TimedOut, synthesize
-from meshforge.synthesis.watch import Clock
+from meshforge.synthesis.options import Clock
 from tests.synthesis_boxes import boxes
 from tests.unit.language.scenes import box
 

@@ -8,16 +8,15 @@ import pytest
 
 from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.paper import Explained, paper_search
-from meshforge.synthesis.search import Answer, Hit, Miss, Unfinished
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.paper.search import Explained, search_by_paper
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
-WRONG_LEG = Correction("table", "leg2_low", "panel", "leg")
+WRONG_LEG = LabelCorrection("table", "leg2_low", "panel", "leg")
 
 
 def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **labels: str | None) -> Example:
@@ -30,11 +29,13 @@ def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **label
 def run(
     *examples: Example,
     options: Options = Options(max_size=3),  # noqa: B008 (frozen)
-    confirm: Callable[[Correction], bool] | None = None,
-    rejected: Container[Correction] = (),
+    confirm: Callable[[LabelCorrection], bool] | None = None,
+    rejected: Container[LabelCorrection] = (),
     spent: Mapping[str, int] | None = None,
-) -> Answer | Explained:
-    return paper_search(examples, LABELS, Watch(60), options, confirm=confirm, rejected=rejected, spent=spent or {})
+) -> SearchResult | Explained:
+    return search_by_paper(
+        examples, LABELS, TimeBudget(60), options, confirm=confirm, rejected=rejected, spent=spent or {}
+    )
 
 
 def one_leg_wrong() -> Example:
@@ -58,19 +59,19 @@ def test_a_wrong_label_is_found_and_proposed() -> None:
 def test_a_missing_label_is_filled() -> None:
     answer = run(misread(table(), Is("leg"), leg2_low=None))
     assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "leg2_low", None, "leg"),)
+    assert answer.corrections == (LabelCorrection("table", "leg2_low", None, "leg"),)
 
 
 def test_a_hull_leaves_for_the_most_frequent_label_that_is_not_mentioned() -> None:
     answer = run(misread(table(legs=4, drawers=2), Is("leg"), top_0="leg"))
     assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "top_0", "leg", "drawer"),)
+    assert answer.corrections == (LabelCorrection("table", "top_0", "leg", "drawer"),)
 
 
 def test_of_labels_as_frequent_the_first_of_the_vocabulary_is_taken() -> None:
     answer = run(misread(table(legs=1, drawers=0, litter=2, knob=None), Is("leg"), residue_0="leg", shelf="misc"))
     assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "residue_0", "leg", "panel"),)
+    assert answer.corrections == (LabelCorrection("table", "residue_0", "leg", "panel"),)
 
 
 def test_without_repair_labels_are_taken_as_they_are() -> None:
@@ -82,9 +83,9 @@ def test_a_match_needs_no_repair() -> None:
 
 
 def test_what_is_confirmed_ends_the_search() -> None:
-    asked: list[Correction] = []
+    asked: list[LabelCorrection] = []
 
-    def confirm(correction: Correction) -> bool:
+    def confirm(correction: LabelCorrection) -> bool:
         asked.append(correction)
         return True
 
@@ -94,9 +95,9 @@ def test_what_is_confirmed_ends_the_search() -> None:
 
 
 def test_what_is_refused_is_not_asked_again_and_the_search_goes_on() -> None:
-    asked: list[Correction] = []
+    asked: list[LabelCorrection] = []
 
-    def refuse(correction: Correction) -> bool:
+    def refuse(correction: LabelCorrection) -> bool:
         asked.append(correction)
         return False
 
@@ -111,7 +112,7 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
     example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel")
     asked: list[str] = []
 
-    def confirm(correction: Correction) -> bool:
+    def confirm(correction: LabelCorrection) -> bool:
         asked.append(correction.hull)
         return correction.hull != "leg2_low"
 
@@ -154,7 +155,7 @@ def test_a_wrong_label_is_found_through_contact() -> None:
     answer = run(*examples, options=CONTACT)
     assert isinstance(answer, Explained)
     assert answer.extractor == HANDLES
-    assert answer.corrections == (Correction("table", "drawer1_front", "handle", "drawer"),)
+    assert answer.corrections == (LabelCorrection("table", "drawer1_front", "handle", "drawer"),)
 
 
 def test_bounds_cut_what_only_a_repair_would_complete() -> None:
@@ -165,8 +166,11 @@ def test_bounds_cut_what_only_a_repair_would_complete() -> None:
 def test_time_may_run_out_amid_relabelings() -> None:
     wanted = Diff(Is("leg"), Is("panel"))
     ticks = iter([0.0, 0.0, 0.0, 0.0] + [100.0] * 100)
-    answer = paper_search(
-        [misread(table(), wanted, leg1_low="panel")], LABELS, Watch(60, clock=lambda: next(ticks)), Options(max_size=3)
+    answer = search_by_paper(
+        [misread(table(), wanted, leg1_low="panel")],
+        LABELS,
+        TimeBudget(60, clock=lambda: next(ticks)),
+        Options(max_size=3),
     )
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None

@@ -5,9 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.random import default_rng
 
+from meshforge.rendering.colors import (
+    LABEL_COLORS,
+    UNLABELLED,
+    candidate_colors,
+    color_distance,
+    color_hulls,
+    hexadecimal,
+    highlight_hulls,
+    label_colors,
+    perceive_colors,
+    pick_distinct_colors,
+    rgb,
+)
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views.coloring import color_hulls, colors_apart, highlighted, label_colors
-from meshforge.views.palette import LABEL_COLORS, UNLABELLED, apart, candidates, hexadecimal, perceived, rgb
 from tests.unit.views.scenes import box, hull, table
 
 
@@ -38,7 +49,7 @@ def test_unsure_labels_are_hatched() -> None:
 
 
 def test_two_dozen_label_colours_are_all_different() -> None:
-    seen = perceived(np.array([rgb(c) for c in (*LABEL_COLORS, UNLABELLED)]))
+    seen = perceive_colors(np.array([rgb(c) for c in (*LABEL_COLORS, UNLABELLED)]))
     for k in range(seen.shape[1]):
         gaps = np.delete(np.linalg.norm(seen - seen[:, k : k + 1], axis=2), k, axis=1)
         assert gaps[0].min() > 0.045, "for most eyes"
@@ -47,8 +58,8 @@ def test_two_dozen_label_colours_are_all_different() -> None:
 
 def test_touching_hulls_differ_clearly_even_in_a_long_row() -> None:
     colors = color_hulls(row(90), "hull").colors
-    seen = perceived(colors)
-    gaps = [float(apart(seen[:, k : k + 1], seen[:, k + 1 : k + 2])[0]) for k in range(89)]
+    seen = perceive_colors(colors)
+    gaps = [float(color_distance(seen[:, k : k + 1], seen[:, k + 1 : k + 2])[0]) for k in range(89)]
     assert min(gaps) > 0.08
 
 
@@ -66,12 +77,12 @@ def test_however_many_hulls_there_are_no_two_have_the_same_colour() -> None:
 
 def test_picked_hulls_have_colours_as_if_there_were_no_others() -> None:
     picked = range(20, 30)
-    assert np.array_equal(colors_apart(row(60), picked), color_hulls(row(10), "hull").colors)
+    assert np.array_equal(pick_distinct_colors(row(60), picked), color_hulls(row(10), "hull").colors)
 
 
 def test_known_hulls_keep_their_colour() -> None:
     mesh = row(6)
-    known = {"h2": candidates()[0][7]}
+    known = {"h2": candidate_colors()[0][7]}
     colors = color_hulls(mesh, "hull", known=known).colors
     assert np.array_equal(colors[2], known["h2"])
 
@@ -84,7 +95,7 @@ def test_confidence_runs_from_red_to_blue() -> None:
 
 
 def test_highlighting_counts_the_selected() -> None:
-    legend = highlighted(table(), frozenset({"knob", "leg0"})).legend
+    legend = highlight_hulls(table(), frozenset({"knob", "leg0"})).legend
     assert [(e.name, e.count) for e in legend] == [("selected", 2), ("others", 3)]
 
 

@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
+from meshforge.rendering import (
+    compare,
+    draw_before_after,
+    draw_difference,
+    encode_png,
+    joint_bounds,
+    make_contact_sheet,
+    render_id_buffer,
+)
+from meshforge.rendering.colors import KEPT, MADE, REMOVED, rgb
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views import before_after, compare, difference, id_buffer, joint_bounds, png, sheet
-from meshforge.views.palette import KEPT, MADE, REMOVED, rgb
 from tests.unit.views.scenes import box, edited, hull, near, pixels, table
 
 SIZE = (200, 150)
@@ -19,7 +27,7 @@ def test_what_stays_is_at_the_same_pixels_in_the_same_colours() -> None:
     for color_by in ("hull", "label"):
         first, second = (pixels(i) for i in compare(table(), edited(), size=SIZE, color_by=color_by))
         bounds = joint_bounds(table(), edited())
-        knob = id_buffer(table(), size=SIZE, bounds=bounds) == 4
+        knob = render_id_buffer(table(), size=SIZE, bounds=bounds) == 4
         assert knob.sum() > 20
         assert np.abs(first[knob] - second[knob]).max() < 0.05
 
@@ -32,7 +40,7 @@ def test_a_smaller_result_is_not_zoomed() -> None:
 
 
 def test_before_and_after_stand_side_by_side_with_words_below() -> None:
-    image = before_after(table(), edited(), size=SIZE)
+    image = draw_before_after(table(), edited(), size=SIZE)
     assert image.width > 2 * SIZE[0]
     assert image.height > SIZE[1]
     assert pixels(image)[-20:].min() < 0.4
@@ -41,7 +49,7 @@ def test_before_and_after_stand_side_by_side_with_words_below() -> None:
 def test_made_hulls_are_green_kept_ones_grey_and_removed_ones_red() -> None:
     before = SymbolicMesh((hull("gone", box((-2, 0, 0), (1, 1, 1))), hull("kept", box((0, 0, 0), (1, 1, 1)))))
     after = SymbolicMesh((before.hulls[1], hull("gone~1", box((2, 0, 0), (1, 1, 1)))))
-    picture = pixels(difference(before, after, view="front", size=(300, 120), legend=False))
+    picture = pixels(draw_difference(before, after, view="front", size=(300, 120), legend=False))
     row = picture[60]
     assert near(row[260], rgb(MADE))
     assert near(row[150], rgb(KEPT))
@@ -53,17 +61,19 @@ def test_made_hulls_are_green_kept_ones_grey_and_removed_ones_red() -> None:
 def test_differences_of_nothing_can_be_drawn() -> None:
     empty = SymbolicMesh(())
     for before, after in ((empty, empty), (table(), empty), (empty, table())):
-        assert difference(before, after, size=SIZE).size == SIZE
+        assert draw_difference(before, after, size=SIZE).size == SIZE
         assert [i.size for i in compare(before, after, size=SIZE)] == [SIZE, SIZE]
 
 
 def test_differences_are_the_same_bytes_every_time() -> None:
-    assert png(difference(table(), edited(), size=SIZE)) == png(difference(table(), edited(), size=SIZE))
+    assert encode_png(draw_difference(table(), edited(), size=SIZE)) == encode_png(
+        draw_difference(table(), edited(), size=SIZE)
+    )
 
 
 def test_a_sheet_holds_every_picture_and_title() -> None:
     colors = ["#ff0000", "#00ff00", "#0000ff"]
-    made = sheet([Image.new("RGB", (40, 30), c) for c in colors], columns=2, titles=["a", "b", "c"])
+    made = make_contact_sheet([Image.new("RGB", (40, 30), c) for c in colors], columns=2, titles=["a", "b", "c"])
     found = pixels(made)
     for color in colors:
         assert (np.abs(found - rgb(color)).max(axis=2) < 0.01).sum() == 40 * 30
@@ -74,4 +84,4 @@ def test_a_sheet_holds_every_picture_and_title() -> None:
 @pytest.mark.parametrize(("count", "titles"), [(0, []), (2, ["only one"])])
 def test_a_sheet_needs_pictures_and_a_title_each(count: int, titles: list[str]) -> None:
     with pytest.raises(UsageError, match="sheet"):
-        sheet([Image.new("RGB", (4, 4))] * count, titles=titles)
+        make_contact_sheet([Image.new("RGB", (4, 4))] * count, titles=titles)

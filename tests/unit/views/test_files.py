@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from meshforge.errors import UsageError
-from meshforge.views import render, webp, write_png
+from meshforge.common import UsageError
+from meshforge.rendering import encode_webp, render, write_png
 from tests.unit.views.scenes import table
 
 
@@ -22,7 +22,7 @@ def test_a_png_is_read_back_pixel_by_pixel(tmp_path: Path) -> None:
 
 def test_a_webp_keeps_transparency_and_is_small() -> None:
     image = render(table(), size=(320, 240), legend=False, background=None)
-    data = webp(image)
+    data = encode_webp(image)
     with Image.open(BytesIO(data)) as found:
         assert found.convert("RGBA").getpixel((0, 0)) == (0, 0, 0, 0)
     assert len(data) < 30_000

@@ -7,9 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Floats, Ints
-from meshforge.views.labelling.lines import crosses, cuts, overlaps
-from meshforge.views.labelling.placing import LEAST, Place, placed
-from meshforge.views.middles import Middle
+from meshforge.rendering.annotation import LabelAnchor
+from meshforge.rendering.labeling.placement import (
+    LEAST_PIXELS,
+    NumberPlace,
+    find_box_crossings,
+    find_box_overlaps,
+    find_line_crossings,
+    place_numbers,
+)
 from tests.examples import examples
 
 SIZES = {22: (34.0, 24.0), 17: (27.0, 19.0)}
@@ -24,8 +30,8 @@ def picture(rectangles: list[tuple[int, int, int, int]]) -> Ints:
     return items
 
 
-def put(items: Ints) -> dict[int, Place]:
-    return {place.item: place for place in placed(items, dict.fromkeys(range(int(items.max()) + 1), SIZES))}
+def put(items: Ints) -> dict[int, NumberPlace]:
+    return {place.item: place for place in place_numbers(items, dict.fromkeys(range(int(items.max()) + 1), SIZES))}
 
 
 RECTANGLES = st.tuples(st.integers(10, 280), st.integers(10, 220), st.integers(3, 150), st.integers(3, 120))
@@ -39,12 +45,12 @@ def test_numbers_never_cover_each_other_nor_the_lines_to_them(rectangles: list[t
     boxes = np.array([place.box for place in places]).reshape(-1, 4)
     assert (boxes[:, :2] >= 0).all()
     assert (boxes[:, 2:] <= SHAPE[::-1]).all()
-    assert not (overlaps(boxes, boxes, 0) & ~np.eye(len(boxes), dtype=bool)).any()
+    assert not (find_box_overlaps(boxes, boxes, 0) & ~np.eye(len(boxes), dtype=bool)).any()
     led = [place for place in places if place.spot]
     lines = np.array([(*place.spot, *place.center) for place in led if place.spot]).reshape(-1, 4)
     own = np.array([[place is other for other in places] for place in led], bool).reshape(len(led), len(places))
-    assert not (cuts(lines, boxes) & ~own).any()
-    assert not crosses(lines, lines).any()
+    assert not (find_box_crossings(lines, boxes) & ~own).any()
+    assert not find_line_crossings(lines, lines).any()
     for place in places:
         column, row = place.spot or (round(place.center[0]), round(place.center[1]))
         if place.spot:
@@ -79,9 +85,9 @@ def test_a_number_beside_its_hull_goes_to_free_paper() -> None:
 
 def test_hulls_hardly_seen_have_no_number_unless_it_is_known_where_they_are() -> None:
     items = picture([(100, 100, 4, 5)])
-    assert LEAST > 20
-    assert not placed(items, {0: SIZES, 1: SIZES})
-    assert [place.item for place in placed(items, {0: SIZES, 1: SIZES}, {1: Middle(30, 40, 0.0)})] == [1]
+    assert LEAST_PIXELS > 20
+    assert not place_numbers(items, {0: SIZES, 1: SIZES})
+    assert [place.item for place in place_numbers(items, {0: SIZES, 1: SIZES}, {1: LabelAnchor(30, 40, 0.0)})] == [1]
 
 
 @examples(30)
@@ -92,9 +98,9 @@ def test_nothing_is_written_on_a_box_that_is_taken(
     items = picture(rectangles)
     taken = (*corner, corner[0] + 100, corner[1] + 90)
     items[taken[1] : taken[3], taken[0] : taken[2]] = -1
-    places = placed(items, dict.fromkeys(range(len(rectangles)), SIZES), taken=[taken])
+    places = place_numbers(items, dict.fromkeys(range(len(rectangles)), SIZES), taken=[taken])
     boxes = np.array([place.box for place in places]).reshape(-1, 4)
-    assert not overlaps(boxes, np.array([taken], float), 0).any()
+    assert not find_box_overlaps(boxes, np.array([taken], float), 0).any()
     assert all(place.item >= 0 for place in places)
 
 
@@ -106,7 +112,7 @@ LINE = st.tuples(*[st.integers(0, 40)] * 4).filter(lambda v: v[:2] != v[2:])
 def test_lines_cut_the_boxes_that_some_of_their_points_are_in(
     lines: list[tuple[int, ...]], boxes: list[tuple[int, ...]]
 ) -> None:
-    found = cuts(np.array(lines, float), np.array(boxes, float))
+    found = find_box_crossings(np.array(lines, float), np.array(boxes, float))
     for (a, line), (b, box) in ((x, y) for x in enumerate(lines) for y in enumerate(boxes)):
         points = between(line)
         inside = (points > np.array(box[:2]) + 1e-6).all(axis=1) & (points < np.array(box[2:]) - 1e-6).all(axis=1)
@@ -133,10 +139,14 @@ def test_crossing_is_mutual_and_lines_with_a_common_end_do_not_cross(
     line: tuple[int, ...], other: tuple[int, ...]
 ) -> None:
     one, two = np.array([line], float), np.array([other], float)
-    assert crosses(one, two)[0, 0] == crosses(two, one)[0, 0]
-    assert not crosses(one, np.array([(*line[:2], *other[2:])], float))[0, 0]
+    assert find_line_crossings(one, two)[0, 0] == find_line_crossings(two, one)[0, 0]
+    assert not find_line_crossings(one, np.array([(*line[:2], *other[2:])], float))[0, 0]
 
 
 def test_crossing_lines_are_found() -> None:
     plus = np.array([[0, 5, 10, 5], [5, 0, 5, 10], [6, 6, 9, 9]], float)
-    assert crosses(plus, plus).tolist() == [[False, True, False], [True, False, False], [False, False, False]]
+    assert find_line_crossings(plus, plus).tolist() == [
+        [False, True, False],
+        [True, False, False],
+        [False, False, False],
+    ]

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from meshforge.asset import Asset, Document, Surface
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.geometry import Aabb, Pose
-from meshforge.symbolic import SymbolicMesh
-from meshforge.views import COLOR_BY, VIEWS, View, id_buffer, label_colors, png, render
-from meshforge.views.palette import SELECTED, rgb
+from meshforge.rendering import COLOR_BY, VIEWS, View, encode_png, label_colors, render, render_id_buffer
+from meshforge.rendering.colors import SELECTED, rgb
+from meshforge.symbolic import Asset, Document, Surface, SymbolicMesh
 from tests.unit.views.scenes import box, hull, near, pixels, table
 
 SMALL = (200, 150)
@@ -37,7 +36,7 @@ def test_several_views_share_the_size(color_by: str) -> None:
 
 def test_the_same_mesh_gives_the_same_bytes() -> None:
     options: dict[str, Any] = {"color_by": "label", "labels": True, "highlight": frozenset({"knob"}), "size": SMALL}
-    assert png(render(table(), **options)) == png(render(table(), **options))
+    assert encode_png(render(table(), **options)) == encode_png(render(table(), **options))
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -45,7 +44,7 @@ def test_each_hull_has_its_label_s_colour_where_the_rays_meet_it(view: View) -> 
     mesh = table()
     colors = label_colors(["panel", "leg"])
     picture = pixels(bare(mesh, views=(view,), color_by="label", vocabulary=["panel", "leg"]))
-    items = id_buffer(mesh, view=view, size=SMALL)
+    items = render_id_buffer(mesh, view=view, size=SMALL)
     assert len(np.unique(items)) > 3, "the ground, and several hulls"
     for k in np.unique(items[items >= 0]):
         label = mesh.hulls[k].label
@@ -65,7 +64,7 @@ def _inside(mask: np.ndarray[Any, np.dtype[np.bool_]]) -> np.ndarray[Any, np.dty
 
 def test_hulls_that_differ_in_name_differ_in_colour() -> None:
     mesh = table()
-    picture, items = pixels(bare(mesh, views=("top",))), id_buffer(mesh, view="top", size=SMALL)
+    picture, items = pixels(bare(mesh, views=("top",))), render_id_buffer(mesh, view="top", size=SMALL)
     left, right = (np.median(picture[_inside(items == k)], axis=0) for k in (0, 1))
     assert np.abs(left - right).max() > 0.15
 
@@ -123,7 +122,7 @@ def test_size_and_place_of_the_coordinates_do_not_matter(scale: float, offset: f
         tuple(hull(h.name, h.shape.transform(np.eye(3) * scale, np.full(3, offset)), h.label) for h in mesh.hulls)
     )
     for view in ("iso", "front"):
-        usual, found = id_buffer(mesh, view=view, size=SMALL), id_buffer(moved, view=view, size=SMALL)
+        usual, found = render_id_buffer(mesh, view=view, size=SMALL), render_id_buffer(moved, view=view, size=SMALL)
         assert (usual != found).mean() < 0.01
     assert bare(moved).size == SMALL
 
@@ -131,8 +130,8 @@ def test_size_and_place_of_the_coordinates_do_not_matter(scale: float, offset: f
 def test_shared_bounds_put_a_hull_at_the_same_pixels() -> None:
     whole = table()
     part = SymbolicMesh(whole.hulls[2:4])
-    seen = id_buffer(whole, view="front", size=SMALL, bounds=whole.aabb)
-    alone = id_buffer(part, view="front", size=SMALL, bounds=whole.aabb)
+    seen = render_id_buffer(whole, view="front", size=SMALL, bounds=whole.aabb)
+    alone = render_id_buffer(part, view="front", size=SMALL, bounds=whole.aabb)
     both = seen == 2
     assert both.any()
     assert (alone[both] == 0).all()
@@ -142,14 +141,14 @@ def test_a_picture_without_background_is_transparent_and_opaque_in_the_right_pla
     image = bare(table(), background=None)
     assert image.mode == "RGBA"
     alpha = np.asarray(image)[..., 3]
-    items = id_buffer(table(), size=SMALL)
+    items = render_id_buffer(table(), size=SMALL)
     assert alpha[0, 0] == 0
     assert alpha[_inside(items >= 0)].min() > 240, "a ray may slip through a seam"
 
 
 def test_numbers_are_written_on_the_hulls_that_are_seen() -> None:
     plain, numbered = pixels(bare(table(), views=("top",))), pixels(bare(table(), views=("top",), labels=True))
-    items = id_buffer(table(), view="top", size=SMALL)
+    items = render_id_buffer(table(), view="top", size=SMALL)
     changed = np.abs(plain - numbered).max(axis=2) > 0.2
     assert {int(k) for k in np.unique(items[changed])} >= {0, 1, 4}
 
@@ -173,7 +172,7 @@ def test_more_legend_than_fits_is_counted() -> None:
 def test_two_faces_in_one_plane_never_speckle() -> None:
     twins = SymbolicMesh((hull("a", box((0, 0, 0), (1, 1, 1))), hull("b", box((0, 0, 0), (1, 1, 1)))))
     for view in VIEWS:
-        items = id_buffer(twins, view=view, size=SMALL)
+        items = render_id_buffer(twins, view=view, size=SMALL)
         assert set(np.unique(items)) == {-1, 1}
 
 
@@ -182,7 +181,10 @@ def test_up_can_be_y() -> None:
     turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up
     lying = SymbolicMesh(tuple(h.move(turn) for h in mesh.hulls))
     for view in VIEWS:
-        upright, turned = id_buffer(mesh, view=view, size=SMALL), id_buffer(lying, view=view, size=SMALL, up="Y")
+        upright, turned = (
+            render_id_buffer(mesh, view=view, size=SMALL),
+            render_id_buffer(lying, view=view, size=SMALL, up="Y"),
+        )
         assert (upright != turned).mean() < 0.01
 
 
@@ -190,8 +192,8 @@ def test_a_mesh_of_a_y_up_file_stands_upright() -> None:
     mesh = table()
     file = Asset(Path("table.glb"), "gltf", (), (), Document(), up="y")
     of_file = SymbolicMesh(mesh.hulls, file)
-    assert (id_buffer(of_file, size=SMALL) == id_buffer(mesh, size=SMALL, up="Y")).all()
-    assert (id_buffer(of_file, size=SMALL, up="Z") == id_buffer(mesh, size=SMALL)).all()
+    assert (render_id_buffer(of_file, size=SMALL) == render_id_buffer(mesh, size=SMALL, up="Y")).all()
+    assert (render_id_buffer(of_file, size=SMALL, up="Z") == render_id_buffer(mesh, size=SMALL)).all()
     assert (pixels(bare(of_file)) == pixels(bare(mesh, up="Y"))).all()
 
 

@@ -11,20 +11,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Document, Opaque, Surface
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.formats import load
 from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
-from meshforge.symbolic import SymbolicMesh
-from meshforge.views import Shot, numbers, png, shots
-from meshforge.views.camera import Camera
-from meshforge.views.labelling.arrangement import Arrangement
-from meshforge.views.labelling.further import arrangements
-from meshforge.views.labelling.paper import head_height
-from meshforge.views.labelling.picture import Easel
-from meshforge.views.labelling.placing import LEAST
-from meshforge.views.labelling.sights import LIKED, WORDS
-from meshforge.views.labelling.sitter import Sitter
+from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, hull_numbers
+from meshforge.rendering.camera import Camera
+from meshforge.rendering.labeling.page import head_height
+from meshforge.rendering.labeling.picture import LabelingCanvas
+from meshforge.rendering.labeling.placement import LEAST_PIXELS
+from meshforge.rendering.labeling.series import propose_arrangements
+from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
+from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
+from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
 from tests.corpus_path import corpus
 from tests.examples import examples
 from tests.unit.views.scenes import box, hull, pixels, table
@@ -59,15 +57,15 @@ def surface_of(shape: Box, rgba: tuple[float, float, float, float] | None = None
     return Surface(shape.vertices, shape.faces, rgba=rgba)
 
 
-def in_place(taken: tuple[Shot, ...]) -> list[Shot]:
-    return [shot for shot in taken if shot.name in WORDS.values()]
+def in_place(taken: tuple[LabelingPicture, ...]) -> list[LabelingPicture]:
+    return [shot for shot in taken if shot.name in VIEW_WORDS.values()]
 
 
-def assert_all_shown(mesh: SymbolicMesh, wanted: set[str], taken: tuple[Shot, ...], unmet: int = 0) -> None:
+def assert_all_shown(mesh: SymbolicMesh, wanted: set[str], taken: tuple[LabelingPicture, ...], unmet: int = 0) -> None:
     """Each wanted hull is numbered, and seen there but for `unmet` that no ray can meet; nothing else is numbered."""
     assert set().union(*(shot.numbered for shot in taken)) == wanted
     best = {name: max(shot.visible_pixels[name] for shot in taken if name in shot.numbered) for name in wanted}
-    assert sum(count < LEAST for count in best.values()) <= unmet
+    assert sum(count < LEAST_PIXELS for count in best.values()) <= unmet
     assert len({shot.name for shot in taken}) == len(taken)
     assert all(list(shot.visible_pixels) == [h.name for h in mesh.hulls] for shot in taken)
 
@@ -83,7 +81,7 @@ def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], dat
     names = [h.name for h in mesh.hulls]
     wanted = data.draw(st.none() | st.sets(st.sampled_from(names), min_size=1))
     most = data.draw(st.integers(1, 6))
-    taken = shots(mesh, hulls=wanted, most=most, size=SMALL)
+    taken = draw_labeling_pictures(mesh, hulls=wanted, most=most, size=SMALL)
     assert_all_shown(mesh, wanted or set(names), taken)
     assert 1 <= len(in_place(taken)) <= most
 
@@ -102,7 +100,7 @@ def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], dat
     ids=["nested", "in one place", "small", "very small", "flat", "block", "many"],
 )
 def test_odd_meshes_are_shown_whole(mesh: SymbolicMesh) -> None:
-    assert_all_shown(mesh, set(mesh.index), shots(mesh))
+    assert_all_shown(mesh, set(mesh.index), draw_labeling_pictures(mesh))
 
 
 def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
@@ -110,17 +108,17 @@ def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
     mesh = SymbolicMesh((hull("needle", needle), *mesh_of(box((0.5, 0.5, 0.5), (2, 2, 2))).hulls))
     thread = mesh_of(box((0, 0, 0), (1e-7, 1e-7, 1)), box((2, 0, 0), (1, 1, 1)))
     for odd in (mesh, thread):
-        assert_all_shown(odd, set(odd.index), shots(odd, size=SMALL), unmet=1)
+        assert_all_shown(odd, set(odd.index), draw_labeling_pictures(odd, size=SMALL), unmet=1)
 
 
 def test_no_hulls_no_pictures() -> None:
-    assert shots(SymbolicMesh(())) == ()
-    assert shots(table(), hulls=()) == ()
-    assert numbers(SymbolicMesh(())) == {}
+    assert draw_labeling_pictures(SymbolicMesh(())) == ()
+    assert draw_labeling_pictures(table(), hulls=()) == ()
+    assert hull_numbers(SymbolicMesh(())) == {}
 
 
 def test_numbers_are_indices() -> None:
-    assert numbers(table()) == {"left": 0, "right": 1, "leg0": 2, "leg1": 3, "knob": 4}
+    assert hull_numbers(table()) == {"left": 0, "right": 1, "leg0": 2, "leg1": 3, "knob": 4}
 
 
 def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> Ints:
@@ -142,9 +140,9 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
 @pytest.mark.parametrize("seed", range(3))
 def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
     mesh = scattered(12, seed)
-    sitter = Sitter(mesh, tuple(range(12)), "Z")
-    easel, whole = Easel(sitter, 256), Arrangement.in_place(sitter)
-    for view in LIKED:
+    sitter = LabelingSubject(mesh, tuple(range(12)), "Z")
+    easel, whole = LabelingCanvas(sitter, 256), Arrangement.in_place(sitter)
+    for view in VIEW_PREFERENCES:
         camera = whole.camera(view, easel.drawing_size)
         told = slabs(mesh, camera, whole.view_frame.bounds.center, whole.view_frame.unit)
         counts = np.bincount(told[told >= 0], minlength=12)
@@ -153,7 +151,9 @@ def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
 
 
 def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
-    easel = Easel(Sitter(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512)
+    easel = LabelingCanvas(
+        LabelingSubject(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512
+    )
     shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
     side = 0.88 * min(easel.drawing_size)
     assert shot.visible_pixels["h0"] == pytest.approx(side**2, abs=4 * side)
@@ -162,9 +162,9 @@ def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_
 
 def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((1.5, 0, 0), (1, 1, 1)))
-    for shot in shots(mesh):
+    for shot in draw_labeling_pictures(mesh):
         picture = pixels(shot.marked)[60:-40]
-        for name, color in zip(mesh.index, Sitter(mesh, (0, 1), "Z").colors, strict=True):
+        for name, color in zip(mesh.index, LabelingSubject(mesh, (0, 1), "Z").colors, strict=True):
             ratio = picture / np.maximum(picture.max(axis=2, keepdims=True), 1e-9)
             alike = (np.abs(ratio - color / color.max()).max(axis=2) < 0.15).sum()
             assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
@@ -172,27 +172,27 @@ def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for(
 
 def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
     for mesh in (table(), scattered(8), mesh_of(box((0, 0, 0), (1, 2, 3)))):
-        taken = shots(mesh)
+        taken = draw_labeling_pictures(mesh)
         assert in_place(taken) == list(taken)
 
 
 def test_hidden_hulls_are_drawn_alone_and_a_deep_block_is_drawn_apart() -> None:
-    names = [shot.name for shot in shots(nested(3))]
+    names = [shot.name for shot in draw_labeling_pictures(nested(3))]
     assert [name.split(" alone")[0] for name in names if "alone" in name] == ["hulls 1, 2", "hull 2"]
-    assert any("drawn apart" in shot.name for shot in shots(block(5), most=1))
+    assert any("drawn apart" in shot.name for shot in draw_labeling_pictures(block(5), most=1))
 
 
 def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
-    taken = shots(mesh)
+    taken = draw_labeling_pictures(mesh)
     (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
     assert close.visible_pixels["h1"] > 10 * max(shot.visible_pixels["h1"] for shot in taken if shot is not close)
 
 
 def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
-    easel = Easel(Sitter(mesh, (0, 1), "Z"), 512)
-    (near, _), *_ = arrangements(easel.sitter, [1])
+    easel = LabelingCanvas(LabelingSubject(mesh, (0, 1), "Z"), 512)
+    (near, _), *_ = propose_arrangements(easel.sitter, [1])
     shot = easel.draw(near, "top")
     width, height = easel.drawing_size
     side = round(0.24 * 512)
@@ -206,19 +206,19 @@ def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_b
 def test_pictures_are_no_more_than_asked_for_where_all_is_seen() -> None:
     mesh = scattered(30)
     for most in (1, 2, 4):
-        taken = shots(mesh, most=most, size=SMALL)
+        taken = draw_labeling_pictures(mesh, most=most, size=SMALL)
         assert len(in_place(taken)) <= most
         assert in_place(taken)[0] is taken[0]
 
 
 def test_the_first_picture_is_from_above_a_corner() -> None:
     for mesh in (table(), scattered(10), nested(2)):
-        assert shots(mesh, most=1)[0].name.endswith("above")
+        assert draw_labeling_pictures(mesh, most=1)[0].name.endswith("above")
 
 
 def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
     mesh = scattered(10)
-    taken = shots(mesh, hulls={"h3"})
+    taken = draw_labeling_pictures(mesh, hulls={"h3"})
     assert set().union(*(shot.numbered for shot in taken)) == {"h3"}
     picture = pixels(taken[0].marked)[60:-60]
     strong = (np.ptp(picture, axis=2) > 0.25).sum()
@@ -227,11 +227,11 @@ def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
 
 
 def test_pictures_have_the_size_asked_for_and_the_same_bytes_every_time() -> None:
-    first, second = (shots(nested(3), size=size) for size in (SMALL, SMALL))
+    first, second = (draw_labeling_pictures(nested(3), size=size) for size in (SMALL, SMALL))
     for one, other in zip(first, second, strict=True):
         assert one.marked.size == one.plain.size == (SMALL, SMALL)
-        assert png(one.marked) == png(other.marked)
-        assert png(one.plain) == png(other.plain)
+        assert encode_png(one.marked) == encode_png(other.marked)
+        assert encode_png(one.plain) == encode_png(other.plain)
         assert (one.name, one.visible_pixels, one.numbered) == (other.name, other.visible_pixels, other.numbered)
 
 
@@ -239,7 +239,7 @@ def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_ca
     shape = box((0, 0, 0), (1, 1, 1))
     glass = surface_of(box((0, 0, 0), (3, 3, 3)), (0.0, 0.0, 1.0, 0.0))
     mesh = with_asset(mesh_of(shape), visuals=(surface_of(shape, (0.8, 0.1, 0.1, 1.0)), glass))
-    (shot, *_) = shots(mesh)
+    (shot, *_) = draw_labeling_pictures(mesh)
     plain = pixels(shot.plain)
     red = (plain[..., 0] - plain[..., 1]) > 0.2
     assert red.sum() == pytest.approx(shot.visible_pixels["h0"], rel=0.02)
@@ -247,7 +247,7 @@ def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_ca
 
 
 def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material() -> None:
-    (shot, *_) = shots(scattered(6))
+    (shot, *_) = draw_labeling_pictures(scattered(6))
     plain, marked = pixels(shot.plain), pixels(shot.marked)
     assert np.ptp(plain, axis=2).max() < 0.12
     assert np.ptp(marked, axis=2).max() > 0.3
@@ -258,7 +258,10 @@ def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material
 def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain_picture() -> None:
     shape = box((0, 0, 0), (1, 1, 1))
     beside = Opaque("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
-    (alone, *_), (shot, *_) = shots(mesh_of(shape)), shots(with_asset(mesh_of(shape), opaque=(beside,)))
+    (alone, *_), (shot, *_) = (
+        draw_labeling_pictures(mesh_of(shape)),
+        draw_labeling_pictures(with_asset(mesh_of(shape), opaque=(beside,))),
+    )
     assert shot.numbered == {"h0"}
     assert 0 < shot.visible_pixels["h0"] < alone.visible_pixels["h0"], "it is framed as well"
     drawn = (pixels(shot.plain).min(axis=2) < 0.97).sum()
@@ -269,14 +272,16 @@ def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain
 def test_up_may_be_y() -> None:
     turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up
     lying = SymbolicMesh(tuple(h.move(turn) for h in table().hulls))
-    for one, other in zip(shots(table(), size=SMALL), shots(lying, size=SMALL, up="Y"), strict=True):
+    for one, other in zip(
+        draw_labeling_pictures(table(), size=SMALL), draw_labeling_pictures(lying, size=SMALL, up="Y"), strict=True
+    ):
         assert one.name == other.name
         assert all(abs(count - other.visible_pixels[name]) <= 4 for name, count in one.visible_pixels.items())
 
 
 def test_many_round_hulls_are_round_enough() -> None:
     mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
-    easel = Easel(Sitter(mesh, tuple(range(12)), "Z"), 1024)
+    easel = LabelingCanvas(LabelingSubject(mesh, tuple(range(12)), "Z"), 1024)
     shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
     radius = 0.88 * 1024 / 35
     assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())
@@ -293,7 +298,7 @@ def test_many_round_hulls_are_round_enough() -> None:
 )
 def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> None:
     with pytest.raises(UsageError, match=words):
-        shots(table(), **options)
+        draw_labeling_pictures(table(), **options)
 
 
 @pytest.mark.parametrize(
@@ -306,7 +311,7 @@ def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> Non
 )
 def test_every_hull_of_real_assets_is_found(path: str, hidden: str) -> None:
     mesh = load(corpus(path))
-    taken = shots(mesh)
+    taken = draw_labeling_pictures(mesh)
     assert_all_shown(mesh, set(mesh.index), taken)
     assert any(hidden in shot.name for shot in taken)
     assert len(taken) <= 8

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
+from meshforge.rendering import VIEWS, View, count_visible_pixels, render_id_buffer
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views import VIEWS, View, id_buffer, visible_hulls
 from tests.unit.views.scenes import box, hull, table
 
 
 @pytest.mark.parametrize(("view", "first"), [("front", 0), ("back", 1), ("iso", 0), ("iso-back", 1)])
 def test_the_nearer_hull_hides_the_farther(view: View, first: int) -> None:
     mesh = SymbolicMesh((hull("front", box((0, -1, 0), (1, 0.2, 1))), hull("back", box((0, 1, 0), (1, 0.2, 1)))))
-    items = id_buffer(mesh, view=view, size=(120, 90))
+    items = render_id_buffer(mesh, view=view, size=(120, 90))
     counts = [int((items == k).sum()) for k in (0, 1)]
     assert counts[first] > counts[1 - first]
     if view in ("front", "back"):
@@ -24,7 +24,7 @@ def test_the_nearer_hull_hides_the_farther(view: View, first: int) -> None:
 def test_a_hull_inside_another_is_never_seen() -> None:
     mesh = SymbolicMesh((hull("inner", box((0, 0, 0), (0.5, 0.5, 0.5))), hull("outer", box((0, 0, 0), (1, 1, 1)))))
     for view in VIEWS:
-        assert visible_hulls(mesh, view=view)["inner"] == 0
+        assert count_visible_pixels(mesh, view=view)["inner"] == 0
 
 
 def test_left_right_top_and_bottom_are_where_tools_have_them() -> None:
@@ -38,9 +38,9 @@ def test_left_right_top_and_bottom_are_where_tools_have_them() -> None:
     }
     hulls = tuple(hull(name, box(at, (1, 1, 1))) for name, at in sides.items())
     for view in sides:
-        items = id_buffer(SymbolicMesh(hulls), view=view, size=(90, 90))
+        items = render_id_buffer(SymbolicMesh(hulls), view=view, size=(90, 90))
         assert hulls[items[45, 45]].name == view
-    front = id_buffer(SymbolicMesh(hulls), view="front", size=(90, 90))
+    front = render_id_buffer(SymbolicMesh(hulls), view="front", size=(90, 90))
     assert [hulls[front[45, x]].name for x in (10, 79)] == ["left", "right"]
     assert [hulls[front[y, 45]].name for y in (10, 79)] == ["top", "bottom"]
 
@@ -59,7 +59,7 @@ def test_a_corner_is_seen_from_its_own_side(view: View) -> None:
             hull("near", box(at, (1.2, 1.2, 1.2))),
         )
     )
-    seen = visible_hulls(mesh, view=view)
+    seen = count_visible_pixels(mesh, view=view)
     assert seen["far"] == 0
     assert seen["all"] > seen["near"] > 0
 
@@ -75,7 +75,7 @@ def test_a_corner_is_seen_from_its_own_side(view: View) -> None:
 )
 def test_round_shapes_cover_as_much_of_their_frame_as_geometry_says(shape: Shape, share: float) -> None:
     mesh = SymbolicMesh((hull("it", shape),))
-    seen = id_buffer(mesh, view="top", size=(400, 400)) == 0
+    seen = render_id_buffer(mesh, view="top", size=(400, 400)) == 0
     rows, columns = np.nonzero(seen)
     frame = (np.ptp(rows) + 1) * (np.ptp(columns) + 1)
     assert seen.sum() / frame == pytest.approx(share, rel=0.01)
@@ -83,12 +83,12 @@ def test_round_shapes_cover_as_much_of_their_frame_as_geometry_says(shape: Shape
 
 def test_counts_of_pixels_are_those_of_the_buffer() -> None:
     mesh = table()
-    items = id_buffer(mesh, size=(160, 120))
-    counts = visible_hulls(mesh, size=(160, 120))
+    items = render_id_buffer(mesh, size=(160, 120))
+    counts = count_visible_pixels(mesh, size=(160, 120))
     assert counts == {h.name: int((items == k).sum()) for k, h in enumerate(mesh.hulls)}
     assert counts["left"] > counts["knob"] > 0
 
 
 def test_nothing_is_seen_of_no_hulls() -> None:
-    assert visible_hulls(SymbolicMesh(())) == {}
-    assert (id_buffer(SymbolicMesh(()), size=(20, 10)) == -1).all()
+    assert count_visible_pixels(SymbolicMesh(())) == {}
+    assert (render_id_buffer(SymbolicMesh(()), size=(20, 10)) == -1).all()

@@ -1,4 +1,4 @@
-"""Reading Collada by pycollada: a surface for each geometry in each node, node transforms applied.
+"""Read Collada by pycollada: a surface for each geometry in each node, node transforms applied.
 
 The tags `unit` and `up_axis` are not: PyBullet, MoveIt and yourdfpy ignore both, so descriptions scale the mesh
 themselves. `RawSurface.unit` tells readers of formats whose engines obey it (Gazebo).
@@ -14,11 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, checked
-from meshforge.formats.xml import Text, blanked
+from meshforge.common import AssetError, pluralize
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
+from meshforge.formats.xml import XmlText, blank_markup
 from meshforge.geometry import Floats
-from meshforge.words import counted
 
 _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
@@ -28,7 +27,7 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     import collada
     from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
 
-    data = blanked(Text.of(data).data)
+    data = blank_markup(XmlText.of(data).data)
     if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
         raise AssetError("it declares XML entities, which are not read", where=where)
     try:
@@ -47,8 +46,10 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
             f"this Collada file cannot be read: {reason}", where=where, remedy="Export it again."
         ) from error
     if not found and geometries:
-        raise AssetError(f"its scene shows no triangle of {counted(geometries, 'geometry', 'geometries')}", where=where)
-    return checked(found, where)
+        raise AssetError(
+            f"its scene shows no triangle of {pluralize(geometries, 'geometry', 'geometries')}", where=where
+        )
+    return check_surfaces(found, where)
 
 
 def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
@@ -63,7 +64,7 @@ def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
         elif isinstance(child, GeometryNode):
             _refuse_numbers(child.geometry)
             for bound in child.objects("geometry", inside):
-                yield from _surface(bound, node.name or node.id, unit)
+                yield from _read_surface(bound, node.name or node.id, unit)
 
 
 def _refuse_numbers(geometry: Any) -> None:
@@ -75,7 +76,7 @@ def _refuse_numbers(geometry: Any) -> None:
                 raise ValueError(f"a coordinate of geometry {geometry.id!r} is not a finite number")
 
 
-def _surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
+def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
     vertices, faces, start = [], [], 0
     for part in bound.primitives():

@@ -6,7 +6,7 @@ import codecs
 import re
 from dataclasses import dataclass
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4"},
@@ -18,7 +18,7 @@ _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
 @dataclass(frozen=True, slots=True)
-class Property:
+class PlyProperty:
     """A property of an element: its name, numpy type, and the type of its length where it is a list."""
 
     name: str
@@ -27,12 +27,12 @@ class Property:
 
 
 @dataclass(frozen=True, slots=True)
-class Element:
+class PlyElement:
     """An element: its name, how many rows it has, its properties."""
 
     name: str
     rows: int
-    properties: tuple[Property, ...]
+    properties: tuple[PlyProperty, ...]
 
     @property
     def has_lists(self) -> bool:
@@ -40,15 +40,15 @@ class Element:
 
 
 @dataclass(frozen=True, slots=True)
-class Header:
+class PlyHeader:
     """size: bytes of the header with its last line end; order: of the bytes in numpy's letters, empty for ASCII."""
 
     size: int
     order: str
-    elements: tuple[Element, ...]
+    elements: tuple[PlyElement, ...]
 
 
-def parse_header(data: bytes, where: str) -> Header:
+def parse_header(data: bytes, where: str) -> PlyHeader:
     """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
     if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
         raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
@@ -58,7 +58,7 @@ def parse_header(data: bytes, where: str) -> Header:
     if end is None:
         raise AssetError("the file is cut short: its header does not end", where=where, remedy="Export it again.")
     order: str | None = None
-    elements: list[Element] = []
+    elements: list[PlyElement] = []
     for number, line in enumerate(data[: end.start()].splitlines(), start=1):
         words = line.decode("ascii", "replace").split()
         try:
@@ -66,30 +66,30 @@ def parse_header(data: bytes, where: str) -> Header:
                 case ["format", kind, _]:
                     order = _ORDERS[kind]
                 case ["element", name, rows]:
-                    elements.append(Element(name, _count(rows), ()))
+                    elements.append(PlyElement(name, _parse_count(rows), ()))
                 case ["property", *rest]:
-                    last, made = elements.pop(), _property(rest)
+                    last, made = elements.pop(), _parse_property(rest)
                     if any(p.name == made.name for p in last.properties):
                         raise ValueError(made.name)
-                    elements.append(Element(last.name, last.rows, (*last.properties, made)))
+                    elements.append(PlyElement(last.name, last.rows, (*last.properties, made)))
         except (KeyError, IndexError, ValueError):
             shown = " ".join(words)[:_SHOWN]
             raise AssetError(f"this line of the header makes no sense: {shown!r}", where=f"{where}:{number}") from None
     if order is None:
         raise AssetError("the header names no format", where=where)
-    return Header(end.end(), order, tuple(elements))
+    return PlyHeader(end.end(), order, tuple(elements))
 
 
-def _count(text: str) -> int:
+def _parse_count(text: str) -> int:
     if not text.isdecimal():
         raise ValueError(text)
     return int(text)
 
 
-def _property(words: list[str]) -> Property:
+def _parse_property(words: list[str]) -> PlyProperty:
     match words:
         case ["list", count, kind, name]:
-            return Property(name, TYPES[kind], TYPES[count])
+            return PlyProperty(name, TYPES[kind], TYPES[count])
         case [kind, name]:
-            return Property(name, TYPES[kind])
+            return PlyProperty(name, TYPES[kind])
     raise ValueError(words)

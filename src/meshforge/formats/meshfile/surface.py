@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError, pluralize
 from meshforge.geometry import Floats, Ints
-from meshforge.words import counted
 
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
 FARTHEST = 1e15
@@ -32,7 +31,7 @@ class RawSurface:
     unit: float = 1.0
 
 
-def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
+def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     """The surfaces that have triangles.
 
     Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite or
@@ -42,7 +41,7 @@ def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     found = [s for s in surfaces if len(s.faces)]
     if not found:
         points = max((len(s.vertices) for s in surfaces), default=0)
-        holds = f", only {counted(points, 'vertex', 'vertices')}" if points else ""
+        holds = f", only {pluralize(points, 'vertex', 'vertices')}" if points else ""
         raise AssetError(f"there is no triangle in this file{holds}", where=where, remedy="Export it with its faces.")
     arrays = {id(s.vertices): s.vertices for s in found}
     fine = {key for key, vertices in arrays.items() if np.abs(vertices).max(initial=0.0) <= FARTHEST}
@@ -65,13 +64,13 @@ def _refuse_far(used: Floats, where: str) -> None:
         raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
 
 
-def as_doubles(values: npt.ArrayLike) -> Floats:
+def to_doubles(values: npt.ArrayLike) -> Floats:
     """Numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a warning."""
     with np.errstate(invalid="ignore"):
         return np.asarray(values).astype(np.float64)
 
 
-def fans(polygons: Iterable[Sequence[int]]) -> Ints:
+def cut_fans(polygons: Iterable[Sequence[int]]) -> Ints:
     """The triangles (m, 3) of polygons, each cut into a fan about its first corner."""
     triangles = [(p[0], b, c) for p in polygons for b, c in itertools.pairwise(p[1:])]
     return np.array(triangles, dtype=np.int64).reshape(-1, 3)
@@ -93,7 +92,7 @@ class Soup:
     marked: bool = False
 
 
-def joined(surfaces: Sequence[RawSurface]) -> Soup:
+def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:
     """Surfaces as one soup, a group each."""
     shared = all(s.vertices is surfaces[0].vertices for s in surfaces)
     starts = np.cumsum([0, *(0 if shared else len(s.vertices) for s in surfaces)])

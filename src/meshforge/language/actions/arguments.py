@@ -11,7 +11,7 @@ from typing import Any, Literal, get_args
 
 from meshforge.language.syntax import DIRECTIONS
 
-RawKind = Literal["word", "text", "number", "direction"]
+TokenKind = Literal["word", "text", "number", "direction"]
 Primitive = Literal["box", "cylinder", "capsule", "sphere"]
 PRIMITIVES: tuple[Primitive, ...] = get_args(Primitive)
 Axis = Literal["all", "X", "Y", "Z"]
@@ -39,7 +39,7 @@ class Argument(ABC):
         return ()
 
     @abstractmethod
-    def read(self, kind: RawKind, text: str) -> Any | None:
+    def read(self, kind: TokenKind, text: str) -> Any | None:
         """The value of a piece of program text (a quoted text without its quotes), None where it does not fit."""
 
     @abstractmethod
@@ -52,11 +52,11 @@ class Argument(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class Words(Argument):
+class WordArgument(Argument):
     """One of some bare words."""
 
     words: tuple[str, ...]
-    kind: RawKind = "word"
+    kind: TokenKind = "word"
 
     @property
     def usage(self) -> str:
@@ -64,13 +64,13 @@ class Words(Argument):
 
     @property
     def wants(self) -> str:
-        return one_of(self.words)
+        return join_alternatives(self.words)
 
     @property
     def choices(self) -> tuple[str, ...]:
         return self.words
 
-    def read(self, kind: RawKind, text: str) -> str | None:
+    def read(self, kind: TokenKind, text: str) -> str | None:
         return text if kind == self.kind and text in self.words else None
 
     def fits(self, value: Any) -> bool:
@@ -78,7 +78,7 @@ class Words(Argument):
 
 
 @dataclass(frozen=True, slots=True)
-class Flag(Argument):
+class FlagArgument(Argument):
     """A bare word that is there or not."""
 
     word: str
@@ -95,7 +95,7 @@ class Flag(Argument):
     def choices(self) -> tuple[str, ...]:
         return (self.word,)
 
-    def read(self, kind: RawKind, text: str) -> bool | None:
+    def read(self, kind: TokenKind, text: str) -> bool | None:
         return True if kind == "word" and text == self.word else None
 
     def fits(self, value: Any) -> bool:
@@ -106,13 +106,13 @@ class Flag(Argument):
 
 
 @dataclass(frozen=True, slots=True)
-class File(Argument):
+class FileArgument(Argument):
     """A quoted path of a template file."""
 
     usage = '"file"'
     wants = "a file name in double quotes"
 
-    def read(self, kind: RawKind, text: str) -> str | None:
+    def read(self, kind: TokenKind, text: str) -> str | None:
         return text if kind == "text" and self.fits(text) else None
 
     def fits(self, value: Any) -> bool:
@@ -123,14 +123,14 @@ class File(Argument):
 
 
 @dataclass(frozen=True, slots=True)
-class PrimitiveOrFile(File):
+class PrimitiveOrFileArgument(FileArgument):
     """The bare word of a primitive, or a quoted path of a template file."""
 
-    usage = "|".join((*PRIMITIVES, File.usage))
-    wants = f"{', '.join(PRIMITIVES)} or {File.wants}"
+    usage = "|".join((*PRIMITIVES, FileArgument.usage))
+    wants = f"{', '.join(PRIMITIVES)} or {FileArgument.wants}"
     choices = PRIMITIVES
 
-    def read(self, kind: RawKind, text: str) -> str | None:
+    def read(self, kind: TokenKind, text: str) -> str | None:
         return (
             text if (kind == "word") == (text in PRIMITIVES) and kind in ("word", "text") and self.fits(text) else None
         )
@@ -140,13 +140,13 @@ class PrimitiveOrFile(File):
 
 
 @dataclass(frozen=True, slots=True)
-class Factor(Argument):
+class FactorArgument(Argument):
     """A number above 0."""
 
     usage = "factor"
     wants = "a number above 0"
 
-    def read(self, kind: RawKind, text: str) -> float | None:
+    def read(self, kind: TokenKind, text: str) -> float | None:
         return float(text) if kind == "number" and self.fits(float(text)) else None
 
     def fits(self, value: Any) -> bool:
@@ -156,29 +156,13 @@ class Factor(Argument):
         return show_number(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Inner(Argument):
-    """An action inside another; the parser reads it, since it has arguments of its own."""
-
-    usage = "action"
-    wants = "an action"
-
-    def read(self, kind: RawKind, text: str) -> None:
-        return None
-
-    def fits(self, value: Any) -> bool:
-        from meshforge.language.actions.base import Action
-
-        return isinstance(value, Action)
-
-
-def one_of(words: Iterable[str]) -> str:
+def join_alternatives(words: Iterable[str]) -> str:
     """The words as `a, b or c`."""
     *most, last = words
     return f"{', '.join(most)} or {last}" if most else last
 
 
-DIRECTION = Words(DIRECTIONS, kind="direction")
+DIRECTION = WordArgument(DIRECTIONS, kind="direction")
 
 
 def show_number(value: float) -> str:

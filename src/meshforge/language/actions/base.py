@@ -1,15 +1,15 @@
-"""What every action has in common: arguments that are dataclass fields, and groups of hulls that it edits."""
+"""The base of all actions: arguments that are dataclass fields, and groups of hulls that they edit."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, cast
 
-from meshforge.errors import ProgramError
-from meshforge.language.actions.arguments import Argument
-from meshforge.language.actions.edit import Edit, Group
-from meshforge.symbolic import SymbolicMesh, bodies
+from meshforge.common import ProgramError
+from meshforge.language.actions.arguments import Argument, TokenKind
+from meshforge.language.actions.edit import GroupEdit, HullGroup
+from meshforge.symbolic import SymbolicMesh, split_by_body
 
 
 class Action(ABC):
@@ -37,10 +37,10 @@ class Action(ABC):
 
     def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
         """The parts of a selection that are edited one by one, as bit sets."""
-        return bodies(mesh, mask) if self.by_body else [mask] if mask else []
+        return split_by_body(mesh, mask) if self.by_body else [mask] if mask else []
 
     @abstractmethod
-    def edit(self, group: Group) -> Edit:
+    def edit(self, group: HullGroup) -> GroupEdit:
         """What becomes of one group of at least one hull. Raises ProgramError for a missing template."""
 
     @property
@@ -56,12 +56,12 @@ class Action(ABC):
     @classmethod
     def arguments(cls) -> dict[str, Argument]:
         """The kind of each argument by the name of its field, in order."""
-        return {f.name: cast(Argument, f.metadata["argument"]) for f in _fields(cls)}
+        return {f.name: cast(Argument, f.metadata["argument"]) for f in _fields_of(cls)}
 
     @classmethod
     def min_arguments(cls) -> int:
         """How many arguments cannot be left out."""
-        return sum(f.default is MISSING for f in _fields(cls))
+        return sum(f.default is MISSING for f in _fields_of(cls))
 
     @classmethod
     def usage(cls) -> str:
@@ -86,9 +86,24 @@ class Action(ABC):
         return f"{type(self).__name__}({', '.join(shown)})" if shown else type(self).__name__
 
 
-def _fields(kind: type[Action]) -> tuple[Field[Any], ...]:
+def _fields_of(kind: type[Action]) -> tuple[Field[Any], ...]:
     return fields(cast(Any, kind))
 
 
 def _field_default(kind: type[Action], name: str) -> Any:
-    return next(f.default for f in _fields(kind) if f.name == name)
+    return next(f.default for f in _fields_of(kind) if f.name == name)
+
+
+@dataclass(frozen=True, slots=True)
+class ActionArgument(Argument):
+    """An action inside another; the parser reads it, since it has arguments of its own."""
+
+    usage = "action"
+    wants = "an action"
+
+    def read(self, kind: TokenKind, text: str) -> None:
+        return None
+
+    def fits(self, value: Any) -> bool:
+
+        return isinstance(value, Action)

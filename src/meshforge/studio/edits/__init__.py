@@ -1,4 +1,4 @@
-"""Every change that a person can make in the studio: one class each, with what it does and what it touches."""
+"""Every change that a person can make in the studio, one class each: what it does and which files it touches."""
 
 from __future__ import annotations
 
@@ -6,12 +6,18 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.demonstrating import DeleteRule, MoveRule, SetOrientation, SetSteps, StepText
+from meshforge.studio.edits.assets import CorrectByHand, CutHull, DropCorrections, ReviewAssets, Unprepare
 from meshforge.studio.edits.labels import LabelFromFiles, LabelFromNames, LabelHulls, RenameLabel, SetVocabulary
-from meshforge.studio.edits.learning import AnswerQuestion, SettleRepair, TakeBack, WriteProgram
-from meshforge.studio.edits.preparing import CutHull, Unprepare
-from meshforge.studio.edits.reviewing import CorrectByHand, DropCorrections, ReviewAssets
+from meshforge.studio.edits.program import (
+    AnswerQuestion,
+    DeleteRule,
+    MoveRule,
+    SetOrientation,
+    SetSteps,
+    SettleRepair,
+    TakeBack,
+    WriteProgram,
+)
 
 AnyEdit = Annotated[
     LabelHulls
@@ -34,5 +40,3 @@ AnyEdit = Annotated[
     | DropCorrections,
     Field(discriminator="kind"),
 ]
-
-__all__ = ["AnyEdit", "Edit", "StepText"]

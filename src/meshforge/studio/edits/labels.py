@@ -1,13 +1,12 @@
-"""Edits of labels and of the vocabulary."""
+"""Edits of labels and of the vocabulary, by a person or by a job."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.learning import program_files
-from meshforge.words import counted
+from meshforge.common import pluralize
+from meshforge.studio.edits.base import Edit, program_files
 
 if TYPE_CHECKING:
     from meshforge.project import Project
@@ -28,7 +27,7 @@ class LabelHulls(Edit):
         return (project.layout.labels(self.asset),)
 
     def describe(self, project: Project) -> str:
-        hulls = counted(len(self.hulls), "hull")
+        hulls = pluralize(len(self.hulls), "hull")
         done = f"{hulls} of {self.asset} labelled {self.label}"
         return done if self.label else f"label of {hulls} of {self.asset} taken away"
 
@@ -105,6 +104,46 @@ class RenameLabel(Edit):
 
     def describe(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"
+
+    def assets(self, project: Project) -> tuple[str, ...]:
+        return project.assets()
+
+
+class Propagate(Edit):
+    """Labels were carried over to all other hulls; the job makes the change itself. next: the asset that would help
+    most if it were labelled; used: how many entries the history had when labels were read."""
+
+    kind: Literal["propagate"] = "propagate"
+    used: int
+    next: str | None
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("the job of carrying labels over makes this change")
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
+
+    def describe(self, project: Project) -> str:
+        return "labels carried over"
+
+    def assets(self, project: Project) -> tuple[str, ...]:
+        return project.assets()
+
+
+class LabelFromModel(Edit):
+    """A model was asked for labels; the job makes the change itself."""
+
+    kind: Literal["label-vlm"] = "label-vlm"
+    model: str
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("the job of asking makes this change")
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
+
+    def describe(self, project: Project) -> str:
+        return f"labels from {self.model}"
 
     def assets(self, project: Project) -> tuple[str, ...]:
         return project.assets()

@@ -1,12 +1,16 @@
-"""One asset, its hulls and what was done to it; and the header of a packet of shapes."""
+"""One asset and its hulls, the headers of packets of shapes, and what checks measure of an output."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire import Wire
 
-Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
+PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
+
+CheckPart = Literal["engines", "physics", "clearance", "fit"]
+"""What is measured at a time, what is quickest first; `engines` holds legality, too."""
+FigureUnit = Literal["m", "m/s", "kg", "l", "%", "°", ""]
 
 
 class HullView(Wire):
@@ -21,7 +25,7 @@ class HullView(Wire):
     volume: float = 0.0
     vertices: int = 0
     faces: int = 0
-    primitive: Kind | None = None
+    primitive: PrimitiveKind | None = None
     parent: str | None = None
 
 
@@ -148,3 +152,56 @@ class EditedHeader(Wire):
     flags: tuple[str, ...] = ()
     volume: tuple[float, float] = (0.0, 0.0)
     contacts: tuple[tuple[str, str], ...] = ()
+
+
+class Fault(Wire):
+    """A rule that does not hold. engine: whose limit it is, null for none; new: whether that came with the edit."""
+
+    rule: str
+    severity: Literal["error", "warning"]
+    engine: str | None = None
+    new: bool = True
+
+
+class CheckFinding(Fault):
+    """The same with the hulls that it concerns, by the names they have in the output."""
+
+    hulls: tuple[str, ...]
+    text: str
+    remedy: str
+
+
+class Figure(Wire):
+    """A figure before and after the edit; null where it cannot be told."""
+
+    what: str
+    unit: FigureUnit
+    before: float | None
+    after: float | None
+
+
+class Checked(Wire):
+    """What was measured. gone: how many findings about the asset are none of the output any more; notes: what could
+    not be told, and why; cell: what is smaller is not seen [m]; pictured: whether pictures can be drawn of it."""
+
+    part: CheckPart
+    figures: tuple[Figure, ...] = ()
+    findings: tuple[CheckFinding, ...] = ()
+    gone: int = 0
+    notes: tuple[str, ...] = ()
+    cell: float | None = None
+    pictured: bool = False
+
+
+class CheckPicture(Wire):
+    """A picture that is drawn: the name that its address takes, and what it shows."""
+
+    name: str
+    text: str
+
+
+class EngineView(Wire):
+    """An engine whose limits are known; title: as its makers write it."""
+
+    name: str
+    title: str

@@ -1,4 +1,4 @@
-"""What the server tells every open page, over the WebSocket; and errors."""
+"""What the server tells every open page over the WebSocket; and errors."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.checks import EngineView
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
-from meshforge.studio.wire.jobs import Job
-from meshforge.studio.wire.labelling import Relabelled
-from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
+from meshforge.studio.wire.jobs import Job, Relabelled
+from meshforge.studio.wire.program import LessonView, ProgramView, Reach
 
 
 class Problem(Wire):

@@ -1,14 +1,14 @@
-"""The project and its assets as the gallery shows them."""
+"""The project and the cards of its assets, as the gallery shows them; and what can be undone."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.checks import Fault
-from meshforge.studio.wire.labelling import CarriedOver
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.asset import Fault
+from meshforge.studio.wire.jobs import CarriedOver
 
-Output = Literal["none", "edited", "unchanged", "failed"]
+CardOutput = Literal["none", "edited", "unchanged", "failed"]
 Verdict = Literal["accepted", "flagged"]
 Stage = Literal["label", "demonstrate", "learn", "review"]
 
@@ -33,7 +33,7 @@ class Card(Wire):
     unsure: tuple[int, ...] = ()
     given: int = 0
     demonstrated: bool = False
-    output: Output = "none"
+    output: CardOutput = "none"
     after: int | None = None
     after_labels: tuple[int, ...] = ()
     stale: tuple[str, ...] = ()

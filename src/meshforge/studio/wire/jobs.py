@@ -1,12 +1,18 @@
-"""Long work: its progress, and what came of it."""
+"""Jobs: what the page asks for, their progress and outcome; what an edit of all labels did, and the model that can
+be asked."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire import Wire
 
 JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check"]
+
+VlmMode = Literal["cheap", "balanced", "exact"]
+"""How many pictures and questions a model is asked for a hull."""
+
+LabelEditKind = Literal["propagate", "label-files", "label-names", "label-vlm"]
 
 
 class JobLine(Wire):
@@ -63,22 +69,18 @@ class PropagateJob(Wire):
     kind: Literal["propagate"] = "propagate"
 
 
-Mode = Literal["cheap", "balanced", "exact"]
-"""How many pictures and questions a model is asked for a hull."""
-
-
 class ForecastJob(Wire):
     """Find out what asking a model for labels would send and cost; nothing is sent."""
 
     kind: Literal["forecast"] = "forecast"
-    mode: Mode
+    mode: VlmMode
 
 
 class AskJob(Wire):
     """Ask the model that meshforge.toml names for labels. max_cost: dollars it may spend, null as that says."""
 
     kind: Literal["ask"] = "ask"
-    mode: Mode
+    mode: VlmMode
     max_cost: float | None = None
 
 
@@ -89,3 +91,44 @@ class CheckJob(Wire):
 
 
 JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob
+
+
+class RelabelledAsset(Wire):
+    """Hulls of an asset that got another label, by their positions. new: those that had none; changed: those that had
+    another one; was: the label that each of these had."""
+
+    asset: str
+    new: tuple[int, ...] = ()
+    changed: tuple[int, ...] = ()
+    was: tuple[str, ...] = ()
+
+
+class Relabelled(Wire):
+    """What the last edit did, where that was one of all labels. entry: its number in the history; way: what it was.
+
+    settled: how many labels are sure since, which were not before.
+    """
+
+    entry: int
+    way: LabelEditKind
+    assets: tuple[RelabelledAsset, ...]
+    settled: int = 0
+
+
+class CarriedOver(Wire):
+    """Labels were carried over. unused: how many labels people and files gave since; next: the asset that would help
+    most if it were labelled, null where its hulls are, or where all are."""
+
+    unused: int
+    next: str | None = None
+
+
+class Model(Wire):
+    """The model that can be asked for labels. host: where it is; mode, max_cost: as meshforge.toml has them; why: what
+    is in the way of asking it, null where nothing is."""
+
+    name: str
+    host: str
+    mode: VlmMode
+    max_cost: float | None = None
+    why: str | None = None

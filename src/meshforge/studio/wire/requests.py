@@ -1,9 +1,9 @@
-"""What the page asks for, besides edits."""
+"""What the page asks for, besides edits and jobs, and the short answers."""
 
 from __future__ import annotations
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.labelling import Model
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.jobs import Model
 
 
 class PreviewRequest(Wire):

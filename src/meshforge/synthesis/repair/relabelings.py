@@ -1,4 +1,5 @@
-"""The ways in which labels of one mesh may be wrong, the most believable first."""
+"""The ways in which labels may be wrong, the most believable first, and what leaf extractors select under all of
+them."""
 
 from __future__ import annotations
 
@@ -6,12 +7,17 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp
 
-from meshforge.symbolic import Hull, Label
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.repair.standing import Labels
+import numpy as np
 
-Change = tuple[int, str]
+from meshforge.label_model import LabelBeliefs
+from meshforge.language import SLACK, Extractor, reference_length
+from meshforge.symbolic import Hull, Label, mask_of
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Layers
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.observation_table import HullGroups, HullTable
+
+LabelChange = tuple[int, str]
 """A hull by its index, and the label it gets."""
 
 
@@ -24,15 +30,15 @@ class Relabeling:
 
     cost: float = 0.0
     chance: float = 1.0
-    changes: tuple[Change, ...] = ()
+    changes: tuple[LabelChange, ...] = ()
 
 
-def relabelings(
+def enumerate_relabelings(
     example: Example,
     vocabulary: Sequence[str],
-    labels: Labels,
+    labels: LabelBeliefs,
     allowed: int,
-    rejected: Collection[Correction],
+    rejected: Collection[LabelCorrection],
     within: float,
     limit: int,
 ) -> list[Relabeling]:
@@ -41,38 +47,42 @@ def relabelings(
     allowed: corrections at most; rejected: a label that a person did not want corrected stands, whatever else it might
     be; limit: relabelings of more than one correction stop there.
     """
-    single = _single(example, vocabulary, labels, rejected, within) if allowed > 0 else []
+    single = _single_changes(example, vocabulary, labels, rejected, within) if allowed > 0 else []
     every, latest = [Relabeling(), *single], single
     for _ in range(1, allowed):
         room = limit - len(every)
         if room <= 0:
             break
-        latest = _ordered(_extended(latest, single, within))[:room]
+        latest = _sort_by_cost(_extend(latest, single, within))[:room]
         every += latest
-    return _ordered(every)
+    return _sort_by_cost(every)
 
 
-def correction(example: Example, change: Change) -> Correction:
+def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
     """A change as it is called outside."""
     hull = example.mesh.hulls[change[0]]
-    return Correction(example.name, hull.name, hull.label, change[1])
+    return LabelCorrection(example.name, hull.name, hull.label, change[1])
 
 
-def relabelled(example: Example, changes: Sequence[Change]) -> Example:
+def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
     """The example with labels changed."""
     if not changes:
         return example
     hulls = example.mesh.hulls
-    mesh = example.mesh.with_labels({hulls[index].name: _label(hulls[index], to) for index, to in changes})
+    mesh = example.mesh.with_labels({hulls[index].name: _repair_label(hulls[index], to) for index, to in changes})
     return Example(example.name, mesh, example.selection)
 
 
-def _label(hull: Hull, to: str) -> Label:
+def _repair_label(hull: Hull, to: str) -> Label:
     return Label(to, source="repair")
 
 
-def _single(
-    example: Example, vocabulary: Sequence[str], labels: Labels, rejected: Collection[Correction], within: float
+def _single_changes(
+    example: Example,
+    vocabulary: Sequence[str],
+    labels: LabelBeliefs,
+    rejected: Collection[LabelCorrection],
+    within: float,
 ) -> list[Relabeling]:
     found = []
     standing = {(one.hull, one.was) for one in rejected if one.asset == example.name}
@@ -84,10 +94,10 @@ def _single(
             if cost <= within:
                 chance = exp(-labels.odds(example.name, hull, to))
                 found.append(Relabeling(cost, chance, ((index, to),)))
-    return _ordered(found)
+    return _sort_by_cost(found)
 
 
-def _extended(some: Sequence[Relabeling], single: Sequence[Relabeling], within: float) -> list[Relabeling]:
+def _extend(some: Sequence[Relabeling], single: Sequence[Relabeling], within: float) -> list[Relabeling]:
     """Relabelings with one change more, of a hull after all that they change."""
     found = []
     for one in some:
@@ -99,5 +109,97 @@ def _extended(some: Sequence[Relabeling], single: Sequence[Relabeling], within: 
     return found
 
 
-def _ordered(some: list[Relabeling]) -> list[Relabeling]:
+def _sort_by_cost(some: list[Relabeling]) -> list[Relabeling]:
     return sorted(some, key=lambda one: (one.cost, one.changes))
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One mesh under one relabeling: the groups of hulls that are to be selected there, and those that are not."""
+
+    relabeling: Relabeling
+    need: int
+    avoid: int
+
+
+class VariantHullTable(HullTable):
+    """The hulls of many relabelings of some meshes in one row; boxes and contacts are those of the meshes."""
+
+    __slots__ = ()
+
+    def __init__(self, examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> None:
+        copies = [len(some) for some in ways]
+        sizes = [len(example.mesh.hulls) for example in examples]
+        self.counts = np.repeat(np.array(sizes, dtype=np.int64), copies)
+        self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
+        self._owner = np.repeat(np.arange(len(self.counts)), self.counts)
+        corners = [example.mesh.corners for example in examples]
+        self._low = np.concatenate([np.tile(low, (n, 1)) for (low, _), n in zip(corners, copies, strict=True)])
+        self._high = np.concatenate([np.tile(high, (n, 1)) for (_, high), n in zip(corners, copies, strict=True)])
+        self._slack = np.repeat([SLACK * reference_length(example.mesh) for example in examples], copies)
+        self._labels = [
+            label
+            for example, some in zip(examples, ways, strict=True)
+            for one in some
+            for label in _labels_under(example, one)
+        ]
+        firsts = np.cumsum([0, *copies])
+        pairs = [
+            (
+                self.starts[first : first + n, None, None]
+                + np.array(sorted(example.mesh.contacts), dtype=np.int64).reshape(-1, 2)
+            )
+            for example, first, n in zip(examples, firsts, copies, strict=False)
+        ]
+        self._contacts = np.concatenate([pair.reshape(-1, 2) for pair in pairs])
+
+
+class Variants:
+    """The variants of each example that an extractor may match, and the leaves as terms over their groups of hulls.
+
+    A variant is left out where two hulls that no extractor tells apart were treated differently.
+    """
+
+    def __init__(
+        self,
+        examples: Sequence[Example],
+        ways: Sequence[Sequence[Relabeling]],
+        vocabulary: Sequence[str],
+        layers: Layers,
+        extremity: float,
+    ) -> None:
+        self._groups = HullGroups(VariantHullTable(examples, ways), vocabulary, layers, extremity)
+        self.width, self.terms = self._groups.width, self._groups.terms
+        self.by_example: list[list[Variant]] = []
+        begin = 0
+        for example, some in zip(examples, ways, strict=True):
+            size = len(example.mesh.hulls)
+            slices = [self._groups.of[begin + k * size : begin + (k + 1) * size] for k in range(len(some))]
+            begin += len(some) * size
+            variants = [_to_variant(example, one, part) for one, part in zip(some, slices, strict=True)]
+            self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
+
+    def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
+        """Of each example the relabelings on which an extractor selects what was shown; on all of them for None."""
+        found = None if extractor is None else self._groups.term(extractor).bits
+        return [
+            [
+                variant.relabeling
+                for variant in variants
+                if found is None or (found & variant.need == variant.need and not found & variant.avoid)
+            ]
+            for variants in self.by_example
+        ]
+
+
+def _to_variant(example: Example, relabeling: Relabeling, groups: Sequence[int]) -> Variant:
+    shown = example.selection
+    need = mask_of(group for hull, group in enumerate(groups) if shown >> hull & 1)
+    return Variant(relabeling, need, mask_of(group for hull, group in enumerate(groups) if not shown >> hull & 1))
+
+
+def _labels_under(example: Example, relabeling: Relabeling) -> list[str | None]:
+    labels = [hull.label for hull in example.mesh.hulls]
+    for index, to in relabeling.changes:
+        labels[index] = to
+    return labels

@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 
-from meshforge.perception.vlm import Client, Endpoint, Message, Question
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import Endpoint
+from meshforge.labels.vlm.request import Message, VlmQuestion
 from tests.loopback import KEY, Server
 
 VARIABLE = "MESHFORGE_TEST_KEY"
@@ -34,8 +36,8 @@ def client(
     return Client(endpoint, folder, max_cost=max_cost, stop=stop or (lambda: False))
 
 
-def question(text: str = "Say a word.", *pictures: bytes, **how: Any) -> Question:
-    return Question((Message.system("Be brief."), Message.user(text, *pictures)), **how)
+def question(text: str = "Say a word.", *pictures: bytes, **how: Any) -> VlmQuestion:
+    return VlmQuestion((Message.system("Be brief."), Message.user(text, *pictures)), **how)
 
 
 @pytest.fixture

@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.perception.vlm.answer import Answer, read_answer
+from meshforge.labels.vlm.answer import HullAnswer, read_answer
 
 WORDS = ("leg", "table top", "drawer_front", "Füße")
 RIGHT = '{"hulls": [{"number": 0, "label": "leg"}, {"number": 2, "label": "table top"}]}'
 SAID = {0: "leg", 2: "table top"}
 
 
-def read(text: str, asked: tuple[int, ...] = (0, 2)) -> Answer:
+def read(text: str, asked: tuple[int, ...] = (0, 2)) -> HullAnswer:
     return read_answer(text, asked, WORDS, "unknown")
 
 
@@ -37,7 +37,7 @@ def read(text: str, asked: tuple[int, ...] = (0, 2)) -> Answer:
     ],
 )
 def test_all_that_says_the_same_is_read_the_same(text: str) -> None:
-    assert read(text) == Answer(SAID, (), ())
+    assert read(text) == HullAnswer(SAID, (), ())
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_all_that_says_the_same_is_read_the_same(text: str) -> None:
     ],
 )
 def test_what_is_not_said_clearly_is_left_open(text: str, said: object, odd: object, left: object) -> None:
-    assert read(text) == Answer(said, odd, left)  # type: ignore[arg-type]
+    assert read(text) == HullAnswer(said, odd, left)  # type: ignore[arg-type]
 
 
 def test_words_that_are_no_labels_are_told() -> None:

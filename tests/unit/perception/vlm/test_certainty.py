@@ -6,9 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.perception.vlm.answer import read_answer
-from meshforge.perception.vlm.certainty import Chances, chances
-from meshforge.perception.vlm.reply import Reply, Token
+from meshforge.labels.vlm.answer import Chances, label_chances, read_answer
+from meshforge.labels.vlm.transport import Reply, Token
 
 WORDS = ("leg", "ledge", "panel", "Füße")
 
@@ -20,7 +19,7 @@ def tokens(*rows: tuple[str, float, dict[str, float]]) -> tuple[Token, ...]:
 def told(rows: tuple[Token, ...], text: str | None = None) -> dict[int, Chances]:
     text = b"".join(row.text for row in rows).decode() if text is None else text
     answer = read_answer(text, (3,), WORDS, "unknown")
-    return chances(Reply(text, tokens=rows), answer, WORDS, "unknown")
+    return label_chances(Reply(text, tokens=rows), answer, WORDS, "unknown")
 
 
 def test_a_label_has_the_product_of_its_tokens_and_others_what_was_likely_instead() -> None:
@@ -52,7 +51,7 @@ def test_thoughts_before_the_answer_do_not_disturb() -> None:
 def test_labels_that_are_not_ascii_are_found_though_tokens_cut_their_characters() -> None:
     raw = '{"hulls": [{"number": 3, "label": "Füße"}]}'.encode()
     rows = tuple(Token(raw[k : k + 1], 0.99, {}) for k in range(len(raw)))
-    found = chances(
+    found = label_chances(
         Reply(raw.decode(), tokens=rows), read_answer(raw.decode(), (3,), WORDS, "unknown"), WORDS, "unknown"
     )
     assert found[3]["Füße"] == pytest.approx(0.99 ** len("Füße".encode()))
@@ -69,7 +68,7 @@ def test_labels_that_are_not_ascii_are_found_though_tokens_cut_their_characters(
 )
 def test_where_the_chances_cannot_be_matched_none_are_told(text: str, rows: tuple[Token, ...] | None) -> None:
     answer = read_answer(text, (3,), WORDS, "unknown")
-    assert chances(Reply(text, tokens=rows), answer, WORDS, "unknown") == {}
+    assert label_chances(Reply(text, tokens=rows), answer, WORDS, "unknown") == {}
 
 
 @given(
@@ -85,7 +84,7 @@ def test_chances_sum_up_to_one_however_the_tokens_are_cut(
     places = [0, *sorted(cut for cut in cuts if cut < len(raw)), len(raw)]
     pieces = [raw[a:b] for a, b in itertools.pairwise(places)]
     rows = tuple(Token(piece, chance, {t.encode(): c for t, c in others.items()}) for piece in pieces)
-    found = chances(
+    found = label_chances(
         Reply(raw.decode(), tokens=rows), read_answer(raw.decode(), (3,), WORDS, "unknown"), WORDS, "unknown"
     )
     assert sum(found[3].values()) == pytest.approx(1)

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import MeshForgeError, UsageError
-from meshforge.perception.vlm import AskingError, EndError, Endpoint, Features, RefusedError, Usage
+from meshforge.common import MeshForgeError, UsageError
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
+from meshforge.labels.vlm.request import ServerFeatures
 from tests.loopback import DROP, FAULTS, GARBAGE, SLOW, Asked, Fault, serving, status
 from tests.unit.perception.vlm.asking import SCHEMA, VARIABLE, client, key, question
 
@@ -32,7 +33,7 @@ def test_an_answer_is_counted_and_kept_and_not_asked_for_again(tmp_path: Path) -
         one = client(server, tmp_path, input_price=2.0, output_price=10.0)
         reply = one.ask(question())
         assert (reply.text, reply.cached) == ("leg", False)
-        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
         assert one.usage.cost == pytest.approx((2 * server.usage["input"] + 10 * server.usage["output"]) / 1e6)
         again = client(server, tmp_path, input_price=2.0, output_price=10.0)
         known = again.ask(question())
@@ -49,7 +50,7 @@ def test_only_what_the_server_understands_is_asked_of_it(schema: str, logprobs: 
         one = client(server)
         reply = one.ask(question(schema=SCHEMA))
         limit = "max_completion_tokens" if thinks else "max_tokens"
-        assert one.features() == Features(schema == "honoured", logprobs == "given", not thinks, limit)
+        assert one.features() == ServerFeatures(schema == "honoured", logprobs == "given", not thinks, limit)
         (asked,) = server.answered
         sent = {"response_format", "logprobs", "temperature", "max_tokens", "max_completion_tokens"} & asked.body.keys()
         wanted = {"response_format"} if schema == "honoured" else set()
@@ -66,7 +67,7 @@ def test_a_model_that_forbids_logprobs_is_asked_without_them() -> None:
     with serving(lambda asked: "leg", fault=fault, thinks=True) as server:
         one = client(server)
         assert one.ask(question()).text == "leg"
-        assert one.features() == Features(logprobs=False, temperature=False, limit="max_completion_tokens")
+        assert one.features() == ServerFeatures(logprobs=False, temperature=False, limit="max_completion_tokens")
 
 
 def test_a_server_is_probed_once_even_by_many_at_one_time_and_in_later_runs(tmp_path: Path) -> None:
@@ -84,9 +85,9 @@ def test_a_server_is_probed_once_even_by_many_at_one_time_and_in_later_runs(tmp_
 def test_pictures_arrive_as_they_are_and_are_kept_beside_the_answer(tmp_path: Path) -> None:
     from PIL import Image
 
-    from meshforge.views import png
+    from meshforge.rendering import encode_png
 
-    pictures = [png(Image.new("RGB", (20, 10), colour)) for colour in ("white", "black")]
+    pictures = [encode_png(Image.new("RGB", (20, 10), colour)) for colour in ("white", "black")]
     with serving(lambda asked: "leg") as server:
         one = client(server, tmp_path)
         asked = question("Look.", *pictures)
@@ -106,7 +107,7 @@ def test_faults_that_pass_are_tried_again_and_cost_nothing(fault: Fault) -> None
         one = client(server, timeout=0.2, input_price=1.0, output_price=1.0)
         assert one.ask(question()).text == "leg"
         assert (one.usage.retries, one.usage.answered) == (2, 2)
-        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
         lost = fault.kind != "status"
         assert (one.usage.lost, one.usage.perhaps > 0) == (2 * lost, lost)
 
@@ -117,7 +118,7 @@ def test_a_question_that_gets_no_answer_does_not_end_the_others() -> None:
 
     with serving(lambda asked: "leg", fault=fault) as server:
         one = client(server, retries=2)
-        with pytest.raises(AskingError, match="no answer after 3 attempts, the last: 500: out of order"):
+        with pytest.raises(QuestionError, match="no answer after 3 attempts, the last: 500: out of order"):
             one.ask(question("hard"))
         assert one.end is None
         assert one.ask(question("easy")).text == "leg"
@@ -128,7 +129,7 @@ def test_when_nobody_answers_any_more_the_asking_ends() -> None:
         one = client(server, retries=1, concurrency=2)
         ends = 0
         for k in range(8):
-            with pytest.raises(AskingError) as raised:
+            with pytest.raises(QuestionError) as raised:
                 one.ask(question(str(k)))
             ends += isinstance(raised.value, EndError)
         assert ends == 4
@@ -169,7 +170,7 @@ def test_a_server_that_is_not_there_is_told_soon() -> None:
 
 
 def test_a_model_without_eyes_ends_it_where_there_are_pictures_only() -> None:
-    from meshforge.perception.vlm.features import probe_question
+    from meshforge.labels.vlm.request import probe_question
 
     (picture,) = probe_question(True).pictures
     with serving(lambda asked: "leg", sees=False) as server:
@@ -194,7 +195,7 @@ def test_a_refused_question_is_asked_without_its_schema_and_then_given_up() -> N
         assert one.ask(question(schema=SCHEMA)).text == "leg"
     with serving(lambda asked: "leg", fault=fault) as server:
         one = client(server)
-        with pytest.raises(RefusedError, match=r"the server refused the question \(400\): too long"):
+        with pytest.raises(RefusalError, match=r"the server refused the question \(400\): too long"):
             one.ask(question("a long one", schema=SCHEMA))
         assert one.end is None
         assert one.usage.retries == 0
@@ -359,7 +360,7 @@ def test_garbage_that_tells_what_it_cost_is_counted() -> None:
         server._completion = completion  # type: ignore[method-assign]
         one = client(server)
         assert one.ask(question()).text == "leg"
-        assert one.usage.usage == Usage(server.usage["input"], server.usage["output"])
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
         assert (one.usage.retries, one.usage.lost) == (1, 0)
 
 
@@ -376,13 +377,13 @@ def test_nothing_heavy_is_loaded_before_something_is_asked() -> None:
 
 
 def test_errors_are_of_the_one_family() -> None:
-    assert issubclass(EndError, AskingError)
-    assert issubclass(RefusedError, AskingError)
-    assert issubclass(AskingError, MeshForgeError)
+    assert issubclass(EndError, QuestionError)
+    assert issubclass(RefusalError, QuestionError)
+    assert issubclass(QuestionError, MeshForgeError)
 
 
 def test_slow_and_garbled_answers_are_told_as_such() -> None:
     for fault, message in ((SLOW, "no answer within 0.2 seconds"), (GARBAGE, "something that is no JSON")):
         serve = serving(lambda asked: "leg", fault=first(fault, fault), slow=0.4)
-        with serve as server, pytest.raises(AskingError, match=message):
+        with serve as server, pytest.raises(QuestionError, match=message):
             client(server, retries=1, timeout=0.2).ask(question())

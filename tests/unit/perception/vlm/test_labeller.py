@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Box, Pose, Shape
-from meshforge.perception.vlm import MODES, Labeller, Manner, ModeName, Said
+from meshforge.labels.vlm.answer import VlmAnswers
+from meshforge.labels.vlm.labeller import Labeller
+from meshforge.labels.vlm.prompt import MODES, ModeName, PromptConfig
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.loopback import CUT, Asked, Server, labels_as_json, serving, status
 from tests.unit.perception.vlm.asking import client, key
@@ -48,19 +50,19 @@ def right(shown: SymbolicMesh) -> Callable[[Asked], str]:
 def labelling(
     answer: Callable[[Asked], str], mode: ModeName = "cheap", folder: Path | None = None, **how: Any
 ) -> Iterator[tuple[Labeller, Server]]:
-    """A labeller with small pictures; how: fields of `Manner`, `Server` and `Endpoint`, as they are called."""
+    """A labeller with small pictures; how: fields of `PromptConfig`, `Server` and `Endpoint`, as they are called."""
     told = {name: how.pop(name) for name in ("fault", "schema", "logprobs", "chance", "delay") if name in how}
     asking = {name: how.pop(name) for name in ("concurrency", "retries") if name in how}
     examples = how.pop("examples", ())
     with serving(answer, **told) as server:
         one = client(server, folder, **asking)
-        labeller = Labeller(one, Manner(WORDS, mode=mode, size=SMALL, **how), examples)
+        labeller = Labeller(one, PromptConfig(WORDS, mode=mode, size=SMALL, **how), examples)
         yield labeller, server
         labeller.close()
         one.close()
 
 
-def names(said: Said) -> dict[str, str]:
+def names(said: VlmAnswers) -> dict[str, str]:
     return {hull: label.name for hull, label in said.labels.items()}
 
 
@@ -183,7 +185,7 @@ def test_a_vocabulary_with_the_word_unknown_has_another_word_for_not_knowing() -
     shown = table()
     words = ("unknown", "leg")
     with serving(lambda asked: labels_as_json({n: ("unknown", "cannot tell")[n % 2] for n in asked.numbers})) as server:
-        labeller = Labeller(client(server), Manner(words, mode="cheap", size=SMALL))
+        labeller = Labeller(client(server), PromptConfig(words, mode="cheap", size=SMALL))
         said = labeller.label(shown)
         labeller.close()
     assert set(names(said).values()) == {"unknown"}
@@ -218,7 +220,7 @@ def test_a_hull_within_another_is_asked_about_all_the_same() -> None:
 
 def test_a_mesh_without_hulls_asks_nothing() -> None:
     with labelling(lambda asked: "") as (labeller, server):
-        assert labeller.label(SymbolicMesh(())) == Said()
+        assert labeller.label(SymbolicMesh(())) == VlmAnswers()
         assert not server.asked
 
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from meshforge.perception.vlm import EndError
-from meshforge.perception.vlm.patience import LONGEST, Patience
+from meshforge.labels.vlm.endpoint import EndError
+from meshforge.labels.vlm.limits import LONGEST, Backoff
 
 
 class Clock:
@@ -24,7 +24,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     made = Clock()
-    monkeypatch.setattr("meshforge.perception.vlm.patience.time", made)
+    monkeypatch.setattr("meshforge.labels.vlm.limits.time", made)
     return made
 
 
@@ -35,19 +35,19 @@ def waited(clock: Clock, work: Callable[[], None]) -> float:
 
 
 def test_each_wait_is_twice_the_last_up_to_the_longest(clock: Clock) -> None:
-    patience = Patience(1.0, lambda: False)
+    patience = Backoff(1.0, lambda: False)
     waits = [waited(clock, lambda k=k: patience.back_off(k, None, 0.5)) for k in range(9)]  # type: ignore[misc]
     assert waits == pytest.approx([1, 2, 4, 8, 16, 32, LONGEST, LONGEST, LONGEST])
 
 
 def test_questions_that_fail_together_come_back_apart(clock: Clock) -> None:
-    patience = Patience(1.0, lambda: False)
+    patience = Backoff(1.0, lambda: False)
     waits = [waited(clock, lambda s=s: patience.back_off(2, None, s)) for s in (0.0, 1.0)]  # type: ignore[misc]
     assert waits == pytest.approx([3.0, 5.0])
 
 
 def test_what_the_server_wants_waited_holds_for_all_questions(clock: Clock) -> None:
-    patience = Patience(0.1, lambda: False)
+    patience = Backoff(0.1, lambda: False)
     start = clock.now
     patience.back_off(0, 20.0, 0.5)
     assert clock.now == pytest.approx(
@@ -61,11 +61,11 @@ def test_what_the_server_wants_waited_holds_for_all_questions(clock: Clock) -> N
 
 def test_a_wait_that_is_too_long_ends_the_asking(clock: Clock) -> None:
     with pytest.raises(EndError, match="left alone for 60 minutes"):
-        Patience(0.1, lambda: False).back_off(0, 3600.0, 0.5)
+        Backoff(0.1, lambda: False).back_off(0, 3600.0, 0.5)
 
 
 def test_a_stop_cuts_a_wait_short(clock: Clock) -> None:
-    patience = Patience(50.0, lambda: clock.now > 101)
+    patience = Backoff(50.0, lambda: clock.now > 101)
     with pytest.raises(EndError, match="stopped"):
         patience.back_off(0, None, 0.5)
     assert clock.now < 101.2

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import UsageError
-from meshforge.perception.vlm import AskingError, Client, EndError, Endpoint
+from meshforge.common import UsageError
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError
 from tests.loopback import FAULTS, Server, serving, sometimes
 from tests.unit.perception.vlm.asking import client, key, question
 
@@ -26,7 +27,7 @@ def ask_all(one: Client, count: int, **how: int) -> int:
     def ask(number: int) -> bool:
         try:
             one.ask(question(f"{number} " + "word " * 200, limit=100, **how))
-        except AskingError:
+        except QuestionError:
             return False
         return True
 

@@ -5,11 +5,11 @@ from functools import partial
 
 import pytest
 
-from meshforge.perception.vlm.workers import Workers
+from meshforge.labels.vlm.labeller import RequestThreads
 
 
 def test_results_come_back_to_who_asked_and_so_do_errors() -> None:
-    workers = Workers(3)
+    workers = RequestThreads(3)
     futures = [workers.submit(partial(divmod, 100, k)) for k in range(20)]
     with pytest.raises(ZeroDivisionError):
         futures[0].result(timeout=10)
@@ -18,7 +18,7 @@ def test_results_come_back_to_who_asked_and_so_do_errors() -> None:
 
 
 def test_what_waits_in_line_is_dropped_at_the_end_and_nothing_hangs() -> None:
-    workers, gate, begun = Workers(1), threading.Event(), threading.Event()
+    workers, gate, begun = RequestThreads(1), threading.Event(), threading.Event()
 
     def slow() -> str:
         begun.set()

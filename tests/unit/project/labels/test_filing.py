@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError, MeshForgeError, ProjectError, UsageError
+from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
 from meshforge.formats import read
 from meshforge.geometry import Floats
-from meshforge.perception.segments import Placing
-from meshforge.project import Filing, Labelled, Offers, Project, Reading
+from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache, PointsOptions
+from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
 from tests.unit.project.labels.partnet import HULLS, write_partnet
@@ -39,7 +40,7 @@ def labels(project: Project, asset: str = ASSET) -> dict[str, tuple[str, float, 
 
 def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path: Path) -> None:
     project = partnet(tmp_path)
-    (report,) = project.label_from_files(how=Filing(MEANINGS))
+    (report,) = project.label_from_files(how=LabelFileOptions(MEANINGS))
     assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
     assert labels(project) == {
         "link_2/geom0": ("frame", 1.0, "file"),
@@ -54,7 +55,7 @@ def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path:
 def test_what_means_nothing_in_the_vocabulary_is_told_and_left_out(tmp_path: Path) -> None:
     project = partnet(tmp_path)
     (report,) = project.label_from_files()
-    assert report == Labelled(
+    assert report == LabelOutcome(
         ASSET,
         taken=5,
         unlabelled=1,
@@ -81,7 +82,9 @@ def test_links_that_are_not_there_are_told(tmp_path: Path) -> None:
 def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path) -> None:
     project = partnet(tmp_path, semantics="link_9 hinge door\n")
     file = tmp_path / "assets/semantics.txt"
-    assert project.label_from_files() == (Labelled(ASSET, problems=(f"{file}: it tells of no link of this asset",)),)
+    assert project.label_from_files() == (
+        LabelOutcome(ASSET, problems=(f"{file}: it tells of no link of this asset",)),
+    )
     file.write_text("link_0 slider\n")
     (report,) = project.label_from_files()
     assert "this line has 2 words, not three" in report.problems[0]
@@ -126,8 +129,8 @@ def table(folder: Path, *vocabulary: str) -> Project:
     return Project.create(folder / "p", [folder / "assets"], vocabulary=vocabulary)
 
 
-def named(classes: str) -> Filing:
-    return Filing(reading=Reading(tuple(classes.split(","))))
+def named(classes: str) -> LabelFileOptions:
+    return LabelFileOptions(reading=PointsOptions(tuple(classes.split(","))))
 
 
 def right(project: Project, asset: str = "t.obj") -> bool:
@@ -180,11 +183,11 @@ def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path
     file = tmp_path / "given.npz"
     names = ["board", "right legs", "left_leg", "crumb"]
     np.savez(file, points=points, labels=[kinds[name] for name in owner], names=names)
-    (report,) = project.label_from_files(file, Filing((("board", "top"),)))
+    (report,) = project.label_from_files(file, LabelFileOptions((("board", "top"),)))
     assert report.problems == ("1 hull left out: 'crumb' is not in the vocabulary, and no pattern says what it means",)
     assert right(project) and len(labels(project, "t.obj")) == 5
     sure = {name: sure for name, (_, sure, _) in labels(project, "t.obj").items()}
-    project.label_from_files(file, Filing((("board", "top"), ("*leg*", "leg"))))
+    project.label_from_files(file, LabelFileOptions((("board", "top"), ("*leg*", "leg"))))
     assert all(now > sure[name] for name, (label, now, _) in labels(project, "t.obj").items() if label == "leg")
 
 
@@ -207,7 +210,7 @@ def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: P
     assert report.taken == 0 and len(report.problems) == 1
     assert "its points do not lie where the asset does" in report.problems[0]
     assert report.problems[0].endswith("They would fit with --points-up y --align box.")
-    how = Filing(reading=Reading(("vocabulary",), Placing("box", "y")))
+    how = LabelFileOptions(reading=PointsOptions(("vocabulary",), PointAlignment("box", "y")))
     (report,) = project.label_from_files(tmp_path / "given.npz", how)
     assert report.taken == 6 and all(hull.startswith(label) for hull, (label, _, _) in labels(project).items())
 
@@ -220,7 +223,9 @@ def test_points_that_most_hulls_do_not_hold_are_refused_unless_they_are_to_be_ta
     np.savez(tmp_path / "given.npz", points=points, labels=np.zeros(500, int), names=["top"])
     (report,) = project.label_from_files(tmp_path / "given.npz")
     assert "of its points are in hulls: it may be turned, or of another asset" in report.problems[0]
-    (report,) = project.label_from_files(tmp_path / "given.npz", Filing(reading=Reading(placing=Placing("off"))))
+    (report,) = project.label_from_files(
+        tmp_path / "given.npz", LabelFileOptions(reading=PointsOptions(placing=PointAlignment("off")))
+    )
     assert report.taken > 0 and not report.problems
 
 
@@ -301,7 +306,7 @@ def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) ->
 
 
 def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Path) -> None:
-    project, offers = partnet(tmp_path), Offers()
+    project, offers = partnet(tmp_path), OfferCache()
     assert offers.of(project).files == (ASSET,)
     project.set_labels(ASSET, {"link_0/geom0": "drawer"}, source="propagated", confidence=0.6)
     assert offers.of(project).files == (ASSET,)

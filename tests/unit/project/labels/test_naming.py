@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError, UsageError
-from meshforge.project import Labelled, Offers, Project
+from meshforge.common import ProjectError, UsageError
+from meshforge.labels import LabelOutcome, OfferCache
+from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import Corner, obj, tree, write_table
 
@@ -73,10 +74,10 @@ def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
     before = tree(project.folder / "labels")
     assert found(project) == {"base/door2": "door"}
     assert tree(project.folder / "labels") == before
-    assert project.label_from_names() == (Labelled("robot.urdf", taken=1, unlabelled=1),)
+    assert project.label_from_names() == (LabelOutcome("robot.urdf", taken=1, unlabelled=1),)
     labels = project.labels("robot.urdf").labels
     assert labels == {"base/door1": Label("leg"), "base/door2": Label("door", 0.7, "name")}
-    assert project.label_from_names() == (Labelled("robot.urdf", unlabelled=1),)
+    assert project.label_from_names() == (LabelOutcome("robot.urdf", unlabelled=1),)
 
 
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
@@ -125,7 +126,7 @@ def test_given_patterns_precede_those_of_the_settings(tmp_path: Path) -> None:
 
 
 def test_offers_follow_the_patterns(tmp_path: Path) -> None:
-    project, offers = named(tmp_path, "door", "leg", base=("strut",)), Offers()
+    project, offers = named(tmp_path, "door", "leg", base=("strut",)), OfferCache()
     assert offers.of(project).names == {}
     with_names(project, '"strut" = "door"')
     assert offers.of(project).names == {"robot.urdf": {"base/strut": "door"}}
@@ -159,5 +160,5 @@ def test_a_label_that_is_renamed_is_renamed_in_the_patterns(tmp_path: Path) -> N
 def test_what_a_person_said_stays_whatever_the_patterns_say(tmp_path: Path) -> None:
     project = with_names(named(tmp_path, "door", "leg", base=("a", "b")), '"*" = "door"')
     project.set_labels("robot.urdf", {"base/a": "leg"})
-    assert project.label_from_names() == (Labelled("robot.urdf", taken=1),)
+    assert project.label_from_names() == (LabelOutcome("robot.urdf", taken=1),)
     assert project.labels("robot.urdf").labels["base/a"] == Label("leg")

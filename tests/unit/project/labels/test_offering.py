@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.project import Offers
+from meshforge.labels import OfferCache
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh, labelled
 
@@ -19,7 +19,7 @@ def test_labels_files_are_offered_until_they_are_taken(tmp_path: Path) -> None:
 
 
 def test_a_file_is_offered_again_when_it_says_something_else(tmp_path: Path) -> None:
-    project, offers = labelled(tmp_path), Offers()
+    project, offers = labelled(tmp_path), OfferCache()
     assert offers.of(project).files == ()
     file = tmp_path / "assets" / SECOND.replace(".obj", ".labels.json")
     file.write_text(file.read_text().replace('"crumb": "misc"', '"crumb": "leg"'))
@@ -27,7 +27,7 @@ def test_a_file_is_offered_again_when_it_says_something_else(tmp_path: Path) -> 
 
 
 def test_what_a_person_said_is_not_offered_to_be_overwritten(tmp_path: Path) -> None:
-    project, offers = labelled(tmp_path), Offers()
+    project, offers = labelled(tmp_path), OfferCache()
     project.set_labels(FIRST, {"crumb": "leg"})
     assert offers.of(project).files == ()
     project.set_labels(FIRST, {"crumb": None})
@@ -41,11 +41,11 @@ def test_a_labels_file_that_is_damaged_is_offered_and_says_so_when_it_is_taken(t
 
 
 def test_only_the_assets_that_are_asked_for_count(tmp_path: Path) -> None:
-    assert Offers().of(fresh(tmp_path), {SECOND}).files == (SECOND,)
+    assert OfferCache().of(fresh(tmp_path), {SECOND}).files == (SECOND,)
 
 
 def test_offers_follow_labels_and_vocabulary(tmp_path: Path) -> None:
-    project, offers = fresh(tmp_path), Offers()
+    project, offers = fresh(tmp_path), OfferCache()
     assert offers.of(project).names == {}
     project.set_vocabulary(["crumb"])
     assert offers.of(project).names[FIRST] == {"crumb": "crumb"}
@@ -60,6 +60,6 @@ def test_assets_are_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     def read(*_: object) -> SymbolicMesh:
         raise AssertionError("an asset was read")
 
-    monkeypatch.setattr("meshforge.project.survey.read", read)
-    monkeypatch.setattr("meshforge.project.reading.read_prepared", read)
+    monkeypatch.setattr("meshforge.store.survey.read", read)
+    monkeypatch.setattr("meshforge.store.meshes.read_prepared", read)
     assert made.label_offers() == before

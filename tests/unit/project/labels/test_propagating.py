@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES, Label
 from tests.examples import examples

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.project import Project, Proposal, Proposals
+from meshforge.labels import Proposal, Proposals
+from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.project.labels.test_naming import named
 from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from meshforge.project import Project, Share
-from meshforge.project.labels.sheets import PER_SHEET
-from meshforge.views import label_colors
+from meshforge.labels import SourceTally
+from meshforge.labels.progress import PER_SHEET
+from meshforge.project import Project
+from meshforge.rendering import label_colors
 from tests.unit.batch.families import label_of, table_boxes
 from tests.unit.project.labels.test_propagating import family
 
@@ -51,7 +52,7 @@ def test_labels_are_counted_by_source_and_confidence(tmp_path: Path) -> None:
     project.set_labels("t1.obj", {"crumb": "leg"}, source="vlm", confidence=0.49)
     (tmp_path / "assets/t2.obj").write_text("nothing of use")
     found = Project.open(tmp_path / "p").tally_labels()
-    assert found.shares == (Share("vlm", 1, 0, 1), Share("user", 2, 0, 0))
+    assert found.shares == (SourceTally("vlm", 1, 0, 1), SourceTally("user", 2, 0, 0))
     assert (found.hulls, found.unlabelled) == (2 * len(NAMES), 2 * len(NAMES) - 4)
     assert found.doubtful == (("t1.obj", len(NAMES) - 1), ("t0.obj", len(NAMES) - 2))
 

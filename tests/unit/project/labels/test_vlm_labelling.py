@@ -16,11 +16,13 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
-
-from meshforge.batch import HERE, Spread
-from meshforge.errors import MeshForgeError, ProjectError, UsageError
 from meshforge.perception import vlm
-from meshforge.project import Project, VlmLabelled
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.labels import VlmResult
+from meshforge.labels.vlm import prompt
+from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
@@ -61,7 +63,7 @@ def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -
 
 def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path: Path) -> None:
     asked = []
-    for name, spread in (("here", HERE), ("workers", Spread(workers=2))):
+    for name, spread in (("here", IN_PROCESS), ("workers", ExecutionOptions(workers=2))):
         project = family(tmp_path / name, 5)
         (project.path("t003.obj")).write_text("f 1 2 3\n")
         with serving(right) as server:
@@ -78,7 +80,7 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
 def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), spread=Spread(workers=1, timeout=0.001))
+        found = project.label_with_vlm(settings(server), spread=ExecutionOptions(workers=1, timeout=0.001))
     assert not server.asked
     assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
 
@@ -423,14 +425,16 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = family(tmp_path, 3)
-    real = vlm.looks
+    real = prompt.build_questions
 
-    def looks(mesh: SymbolicMesh, wanted: Sequence[str], manner: vlm.Manner, name: str) -> Iterator[vlm.Look]:
+    def looks(
+        mesh: SymbolicMesh, wanted: Sequence[str], manner: prompt.PromptConfig, name: str
+    ) -> Iterator[prompt.HullQuestion]:
         if name == "t001.obj":
             raise ZeroDivisionError("no room for the picture")
         return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(vlm, "looks", looks)
+    monkeypatch.setattr(vlm, "prompt", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))
@@ -441,7 +445,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
 def test_a_cut_answer_that_stays_cut_names_the_hulls(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     with serving(right, fault=lambda asked: None if asked.is_probe else CUT) as server:
-        found: VlmLabelled = project.label_with_vlm(settings(server))
+        found: VlmResult = project.label_with_vlm(settings(server))
     here = labels(project, "t000.obj")
     assert set(found.open["t000.obj"].values()) == {"the answer was cut off"}
     assert here.keys() | found.open["t000.obj"].keys() == set(hulls("t000.obj"))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from meshforge.project import Project, VlmSettings
+from meshforge.project import Project
+from meshforge.store import VlmSettings
 from tests.loopback import KEY, Asked, Server, labels_as_json
 from tests.unit.batch.families import Corner, label_of, obj, table_boxes
 

@@ -1,0 +1,233 @@
+"""Reading a glTF file or GLB: from its bytes to an asset, with notes and other names of what collides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from urllib.parse import unquote
+
+import numpy as np
+
+from meshforge.common import AssetError, pluralize
+from meshforge.formats.collision_meshes import digest_of
+from meshforge.formats.collision_pieces import drop_repeats
+from meshforge.formats.companions import find_companions
+from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord, name_hulls
+from meshforge.formats.gltf.mechanism import body_nodes, read_inertial, rigid_pose_of
+from meshforge.formats.gltf.physics import is_trigger
+from meshforge.formats.gltf.visuals import SceneSurfaces, visible_nodes
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Opaque, unique_names
+
+_DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
+
+_HOW: dict[Convention, str] = {
+    "khr": "its colliders are those of KHR_physics_rigid_bodies",
+    "omi": "its colliders are those of OMI_physics_body",
+    "omi collider": "its colliders are those of OMI_collider",
+    "unreal": "its collision is the nodes that Unreal takes by their names, UCX_ and the like",
+    "godot": "its collision is the nodes that Godot takes by their names, -col and the like",
+    "unity": "its collision is what lies below nodes called _colliders, as files for Unity have it",
+}
+_HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
+_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")
+_PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape", "OMI_collider")
+
+
+def read_gltf(path: Path) -> Asset:
+    """The asset in a glTF file or GLB.
+
+    Raises AssetError: damaged, compressed in a way that is not read, a buffer is missing, or there is nothing in it.
+    """
+    source = read_content(path)
+    with report_damage(str(path)):
+        scene = GltfScene.of(source, path)
+        reader = CollisionReader(scene)
+        sources = reader.read()
+        bodies = name_bodies(scene)
+        fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
+        notes = [*collect_notes(scene, reader.convention), *reader.notes]
+        authored = record_nodes(sources, bodies)
+        said = [mentions_of_node(scene, source) for source in sources]
+        geoms = tuple(_build_geoms(authored, sources, said))
+        masses = tuple(_read_masses(scene, bodies, geoms))
+        digests = tuple((file, digest_of(file)) for file in scene.buffers.files() if file.is_file())
+    if not sources:
+        raise AssetError("there is no mesh and no collider in its scene", where=str(path))
+    files, missing = _find_files(scene, path)
+    return Asset(
+        path=path,
+        format="gltf",
+        bodies=_list_bodies(scene, bodies, fixed),
+        geoms=geoms,
+        document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
+        opaque=tuple(_build_opaque(authored, sources, said)),
+        visuals=_lazy_visuals(source, path, bodies, reader.convention),
+        files=files,
+        missing=missing,
+        notes=tuple(notes),
+        mechanism=Mechanism(inertials=masses),
+        up="y",
+    )
+
+
+def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:
+    """For each node in a rigid body, the node that is the body, and the body's name."""
+    owners = body_nodes(scene)
+    nodes = list(dict.fromkeys(owners.values()))
+    own = [scene.placements[node].node.get("name") for node in nodes]
+    wanted = [name if isinstance(name, str) and name else f"body{k}" for k, name in enumerate(own)]
+    names = dict(zip(nodes, unique_names([BODY, *wanted])[1:], strict=True))
+    return {node: (owner, names[owner]) for node, owner in owners.items()}
+
+
+def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]) -> tuple[NodeRecord, ...]:
+    """The sources with the names of their pieces; names begin with the body where the file has rigid bodies."""
+    own = [bodies[source.node][1] if source.node in bodies else BODY for source in sources]
+    named = [
+        (body if bodies else None, source.name, len(source.parts)) for body, source in zip(own, sources, strict=True)
+    ]
+    return tuple(
+        NodeRecord(source.node, body, names, source.owner)
+        for source, body, names in zip(sources, own, name_hulls(named), strict=True)
+    )
+
+
+def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], ...]:
+    return tuple(dict.fromkeys(bodies.values()))
+
+
+def _has_fixed_parts(
+    scene: GltfScene, convention: Convention, sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]
+) -> bool:
+    """Whether something that collides or is seen is part of no rigid body."""
+    nodes = [*(source.node for source in sources), *visible_nodes(scene, convention)]
+    return not bodies or any(node not in bodies for node in nodes)
+
+
+def _list_bodies(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], fixed: bool) -> tuple[Body, ...]:
+    """The body of the root frame where something is part of it, then the rigid ones."""
+    moving = [Body(name, rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
+    return (*([Body(BODY, Pose.identity())] if fixed else []), *moving)
+
+
+def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
+    for node, name in _nodes_of(bodies):
+        hulls = [geom.shape for geom in geoms if geom.body == name]
+        inertial = read_inertial(scene.placements[node], name, hulls)
+        if inertial is not None:
+            yield inertial
+
+
+def _build_geoms(
+    authored: Sequence[NodeRecord], sources: Sequence[NodeCollision], said: Sequence[Sequence[Mentions]]
+) -> Iterator[Geom]:
+    for element, source, words in zip(authored, sources, said, strict=True):
+        for name, part, own in zip(element.names, source.parts, words, strict=True):
+            if part.shape is not None:
+                yield Geom(name, element.body, part.shape, mentions=own)
+
+
+def _build_opaque(
+    authored: Sequence[NodeRecord], sources: Sequence[NodeCollision], said: Sequence[Sequence[Mentions]]
+) -> Iterator[Opaque]:
+    for element, source, words in zip(authored, sources, said, strict=True):
+        for name, part, own in zip(element.names, source.parts, words, strict=True):
+            if part.shape is None:
+                yield Opaque(name, element.body, part.reason, part.surface, source.plane, own)
+
+
+def _lazy_visuals(
+    source: bytes, path: Path, bodies: Mapping[int, tuple[int, str]], convention: Convention
+) -> SceneSurfaces | tuple[()]:
+    if convention == "plain":
+        return ()
+    return SceneSurfaces(source, path, {node: name for node, (_, name) in bodies.items()})
+
+
+def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The files beside it that are there, and the references that lead nowhere."""
+    found = find_companions(path)
+    uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
+    named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
+    there = {(path.parent / key).resolve() for key in found}
+    missing = [uri for uri in named if (path.parent / unquote(uri)).resolve() not in there]
+    return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
+
+
+def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
+    """What is said of each piece of a node with collision; nothing where that is damaged, which hurts no one."""
+    try:
+        return _collect_mentions(scene, source)
+    except _DAMAGE:
+        return [()] * len(source.parts)
+
+
+def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
+    placement = scene.placements[source.node]
+    node, parent = placement.node, placement.parent
+    common = [("node", _name_of(node))]
+    mesh = entry(scene.tree, "meshes", node["mesh"]) if "mesh" in node else {}
+    common += [("mesh", _name_of(mesh))]
+    common += [("node", _name_of(scene.placements[parent].node))] if parent is not None else []
+    materials = [_name_of(material) for material in _materials(scene.tree, mesh)]
+    own = _materials_of_pieces(scene, source, node, materials)
+    return [drop_repeats([*common, *(("material", name) for name in names)]) for names in own]
+
+
+def _materials_of_pieces(
+    scene: GltfScene, source: NodeCollision, node: Json, materials: Sequence[str]
+) -> list[list[str]]:
+    """The names of the materials of each piece, those of the primitives that its triangles are of."""
+    if source.owner is None or "mesh" not in node:
+        return [list(materials)] * len(source.parts)
+    patches = scene.mesh(node["mesh"]).patches
+    of_face = np.repeat([patch.index for patch in patches], [len(patch.faces) for patch in patches])
+    if len(of_face) != len(source.owner):
+        return [list(materials)] * len(source.parts)
+    return [[materials[k] for k in np.unique(of_face[source.owner == part])] for part in range(len(source.parts))]
+
+
+def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
+    """The material of each primitive of a mesh; one without any is empty."""
+    for part in entries(mesh, "primitives"):
+        yield entry(tree, "materials", part["material"]) if "material" in part else {}
+
+
+def _name_of(thing: Json) -> str:
+    name = thing.get("name")
+    return name if isinstance(name, str) else ""
+
+
+def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
+    """The notes on a scene, whose collision was read by a convention."""
+    if convention in _HOW:
+        yield _HOW[convention]
+    elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
+        yield "no node is marked as collision: all meshes are taken for it, so that edits change what is seen"
+    placements, tree = scene.placements, scene.tree
+    outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
+    if outside:
+        yield f"{pluralize(len(outside), 'node')} with a mesh outside of the scene are left as they are"
+    if len(entries(tree, "scenes")) > 1:
+        default = "the default one" if "scene" in tree else "the first, as none is the default"
+        yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
+    triggers = sum(is_trigger(placement.node, tree) for placement in placements.values())
+    if triggers:
+        yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
+    shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
+    if skinned := sum("skin" in node for node in shown):
+        yield f"{pluralize(skinned, 'skinned mesh', 'skinned meshes')} are taken in the pose that the file has"
+    if morphed := sum(_has_morph_targets(scene, node["mesh"]) for node in shown):
+        yield f"{pluralize(morphed, 'mesh', 'meshes')} with morph targets are taken without them"
+    for name in entries(tree, "extensionsRequired"):
+        if name not in (*_KNOWN, *_PHYSICS) and not str(name).startswith(_HARMLESS):
+            yield f"the file asks for {name}, which is not known: its geometry may be meant otherwise"
+
+
+def _has_morph_targets(scene: GltfScene, mesh: object) -> bool:
+    return any(part.get("targets") for part in entries(entry(scene.tree, "meshes", mesh), "primitives"))

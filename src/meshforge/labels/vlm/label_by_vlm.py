@@ -1,0 +1,300 @@
+"""Labels for the hulls of a project from a model, each asset written as soon as it is answered; and a forecast of
+what that sends and costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import AbstractContextManager, closing
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure
+from meshforge.common import UsageError, describe_error
+from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
+from meshforge.store import AssetFiles, VlmSettings, asset_files_of, hull_digests
+from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
+
+if TYPE_CHECKING:
+    from meshforge.labels.vlm.answer import VlmAnswers
+    from meshforge.labels.vlm.client import Client
+    from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
+    from meshforge.labels.vlm.limits import Usage
+    from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig
+    from meshforge.project import Project
+
+
+UsageCallback = Callable[["Bill"], None]
+VlmWriteBlock = Callable[[], AbstractContextManager[object]]
+
+
+@dataclass(frozen=True, slots=True)
+class AssetQuestions:
+    """What is asked about an asset. hulls: digests by name, in order; wanted: the hulls whose labels may change.
+
+    error: why it cannot be read or drawn.
+    """
+
+    hulls: Mapping[str, str] = field(default_factory=dict)
+    wanted: tuple[str, ...] = ()
+    looks: tuple[HullQuestion, ...] = ()
+    error: str | None = None
+
+
+def draw_assets(
+    project: Project, manner: PromptConfig, spread: ExecutionOptions
+) -> Generator[tuple[str, AssetQuestions], None, None]:
+    """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
+    assets = project.assets()
+    items = list(zip(assets, asset_files_of(project, assets), strict=True))
+    work = spread.run(partial(_draw, manner), items)
+    try:
+        for asset, found in zip(assets, work, strict=True):
+            yield (
+                asset,
+                AssetQuestions(error=f"{project.path(asset)}: {found.why}")
+                if isinstance(found, WorkerFailure)
+                else found,
+            )
+    finally:
+        work.close()
+
+
+def _draw(manner: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
+    from meshforge.labels.vlm.prompt import build_questions
+
+    asset, place = item
+    try:
+        mesh = place.read_mesh()
+        wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
+        return AssetQuestions(hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, manner, asset)))
+    except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
+        return AssetQuestions(error=describe_error(error, asset))
+
+
+@dataclass(frozen=True, slots=True)
+class VlmResult:
+    """What came of asking a model. reports: of all assets, in their order; bill: what it cost.
+
+    open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not come
+    to, and ended: why, None where all were; blind: the model did not tell the colour of a red picture.
+    """
+
+    reports: tuple[LabelOutcome, ...]
+    usage: Usage
+    open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    unasked: tuple[str, ...] = ()
+    ended: str | None = None
+    blind: bool = False
+
+
+def label_with_vlm(
+    project: Project,
+    settings: VlmSettings,
+    progress: UsageCallback | None = None,
+    stop: Callable[[], bool] | None = None,
+    keeping: VlmWriteBlock | None = None,
+    spread: ExecutionOptions = IN_PROCESS,
+) -> VlmResult:
+    """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
+
+    progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: the block in
+    which all labels are written, in the end; None writes those of an asset as soon as all is said of it; spread: how
+    the pictures are drawn, while questions are asked from this process.
+    Raises MeshForgeError where nothing could be asked at all.
+    """
+    from meshforge.labels.vlm.client import Client
+    from meshforge.labels.vlm.labeller import Labeller
+
+    manner = settings.manner(project.vocabulary)
+    client = Client(settings.endpoint(), project.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
+    with (
+        closing(client),
+        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
+        closing(draw_assets(project, manner, spread)) as pictures,
+    ):
+        run = _Run(project, client, labeller, keeping, progress)
+        while not (client.end or (stop and stop())) and (found := next(pictures, None)):
+            run.begin(*found)
+        run.finish()
+    return run.result()
+
+
+class _Run:
+    """Assets on their way: asked about at one time, written as they are done."""
+
+    def __init__(
+        self,
+        project: Project,
+        client: Client,
+        labeller: Labeller,
+        keeping: VlmWriteBlock | None,
+        progress: UsageCallback | None,
+    ) -> None:
+        self._project, self._client, self._labeller = project, client, labeller
+        self._keeping, self._progress = keeping, progress
+        self._taker = LabelWriter(project)
+        self._pending: dict[str, tuple[Mapping[str, str], OpenAnswers]] = {}
+        self._reports: dict[str, LabelOutcome] = {}
+        self._open: dict[str, Mapping[str, str]] = {}
+        self._unwritten: list[Callable[[], None]] = []
+
+    def begin(self, asset: str, found: AssetQuestions) -> None:
+        """Ask about an asset; write those of which all is said by then."""
+        if found.error:
+            self._reports[asset] = LabelOutcome(asset, problems=(found.error,))
+            self._advance()
+            return
+        self._pending[asset] = found.hulls, self._labeller.ask(found.wanted, found.looks)
+        for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
+            self._write(done)
+
+    def finish(self) -> None:
+        """Wait for all answers, and write what they say."""
+        for asset in list(self._pending):
+            self._write(asset)
+        if self._keeping and self._unwritten:
+            with self._keeping():
+                for write in self._unwritten:
+                    write()
+
+    def result(self) -> VlmResult:
+        """What came of it all. Raises the error that ended it, where nothing came of it."""
+        end, bill = self._client.end, self._client.usage
+        if end and not bill.answered + bill.cached:
+            raise end
+        reports = tuple(self._reports[asset] for asset in self._project.assets() if asset in self._reports)
+        unasked = tuple(asset for asset in self._project.assets() if asset not in self._reports)
+        ended = end.message if end else "stopped" if unasked else None
+        return VlmResult(reports, bill, self._open, unasked, ended, self._client.is_blind)
+
+    def _write(self, asset: str) -> None:
+        hulls, pending = self._pending.pop(asset)
+        said = pending.result()
+        end = self._client.end
+        failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
+        if end and said.failed and not said.labels:
+            return  # it is told once that the asking ended, and which assets were not come to
+        if said.open:
+            self._open[asset] = said.open
+        if said.asked:
+            _write_page(self._project.layout.vlm, asset, said)
+
+        def write() -> None:
+            report = self._taker.write(asset, hulls, said.labels, can_replace_less_certain)
+            self._reports[asset] = replace(report, problems=(*report.problems, *failed))
+
+        if self._keeping:
+            self._unwritten.append(write)
+        else:
+            write()
+        self._advance()
+
+    def _advance(self) -> None:
+        if self._progress:
+            self._progress(self._client.usage)
+
+
+def _write_page(folder: Path, asset: str, said: VlmAnswers) -> None:
+    from meshforge.labels.vlm.cache import write_page
+
+    write_page(folder, asset, said)
+
+
+def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
+    """The labelled assets that are shown as examples, with labels that somebody gave."""
+    meshes = []
+    for asset in settings.examples:
+        mesh = project.mesh(asset)
+        guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
+        if len(guessed) == len(mesh.hulls):
+            remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
+            raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
+        meshes.append(mesh.with_labels(guessed))
+    return meshes
+
+
+@dataclass(frozen=True, slots=True)
+class VlmForecast:
+    """host, model, mode: who is asked, and how; assets, hulls: how many of them are asked about.
+
+    questions, of which `known` have their answers already; pictures, input, output: what the others send, and tokens
+    that this may come to; cost: their price [$], None where prices are not known. unreadable: assets that cannot be
+    read or drawn; key: the environment variable of the key, empty where none is wanted, and whether it is set.
+    """
+
+    host: str
+    model: str
+    mode: str
+    assets: int
+    hulls: int
+    questions: int
+    known: int
+    pictures: int
+    input: int
+    output: int
+    cost: float | None
+    unreadable: tuple[str, ...]
+    key: str
+    key_is_set: bool
+
+
+def forecast_vlm(
+    project: Project,
+    settings: VlmSettings,
+    progress: Callable[[], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+    vocabulary: Sequence[str] | None = None,
+    spread: ExecutionOptions = IN_PROCESS,
+) -> VlmForecast:
+    """What `label_with_vlm` would send; questions that have to be asked again come on top of it.
+
+    progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's;
+    spread: how the pictures are drawn.
+    """
+    from meshforge.labels.vlm.client import Client
+    from meshforge.labels.vlm.endpoint import TokenCount
+    from meshforge.labels.vlm.labeller import Labeller
+    from meshforge.labels.vlm.limits import estimate_tokens
+
+    endpoint, manner = settings.endpoint(), settings.manner(project.vocabulary if vocabulary is None else vocabulary)
+    client = Client(endpoint, project.layout.vlm, max_cost=settings.max_cost)
+    assets = hulls = questions = known = pictures = 0
+    usage, unreadable = TokenCount(), list[str]()
+    with (
+        closing(client),
+        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
+        closing(draw_assets(project, manner, spread)) as drawings,
+    ):
+        while not (stop and stop()) and (next_one := next(drawings, None)):
+            asset, found = next_one
+            if found.error:  # `label_with_vlm` says then what is wrong
+                unreadable.append(asset)
+                continue
+            assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)
+            for look in map(labeller.add_examples, found.looks):
+                questions += 1
+                if client.find_answer(look.question):
+                    known += 1
+                    continue
+                pictures += len(look.question.digests)
+                usage += TokenCount(estimate_tokens(look.question), look.expected)
+            if progress:
+                progress()
+    return VlmForecast(
+        host=endpoint.host,
+        model=endpoint.model,
+        mode=settings.mode,
+        assets=assets,
+        hulls=hulls,
+        questions=questions,
+        known=known,
+        pictures=pictures,
+        input=usage.input,
+        output=usage.output,
+        cost=endpoint.price(usage) if endpoint.is_priced else None,
+        unreadable=tuple(unreadable),
+        key=endpoint.key_name,
+        key_is_set=endpoint.has_key,
+    )

@@ -1,0 +1,161 @@
+"""Learning the program of a project from its demonstrations, and from what a person said since."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from meshforge.common import ProjectError
+from meshforge.language import Program
+from meshforge.project import accept
+from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
+from meshforge.project.family import FamilyMeshes
+from meshforge.project.review import find_accepted_results
+from meshforge.store import AnswerLine, AnswersFile, read_answers
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import (
+    Ambiguous,
+    Answer,
+    Demonstration,
+    Found,
+    LabelCorrection,
+    LearningOutcome,
+    NoProgram,
+    Options,
+    Repair,
+    synthesize,
+)
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+Confirm = Callable[[Repair], bool]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LearnOptions:
+    """How a project is to learn; the fields are those of `Project.synthesize`."""
+
+    accept: bool = True
+    options: Options | None = None
+    confirm: Confirm | None = None
+    stop: Callable[[], bool] | None = None
+    answers: Sequence[Answer] = ()
+    meshes: Mapping[str, SymbolicMesh] | None = None
+    follow: Program | None = None
+
+
+def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
+    """What can be learned from the demonstrations. Raises ProjectError where there are none."""
+    meshes = FamilyMeshes(project).meshes() if how.meshes is None else how.meshes
+    demos = _read_demonstrations(project, meshes)
+    lesson = accept.digest_learning_inputs(project)
+    said = read_answers(project)
+    fitting, unfit = _sort_answers(project, said, demos, how.answers)
+    looked = _answers_of_accepted(project, demos, fitting)
+    asked = _RepairAsker(project, how.confirm) if how.accept and how.confirm else None
+    settings = project.settings
+    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
+    confirm = _ask_once(asked or how.confirm) if how.confirm else None
+    templates, rejected = project.templates(names), _list_rejections(said)
+
+    def learned(answers: Sequence[Answer]) -> LearningOutcome:
+        return synthesize(
+            tuple(demos.values()),
+            batch=meshes,
+            orient=project.orientation,
+            templates=templates,
+            vocabulary=settings.vocabulary or None,
+            contact=settings.thresholds.contact,
+            extremity=settings.thresholds.extremity,
+            options=how.options or Options(),
+            confirm=confirm,
+            answers=answers,
+            rejected=rejected,
+            follow=how.follow,
+            stop=how.stop,
+        )
+
+    outcome = learned([*looked, *fitting])
+    if isinstance(outcome, NoProgram) and looked:
+        overruled = tuple(dict.fromkeys(answer.asset for answer in looked))
+        outcome = replace(learned(fitting), overruled=overruled)
+    stale = [answer for answer in outcome.stale if answer not in looked]
+    outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
+    if how.accept and isinstance(outcome, Found | Ambiguous):
+        accept.accept_outcome(project, outcome, asked.lesson if asked and asked.lesson else lesson)
+    return outcome
+
+
+def _ask_once(confirm: Confirm) -> Confirm:
+    """Asks about each correction once, however often something is learned."""
+    said: dict[LabelCorrection, bool] = {}
+
+    def asked(repair: Repair) -> bool:
+        if repair.correction not in said:
+            said[repair.correction] = confirm(repair)
+        return said[repair.correction]
+
+    return asked
+
+
+class _RepairAsker:
+    """Asks about repairs and keeps what is said at once. lesson: the digest of what is learned from, since then."""
+
+    def __init__(self, project: Project, confirm: Confirm) -> None:
+        self._project, self._confirm = project, confirm
+        self.lesson: str | None = None
+
+    def __call__(self, repair: Repair) -> bool:
+        right = self._confirm(repair)
+        (confirm_repair if right else reject_repair)(self._project, repair.correction)
+        self.lesson = accept.digest_learning_inputs(self._project)
+        return right
+
+
+def _read_demonstrations(project: Project, meshes: Mapping[str, SymbolicMesh]) -> dict[str, Demonstration]:
+    ids = [asset for asset in project.assets() if project.layout.demonstration(asset).exists()]
+    if not ids:
+        raise ProjectError(
+            "nothing is demonstrated yet",
+            where=str(project.folder),
+            remedy=f"Show the steps on an asset or two: meshforge demonstrate {project.folder} ASSET STEPS...",
+        )
+    # one that cannot be read is missing among the meshes; reading it again says why
+    return {
+        asset: Demonstration(meshes.get(asset) or project.mesh(asset), project.steps(asset), asset) for asset in ids
+    }
+
+
+def _sort_answers(
+    project: Project, said: AnswersFile, demos: Mapping[str, Demonstration], more: Sequence[Answer]
+) -> tuple[list[Answer], list[Answer]]:
+    """The answers to learn from, and those to a rule that does something else by now."""
+    lines = {line.id: line for line in [*said.answers, *(check_answer(project, answer) for answer in more)]}
+    actions = actions_of(demo.steps for demo in demos.values())
+
+    def fits(line: AnswerLine) -> bool:
+        return actions.get(line.rule) == (line.action or actions.get(line.rule, ""))
+
+    fitting = [line.answer for line in lines.values() if fits(line)]
+    return fitting, [line.answer for line in lines.values() if not fits(line)]
+
+
+def _answers_of_accepted(project: Project, demos: Mapping[str, Demonstration], said: Sequence[Answer]) -> list[Answer]:
+    """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
+    actions = actions_of(demo.steps for demo in demos.values())
+    known = {(answer.rule, answer.asset) for answer in said}
+    return [
+        Answer(one.rule, asset, one.select)
+        for asset, seen in find_accepted_results(project).items()
+        for one in seen
+        if actions.get(one.rule) == one.action and (one.rule, asset) not in known
+    ]
+
+
+def _list_rejections(said: AnswersFile) -> list[LabelCorrection]:
+    """What is not to be proposed: what was refused, and what would undo a confirmed repair."""
+    undone = (line.correction.reverse for line in said.confirmed)
+    return [*(line.correction for line in said.rejected), *(reverse for reverse in undone if reverse)]

@@ -1,0 +1,164 @@
+"""Another name for a label, in every file of a project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
+from meshforge.language import Program, rename_in_orient, rename_in_program
+from meshforge.project import accept
+from meshforge.store import (
+    AnswerLine,
+    AnswersFile,
+    ConfirmationLine,
+    CorrectionsFile,
+    DemonstrationFile,
+    RepairLine,
+    Settings,
+    action_text,
+    edit_settings,
+    json_text,
+    orientation,
+    orientation_text,
+    parse_action_text,
+    read_answers,
+    read_json,
+    repair_id,
+    set_value,
+)
+from meshforge.symbolic import LabelFile, format_labels, read_labels
+
+if TYPE_CHECKING:
+    from meshforge.project.project import Project
+
+
+def rename_label(project: Project, old: str, new: str) -> None:
+    """Rename a label of the vocabulary in all that the project keeps; labels files beside the assets stay.
+
+    A file that cannot be read stops it before anything is written. The vocabulary is written last: killed in between,
+    every file is whole and says one name or the other, and renaming again completes it, since the vocabulary has the
+    old name still. Only that the program was learned from what there is now may be forgotten by that.
+    Raises ProjectError: no such label, the new one is there already, or no program could write it.
+    """
+    with project.lock():
+        settings = project.settings
+        _check_names(project, settings.vocabulary, old, new)
+        texts = dict(_rewrite_files(project, old, new))
+        program = project.program()
+        after = _rename_in_settings(project, settings, old, new)
+        fresh = edit_settings(project.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
+        fresh = _rename_in_tables(project, fresh, settings, old, new)
+        lesson = accept.digest_learning_inputs(project)
+        for path, text in texts.items():
+            write_atomically(path, text)
+        if program:
+            accept.replace_program(project, program, rename_in_program(program, old, new), lesson, after)
+        write_atomically(project.layout.settings, fresh)
+
+
+def _check_names(project: Project, vocabulary: tuple[str, ...], old: str, new: str) -> None:
+    where = str(project.folder)
+    if old not in vocabulary:
+        like = nearest_name(old, vocabulary)
+        remedy = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+        raise ProjectError(f"there is no label {old!r}", where=where, remedy=remedy)
+    if new in vocabulary:
+        remedy = "Choose another name, or give its hulls that label."
+        raise ProjectError(f"there is a label {new!r} already", where=where, remedy=remedy)
+    if not _is_writable(new):
+        remedy = "A label is text of at least one character, without line breaks and control characters."
+        raise ProjectError(f"no program could write the label {new!r}", where=where, remedy=remedy)
+
+
+def _is_writable(label: str) -> bool:
+    try:
+        return label.isprintable() and Program.parse(str(Program(labels=(label,)))).labels == (label,)
+    except ProgramError:
+        return False
+
+
+def _rewrite_files(project: Project, old: str, new: str) -> Iterator[tuple[Path, str]]:
+    """The files that say the label, except for program and settings, with what they say then."""
+    layout = project.layout
+    for path in map(layout.labels, layout.ids_with("labels")):
+        file = read_labels(path)
+        if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
+            yield path, format_labels(_rename_in_labels(file, old, new))
+    for path in map(layout.demonstration, layout.ids_with("demonstrations")):
+        yield from _rename_in_steps(path, read_json(path, DemonstrationFile), old, new)
+    for path in map(layout.corrections, layout.ids_with("corrections")):
+        yield from _rename_in_steps(path, read_json(path, CorrectionsFile), old, new)
+    said = read_answers(project)
+    now = _rename_in_answers(said, layout.answers, old, new)
+    if now != said:
+        yield layout.answers, json_text(now)
+
+
+def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
+    labels = {key: replace(at, name=new) if at.name == old else at for key, at in file.labels.items()}
+    return LabelFile(tuple(new if word == old else word for word in file.vocabulary), labels, file.digests)
+
+
+def _rename_in_steps(
+    path: Path, kept: DemonstrationFile | CorrectionsFile | None, old: str, new: str
+) -> Iterator[tuple[Path, str]]:
+    steps = kept.steps if kept else ()
+    lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)
+    if kept and lines != steps:
+        yield path, json_text(kept.model_copy(update={"steps": lines}))
+
+
+def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
+    action, label = parse_action_text(text, where)
+    return action_text(action, new) if label == old else text
+
+
+def _rename_in_answers(said: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
+    """What was said with the label by its other name; of what says the same then, one stays."""
+    now = said.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
+    for line in said.answers:
+        now = now.with_line(_rename_in_answer(line, where, old, new))
+    for repair in (*said.rejected, *said.confirmed):
+        now = now.with_line(_rename_in_repair(repair, old, new))
+    return now
+
+
+def _rename_in_answer(line: AnswerLine, where: Path, old: str, new: str) -> AnswerLine:
+    action = None if line.action is None else _rename_in_action(line.action, where, old, new)
+    return line.model_copy(update={"action": action})
+
+
+def _rename_in_repair(line: RepairLine, old: str, new: str) -> RepairLine:
+    right = replace(
+        line.correction,
+        was=new if line.was == old else line.was,
+        to=new if line.to == old else line.to,
+    )
+    values: dict[str, object] = {"id": repair_id(right), "was": right.was, "to": right.to}
+    if isinstance(line, ConfirmationLine) and line.before and line.before.label == old:
+        values["before"] = line.before.model_copy(update={"label": new})
+    return line.model_copy(update=values)
+
+
+def _rename_in_tables(project: Project, text: str, settings: Settings, old: str, new: str) -> str:
+    """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
+    told, described = settings.vlm.descriptions, "vlm.descriptions"
+    try:
+        for pattern in (pattern for pattern, label in settings.names.items() if label == old):
+            text = set_value(text, pattern, new, "names")
+        if old in told:
+            text = set_value(set_value(text, new, told[old], described), old, None, described)
+    except ProjectError as error:
+        raise error.at(str(project.layout.settings)) from None
+    return text
+
+
+def _rename_in_settings(project: Project, settings: Settings, old: str, new: str) -> Settings:
+    vocabulary = tuple(new if word == old else word for word in settings.vocabulary)
+    before = orientation(settings, project.folder)
+    after = rename_in_orient(before, old, new) if before else None
+    text = settings.orient if after == before else orientation_text(after)
+    return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})

@@ -1,0 +1,91 @@
+"""The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
+use case."""
+
+from meshforge.store.feedback import (
+    AnswerLine,
+    AnswersFile,
+    ConfirmationLine,
+    LabelBefore,
+    RepairLine,
+    Review,
+    ReviewFile,
+    RuleSelection,
+    Verdict,
+    read_answers,
+    repair_id,
+    write_answers,
+)
+from meshforge.store.layout import Layout, json_text, read_json, write_json
+from meshforge.store.meshes import AssetFiles, asset_files_of, hull_digests, write_labels
+from meshforge.store.program import ProgramRecord, write_program
+from meshforge.store.settings import (
+    Settings,
+    VlmSettings,
+    edit_settings,
+    orientation,
+    orientation_text,
+    read_settings,
+    set_orientation,
+    set_vocabulary,
+)
+from meshforge.store.steps import (
+    CorrectionsFile,
+    DemonstrationFile,
+    StepLine,
+    action_text,
+    action_text_without_each,
+    parse_action_text,
+    read_corrections,
+    to_correction_lines,
+    to_step_lines,
+)
+from meshforge.store.survey import AssetFacts, geometry_digest, iterate_survey, survey
+from meshforge.store.toml_edit import set_value, toml_value
+
+__all__ = [
+    "AnswerLine",
+    "AnswersFile",
+    "AssetFacts",
+    "AssetFiles",
+    "ConfirmationLine",
+    "CorrectionsFile",
+    "DemonstrationFile",
+    "LabelBefore",
+    "Layout",
+    "ProgramRecord",
+    "RepairLine",
+    "Review",
+    "ReviewFile",
+    "RuleSelection",
+    "Settings",
+    "StepLine",
+    "Verdict",
+    "VlmSettings",
+    "action_text",
+    "action_text_without_each",
+    "asset_files_of",
+    "edit_settings",
+    "geometry_digest",
+    "hull_digests",
+    "iterate_survey",
+    "json_text",
+    "orientation",
+    "orientation_text",
+    "parse_action_text",
+    "read_answers",
+    "read_corrections",
+    "read_json",
+    "read_settings",
+    "repair_id",
+    "set_orientation",
+    "set_value",
+    "set_vocabulary",
+    "survey",
+    "to_correction_lines",
+    "to_step_lines",
+    "toml_value",
+    "write_answers",
+    "write_json",
+    "write_labels",
+    "write_program",
+]

@@ -1,0 +1,188 @@
+"""What a person said: answers and label repairs in answers.json, verdicts on edited assets in review.json."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from meshforge.store.layout import JsonFile, read_json, write_json
+from meshforge.symbolic import Label, LabelSource
+from meshforge.synthesis import Answer, LabelCorrection
+
+if TYPE_CHECKING:
+    from meshforge.project import Project
+
+
+Verdict = Literal["accepted", "flagged"]
+
+
+class _Entry(JsonFile):
+    """One thing that was said. id: what it is called; it follows from the other fields."""
+
+    id: str
+
+    @model_validator(mode="after")
+    def _check_id(self) -> Self:
+        if self.id != self.proper_id:
+            raise ValueError(f"the id of this entry is {self.proper_id!r}")
+        return self
+
+    @property
+    @abstractmethod
+    def proper_id(self) -> str:
+        """What it is to be called."""
+
+
+class AnswerLine(_Entry):
+    """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there, null for neither of the choices,
+    which are in `refused`.
+
+    action: what the rule does, in the language's own text without `Each`, so that an answer is not taken for one to
+    another rule when steps are put in or left out later.
+    """
+
+    rule: Annotated[int, Field(ge=1)]
+    asset: str
+    select: tuple[str, ...] | None
+    action: str | None = None
+    refused: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def proper_id(self) -> str:
+        return f"{self.rule}:{self.asset}"
+
+    @property
+    def answer(self) -> Answer:
+        return Answer(self.rule, self.asset, self.select, self.refused)
+
+
+class RepairLine(_Entry):
+    """A repair of a label `ASSET#HULL=LABEL`. was, `from` in the file: the wrong label, null for none."""
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    asset: str
+    hull: str
+    was: Annotated[str | None, Field(validation_alias="from", serialization_alias="from")]
+    to: str
+
+    @property
+    def proper_id(self) -> str:
+        return repair_id(self.correction)
+
+    @property
+    def correction(self) -> LabelCorrection:
+        return LabelCorrection(self.asset, self.hull, self.was, self.to)
+
+
+class LabelBefore(JsonFile):
+    """The label that a hull had, by whom, and how sure that was."""
+
+    label: str
+    source: LabelSource
+    confidence: Annotated[float, Field(ge=0, le=1)]
+
+    @staticmethod
+    def of(label: Label | None) -> LabelBefore | None:
+        return LabelBefore(label=label.name, source=label.source, confidence=label.confidence) if label else None
+
+    @property
+    def annotation(self) -> Label:
+        return Label(self.label, self.confidence, self.source)
+
+
+class ConfirmationLine(RepairLine):
+    """A repair that was made. before: what the hull had, null for no label, so that the repair can be taken back."""
+
+    before: LabelBefore | None
+
+
+class AnswersFile(JsonFile):
+    """answers.json: answers by rule and asset, repairs by asset and hull; of one id only what was said last."""
+
+    answers: tuple[AnswerLine, ...] = ()
+    confirmed: tuple[ConfirmationLine, ...] = ()
+    rejected: tuple[RepairLine, ...] = ()
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """The ids of everything that was said."""
+        return tuple(line.id for line in (*self.answers, *self.confirmed, *self.rejected))
+
+    def without(self, said: str) -> AnswersFile:
+        """The same without what has this id."""
+        return self.model_copy(
+            update={
+                "answers": tuple(line for line in self.answers if line.id != said),
+                "confirmed": tuple(line for line in self.confirmed if line.id != said),
+                "rejected": tuple(line for line in self.rejected if line.id != said),
+            }
+        )
+
+    def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
+        """The same with one thing more, in place of what was said under its id before."""
+        rest = self.without(line.id)
+        match line:
+            case AnswerLine():
+                lines = sorted([*rest.answers, line], key=lambda one: (one.rule, one.asset))
+                return rest.model_copy(update={"answers": tuple(lines)})
+            case ConfirmationLine():
+                return rest.model_copy(update={"confirmed": tuple(sorted([*rest.confirmed, line], key=_sort_key))})
+            case _:
+                return rest.model_copy(update={"rejected": tuple(sorted([*rest.rejected, line], key=_sort_key))})
+
+
+def repair_id(correction: LabelCorrection) -> str:
+    """What a repair is called: `ASSET#HULL=LABEL`, with the label that it gives."""
+    return f"{correction.asset}#{correction.hull}={correction.to}"
+
+
+def _sort_key(line: RepairLine) -> tuple[str, str, str]:
+    return line.asset, line.hull, line.to
+
+
+def read_answers(project: Project) -> AnswersFile:
+    """Everything that was said."""
+    return read_json(project.layout.answers, AnswersFile) or AnswersFile()
+
+
+def write_answers(project: Project, said: AnswersFile) -> None:
+    """Keep everything that was said; where that is nothing, there is no file."""
+    if said.ids or said.model_extra:
+        write_json(project.layout.answers, said)
+    else:
+        project.layout.answers.unlink(missing_ok=True)
+
+
+class RuleSelection(JsonFile):
+    """What a rule selected on an accepted asset; action: what the rule does, in the language's text without `Each`."""
+
+    rule: Annotated[int, Field(ge=1)]
+    action: str
+    select: tuple[str, ...]
+
+
+class Review(JsonFile):
+    """What a person said about one edited asset; output: the digest of the files that were looked at.
+
+    seen: of a result that was accepted by itself, what the program did there.
+    """
+
+    verdict: Verdict
+    note: str | None = None
+    output: str | None = None
+    seen: tuple[RuleSelection, ...] = ()
+
+
+class ReviewFile(JsonFile):
+    """All reviews, by asset."""
+
+    assets: dict[str, Review] = Field(default_factory=dict)
+
+
+def read_reviews(path: Path) -> dict[str, Review]:
+    """All reviews, by asset."""
+    return (read_json(path, ReviewFile) or ReviewFile()).assets

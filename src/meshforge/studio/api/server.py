@@ -1,0 +1,192 @@
+"""Serving the studio on this machine until it is stopped: the web application, its errors, and the built page."""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing
+import signal
+import socket
+import webbrowser
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+from secrets import token_urlsafe
+from threading import Thread
+from types import FrameType
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp, Scope
+
+from meshforge.batch import STATE, hold_lock
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.project import Project
+from meshforge.studio.api import connection, edits, jobs, queries
+from meshforge.studio.api.guard import Guard
+from meshforge.studio.errors import problem_of, status_of
+from meshforge.studio.session.session import Session, StudioOptions
+from meshforge.studio.wire.events import Problem
+
+ADDRESS = "127.0.0.1"
+EXIT_TIMEOUT = 3.0
+"""Seconds that a worker process is waited for."""
+_LOG = logging.getLogger(__name__)
+
+ROUTERS = tuple(room.router for room in (queries, jobs, edits, jobs, queries, queries, connection, edits))
+
+PAGE_FOLDER = Path(__file__).parent.parent.parent / "static"
+
+
+def serve(
+    opening: StudioOptions, say: Callable[[str], None], *, port: int = 0, browser: bool = True, page: Path = PAGE_FOLDER
+) -> None:
+    """Serve a project until Ctrl-C or SIGTERM. say: told the address; port: 0 takes a free one; page: the built page.
+
+    Raises MeshForgeError: no project, no page, the port is taken, or the studio is open on the project already.
+    """
+    open_page(page)
+    project, token = Project.open(opening.folder), token_urlsafe(24)
+    with _stop_on_signal(), ExitStack() as stack:
+        _lock_studio(stack, project)
+        listening = stack.enter_context(closing(_listen(port)))
+        desk = Session(opening)
+        stack.callback(_wait_for_processes)
+        stack.callback(desk.close)
+        address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
+
+        def ready() -> None:
+            say(address)
+            if browser:
+                Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+        desk.start()
+        _Server(_make_config(desk, token, page), ready).run(sockets=[listening])
+
+
+class _Server(uvicorn.Server):
+    """A server that says when it is there."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._ready()
+
+
+def _make_config(desk: Session, token: str, page: Path) -> uvicorn.Config:
+    return uvicorn.Config(
+        build_app(desk, token, page),
+        log_level="info" if _LOG.isEnabledFor(logging.DEBUG) else "critical",
+        access_log=False,
+        lifespan="off",
+        ws="websockets-sansio",
+        ws_max_size=2**16,
+        timeout_graceful_shutdown=2,
+        server_header=False,
+    )
+
+
+def _wait_for_processes() -> None:
+    """A worker process that is just starting would complain if its locks went with this process."""
+    for process in multiprocessing.active_children():
+        process.join(EXIT_TIMEOUT)
+
+
+def _lock_studio(stack: ExitStack, project: Project) -> None:
+    """Two studios on one project would each have half of its history."""
+    try:
+        stack.enter_context(hold_lock(project.folder / STATE / "studio" / "lock", str(project.folder), wait=0))
+    except MeshForgeError as error:
+        remedy = "Use the page that is open, or stop that studio first."
+        raise ProjectError("the studio is open on this project already", where=error.where, remedy=remedy) from None
+
+
+def _listen(port: int) -> socket.socket:
+    try:
+        return socket.create_server((ADDRESS, port))
+    except OSError as error:
+        remedy = "Choose another: --port N; 0 takes a free one."
+        raise UsageError(f"port {port} cannot be taken: {error.strerror}", remedy=remedy) from None
+
+
+@contextmanager
+def _stop_on_signal() -> Iterator[None]:
+    """Ctrl-C and SIGTERM end the block as if it came to its end, everything closed."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    except KeyboardInterrupt:
+        return
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def build_app(desk: Session, token: str, page: Path) -> ASGIApp:
+    """The studio on a desk. page: the folder of the built page. Raises MeshForgeError where that is not built."""
+    app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
+    app.state.desk = desk
+    for router in ROUTERS:
+        app.include_router(router)
+    app.mount("/", open_page(page))
+    app.add_exception_handler(MeshForgeError, _handle_error)
+    app.add_exception_handler(RequestValidationError, _handle_invalid)
+    app.add_exception_handler(HTTPException, _handle_http)
+    app.add_exception_handler(Exception, _handle_fault)
+    return Guard(app, token)
+
+
+def _respond(problem: Problem, status: int) -> JSONResponse:
+    return JSONResponse(problem.model_dump(mode="json"), status)
+
+
+def _handle_error(_: Request, error: Exception) -> JSONResponse:
+    return _respond(problem_of(error), status_of(error))
+
+
+def _handle_fault(_: Request, error: Exception) -> JSONResponse:
+    _LOG.debug("a fault of the studio", exc_info=error)
+    return _respond(problem_of(error), 500)
+
+
+def _handle_invalid(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    field = ".".join(str(step) for step in first["loc"])
+    return _respond(Problem(message=f"{field}: {first['msg']}"), 400)
+
+
+def _handle_http(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    return _respond(Problem(message=str(error.detail)), error.status_code)
+
+
+class PageFiles(StaticFiles):
+    """The built page. What has a digest in its name is kept by browsers; the rest is asked for anew."""
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        answer = await super().get_response(path, scope)
+        kept = "private, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
+        answer.headers["Cache-Control"] = kept
+        return answer
+
+
+def open_page(folder: Path) -> Any:
+    """The page in a folder. Raises MeshForgeError where it was not built."""
+    if not (folder / "index.html").is_file():
+        raise MeshForgeError(
+            "the page of the studio is not built", where=str(folder), remedy="Build it: script/build-web"
+        )
+    return PageFiles(directory=folder, html=True)

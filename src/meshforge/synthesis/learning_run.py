@@ -1,0 +1,268 @@
+"""One run of learning: rule by rule, each on the meshes that the rules before it make; the program is run again on
+every demonstration before it is returned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypedDict, assert_never
+
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, Template
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
+from meshforge.synthesis.options import OutOfTime, TimeBudget
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.outcome import (
+    Ambiguous,
+    Found,
+    LearningOutcome,
+    Nearest,
+    NeedsRepair,
+    NoProgram,
+    Reading,
+    TimedOut,
+    reading_id,
+)
+from meshforge.synthesis.paper.search import Explained, search_by_paper
+from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.repair.proposals import RepairCollector, make_confirmer
+from meshforge.synthesis.replay import memoize
+from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished
+from meshforge.synthesis.task import LearningTask, ReplaySet
+
+PLAIN_SIZE = 7
+"""Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
+
+
+@dataclass(frozen=True, slots=True)
+class RuleOutcome:
+    """One rule, its readings, and the names of the meshes in their field."""
+
+    rule: Rule
+    readings: RankedReadings
+    names: tuple[str, ...]
+
+
+class _OutcomeFields(TypedDict):
+    rules: tuple[Rule, ...]
+    readings: tuple[Reading, ...]
+    tried: tuple[SearchEffort, ...]
+    seconds: Mapping[str, float]
+    stale: tuple[Answer, ...]
+    followed: tuple[str, ...]
+
+
+class LearningRun:
+    """Learns the rules of a task one after the other, as far as it gets."""
+
+    def __init__(self, task: LearningTask, watch: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
+        self._task, self._watch, self._confirm = task, watch, confirm
+        self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._learned: list[RuleOutcome] = []
+        self._tried: list[SearchEffort] = []
+        self._question: Question | None = None
+        self._searching = 0.0
+        self._followed = list(find_obstacles(task, task.follow)) if task.follow else []
+        meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
+        self._repairs = RepairCollector(task, meshes, watch)
+
+    def run(self) -> LearningOutcome:
+        """What comes of it."""
+        for agreed in self._task.rules:
+            failed = self._learn(agreed)
+            if failed:
+                return failed
+        return self._propose_repairs() if self._repairs.repairs else self._finish()
+
+    def _learn(self, agreed: RuleSpec) -> LearningOutcome | None:
+        """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
+        while True:
+            examples, rest = self._replays.examples(agreed)
+            names = (*(example.name for example in examples), *(replay.name for replay in rest))
+            start = self._watch.elapsed
+            found = self._find_readings(agreed, examples, [replay.mesh for replay in rest])
+            self._searching += self._watch.elapsed - start
+            if not isinstance(found, tuple):
+                self._follow(agreed, found if isinstance(found, RankedReadings) else None, names, examples)
+            match found:
+                case RankedReadings():
+                    self._accept(agreed, found, names)
+                    return None
+                case Miss():
+                    return self._fail(agreed, found, examples)
+                case Unfinished():
+                    nearest = _to_nearest(agreed.number, found.nearest) if found.nearest else None
+                    return TimedOut(nearest=nearest, **self._common_fields())
+                case tuple():
+                    self._replays.correct(found)
+                case _:
+                    assert_never(found)
+
+    def _find_readings(
+        self, agreed: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+        """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
+        task, watch = self._task, self._watch
+        if task.options.strategy == "paper":
+            return self._find_by_paper(agreed, examples, rest)
+        search = Search(examples, task.frame.labels, watch, task.options, task.extremity, rest)
+        found = search.run()
+        self._record_effort(agreed, found.tried)
+        if isinstance(found, Unfinished):
+            return found
+        try:
+            corrections = self._repairs.find_corrections(agreed.number, examples, found)
+        except OutOfTime:
+            corrections = ()
+        if corrections:
+            return corrections
+        if isinstance(found, Miss):
+            return found
+        refused = self._replays.rejections(agreed.number, search.field.meshes)
+        return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), refused)
+
+    def _find_by_paper(
+        self, agreed: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+        task = self._task
+        found = search_by_paper(
+            examples,
+            task.frame.labels,
+            self._watch,
+            task.options,
+            task.extremity,
+            make_confirmer(agreed.number, self._confirm) if self._confirm else None,
+            task.rejected,
+            self._repairs.counts,
+        )
+        self._record_effort(agreed, found.tried)
+        if isinstance(found, Explained):
+            return self._repairs.record_inferred(agreed.number, found)
+        if not isinstance(found, Hit):
+            return found
+        search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity, rest)
+        return RankedReadings.of_single(search, found.extractor)
+
+    def _follow(
+        self, agreed: RuleSpec, weighed: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
+    ) -> None:
+        wanted = self._task.follow
+        if wanted and agreed.number <= len(wanted.rules):
+            extractor = wanted.rules[agreed.number - 1].extractor
+            self._followed.append(follow_rule(agreed, extractor, weighed, names, examples, self._task))
+
+    def _accept(self, agreed: RuleSpec, weighed: RankedReadings, names: tuple[str, ...]) -> None:
+        rule = Rule(weighed.extractor, agreed.action, agreed.label)
+        self._learned.append(RuleOutcome(rule, weighed, names))
+        if not self._question:
+            declined = {a.asset for a in self._task.answers if a.rule == agreed.number and a.select is None}
+            self._question = choose_question(agreed.number, weighed, names, self._repairs.trust, declined)
+        self._replays.advance(agreed.number, rule, last=agreed.number == len(self._task.rules))
+
+    def _finish(self) -> LearningOutcome:
+        task, program = self._task, self._program()
+        verify(program, task.demos, task.templates)
+        known = [(learned.readings, learned.names) for learned in self._learned]
+        ahead, looks = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        if self._question:
+            return Ambiguous(
+                program=program, question=self._question, hint=ahead, sample=looks, **self._common_fields()
+            )
+        settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
+        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._common_fields())
+
+    def _propose_repairs(self) -> LearningOutcome:
+        return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
+
+    def _fail(self, agreed: RuleSpec, miss: Miss, examples: Sequence[Example]) -> LearningOutcome:
+        nearest, repairs = _to_nearest(agreed.number, miss.nearest), self._repairs.repairs
+        if repairs:
+            return NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
+        answered = self._replays.assets_with_answers(agreed.number)
+        return NoProgram(
+            why=miss.why,
+            nearest=nearest,
+            advice=give_advice(miss.nearest, examples, answered),
+            suggested=self._suggest_orientation(),
+            **self._common_fields(),
+        )
+
+    def _suggest_orientation(self) -> OrientationSuggestion | None:
+        task = self._task
+        try:
+            return suggest_orientation(
+                task.demos,
+                task.rules,
+                task.frame,
+                task.templates,
+                replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
+                self._watch,
+                None,
+                list(task.batch.values()),
+            )
+        except (OutOfTime, MeshForgeError):
+            return None
+
+    def _program(self) -> Program:
+        rules = tuple(learned.rule for learned in self._learned)
+        return replace(self._task.frame, rules=rules)
+
+    def _record_effort(self, agreed: RuleSpec, tried: SearchEffort) -> None:
+        self._tried = [*self._tried[: agreed.number - 1], tried]
+
+    def _common_fields(self) -> _OutcomeFields:
+        elapsed = self._watch.elapsed
+        return {
+            "rules": tuple(learned.rule for learned in self._learned),
+            "readings": tuple(
+                reading
+                for number, learned in enumerate(self._learned, 1)
+                for reading in _list_readings(number, learned.readings, learned.names)
+            ),
+            "tried": tuple(self._tried),
+            "seconds": {"search": self._searching, "replay": elapsed - self._searching},
+            "stale": self._replays.stale,
+            "followed": tuple(self._followed),
+        }
+
+
+def _list_readings(rule: int, weighed: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
+    for place, (term, belief) in enumerate(zip(weighed.terms, weighed.beliefs, strict=True)):
+        differs = tuple(names[k] for k in weighed.differences(place))
+        yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
+
+
+def _to_nearest(rule: int, miss: NearestExtractor) -> Nearest:
+    return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
+
+
+def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
+    """Raises AssertionError, an error of ours, where the program selects something else than was shown.
+
+    Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
+    """
+    made_of = tuple(templates[name].digest for name in program.templates if name in templates)
+    for name, demo in name_demonstrations(demos):
+        key = ("verified", str(program), made_of, demo.steps)
+        memoize(demo.mesh, key, bool, partial(_check_demonstration, program, demo, templates, name))
+
+
+def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
+    try:
+        trace = program.run(demo.mesh, templates).trace
+    except MeshForgeError as error:
+        raise error.at(name) from None
+    for done in trace:
+        step = demo.step(done.rule)
+        if step and step.select != frozenset(done.selected):
+            raise AssertionError(
+                f"the learned rule {done.rule} selects {sorted(done.selected)} on {name}, "
+                f"not {sorted(step.select or ())} as was shown"
+            )
+    return True
