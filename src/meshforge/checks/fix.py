@@ -138,7 +138,10 @@ def _find_objection(
     if made is None:
         return "no simpler hull around it was found"
     if made.error > allowed:
-        return f"a hull within the limits would stick out by {_format_length(made.error)}, more than {_format_length(allowed)}"
+        return (
+            f"a hull within the limits would stick out by {_format_length(made.error)}, more than "
+            f"{_format_length(allowed)}"
+        )
     if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:

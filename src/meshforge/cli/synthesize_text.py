@@ -115,7 +115,10 @@ def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
     rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
     if rows:
         many = "s" * (len(rules) > 1)
-        yield f"almost settled: rule{many} {join_names(rules)} might mean something else on {join_names(assets)}; look there"
+        yield (
+            f"almost settled: rule{many} {join_names(rules)} might mean something else on "
+            f"{join_names(assets)}; look there"
+        )
 
 
 def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:

@@ -95,6 +95,7 @@ def _build_direction(text: TreeReader, token: Token) -> Direction:
 
 
 def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
+    """The header statements by their kind. Raises ProgramError for one that is given twice."""
     headers: dict[str, Node] = {}
     for node in statements:
         if node.data in headers:
@@ -105,6 +106,7 @@ def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]
 
 
 def build_labels(text: TreeReader, tree: Node) -> tuple[str, ...]:
+    """The labels that a `labels` header declares. Raises ProgramError for one that is declared twice."""
     labels: list[str] = []
     for node in subtrees_of(tree):
         label = text.read_label(node)
@@ -115,6 +117,7 @@ def build_labels(text: TreeReader, tree: Node) -> tuple[str, ...]:
 
 
 def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
+    """The number of a threshold header; None where the header is missing."""
     if tree is None:
         return None
     (token,) = tokens_of(tree)

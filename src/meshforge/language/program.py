@@ -45,10 +45,10 @@ _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other r
 class HeaderComments:
     """The comments of the header lines, and those after the last statement."""
 
-    labels: Comments = Comments()
-    contact: Comments = Comments()
-    extremity: Comments = Comments()
-    orient: Comments = Comments()
+    labels: Comments = field(default=Comments())
+    contact: Comments = field(default=Comments())
+    extremity: Comments = field(default=Comments())
+    orient: Comments = field(default=Comments())
     end: CommentLines = ()
 
 

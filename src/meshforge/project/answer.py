@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
 
 def add_answer(project: Project, given: Answer) -> str:
-    """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `check_answer` does."""
+    """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `check_answer`
+    does.
+    """
     line = check_answer(project, given)
     with project.lock():
         write_answers(project, read_answers(project).with_line(line))

@@ -24,7 +24,7 @@ MEASURES = {
 }
 """What the costly parts measure; as `meshforge check` does with the option of that name."""
 
-Value = TypeVar("Measured")
+Value = TypeVar("Value")
 
 _REMEDY = "Apply the program to it again."
 

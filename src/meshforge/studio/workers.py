@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pebble import ProcessPool
 
 
-Params = ParamSpec("Given")
+Params = ParamSpec("Params")
 Result = TypeVar("Result")
 
 WORK_TIMEOUT = 300.0

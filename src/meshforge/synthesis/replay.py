@@ -26,7 +26,7 @@ from meshforge.language import (
 from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec
 
-Value = TypeVar("Made")
+Value = TypeVar("Value")
 _memo: WeakKeyDictionary[SymbolicMesh, dict[Hashable, object]] = WeakKeyDictionary()
 
 

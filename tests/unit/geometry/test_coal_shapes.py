@@ -11,7 +11,7 @@ import pytest
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
 from meshforge.geometry.aabb import bounds, near_boxes
-from meshforge.geometry.distance import CoalFrame, split_for_coal
+from meshforge.geometry.distance import _POOL_SIZE, CoalFrame, _pool, split_for_coal
 
 
 def ball(corners: int, center: Floats) -> Polytope:
@@ -65,19 +65,19 @@ def test_a_vessel_holds_nothing_of_what_was_in_it_before() -> None:
 def test_vessels_are_used_again_and_not_too_many_are_kept() -> None:
     crowd = [ball(30, np.array([3.0 * k, 0, 0])) for k in range(100)]
     assert len(close_pairs(crowd, 1.5)) == 99
-    assert len(distance._pool[32]) == distance._POOL_SIZE
-    kept = {id(vessel.shape) for vessel in distance._pool[32]}
+    assert len(_pool[32]) == _POOL_SIZE
+    kept = {id(vessel.shape) for vessel in _pool[32]}
     close_pairs(crowd[:5], 1.5)
-    assert {id(vessel.shape) for vessel in distance._pool[32]} == kept
+    assert {id(vessel.shape) for vessel in _pool[32]} == kept
 
 
 def test_vessels_come_back_when_a_shape_has_no_place() -> None:
     shapes = [ball(30, np.zeros(3)), ball(30, np.ones(3))]
     distance(*shapes)
-    kept = len(distance._pool[32])
+    kept = len(_pool[32])
     with pytest.raises(TypeError, match="no distance for shapes of kind odd"):
         CoalFrame.of_bounds(np.zeros(3), np.ones(3)).place([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
-    assert len(distance._pool[32]) == kept
+    assert len(_pool[32]) == kept
 
 
 def test_threads_do_not_pour_into_each_others_vessels() -> None:

@@ -173,7 +173,8 @@ class _Creator:
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
             if roots:
                 notes.append(
-                    f"{pluralize(len(roots), 'body', 'bodies')} fixed to the world ({join_names(roots, 3)}): for one that "
+                    f"{pluralize(len(roots), 'body', 'bodies')} fixed to the world ({join_names(roots, 3)}): "
+                    "for one that "
                     "moves freely, write <freejoint/> as the first thing in its <body>"
                 )
         return tuple(notes)

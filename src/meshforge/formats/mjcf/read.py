@@ -115,7 +115,8 @@ def _refuse_fragment(path: Path, root: Element) -> None:
     homes = _find_models(path)
     if homes or tag == "mujocoinclude":
         remedy = (
-            f"Open {join_names([str(home) for home in homes], 3)}, which {'includes' if len(homes) == 1 else 'include'} it."
+            f"Open {join_names([str(home) for home in homes], 3)}, which "
+            f"{'includes' if len(homes) == 1 else 'include'} it."
             if homes
             else f"Open the file that includes it; none was found in its folder or the {_LEVELS} above."
         )

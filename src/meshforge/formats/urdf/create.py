@@ -130,17 +130,20 @@ class _Creator:
         ]
         if unlimited:
             notes.append(
-                f"prismatic joints without limits ({join_names(unlimited, 3)}) are limited to {UNLIMITED_TRAVEL:g} m each way"
+                f"prismatic joints without limits ({join_names(unlimited, 3)}) are limited to "
+                f"{UNLIMITED_TRAVEL:g} m each way"
             )
         if self.chain.light:
             notes.append(
-                f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({join_names(self.chain.light, 3)})"
+                f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body "
+                f"({join_names(self.chain.light, 3)})"
             )
         heavy = {*self.inertials, *self.chain.light, "world"}  # of that name, PyBullet knows that it has no mass
         weightless = [link for link in self.chain.frames if link not in heavy]
         if weightless:
             notes.append(
-                f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)}): PyBullet takes 1 kg, "
+                f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)}): PyBullet "
+                "takes 1 kg, "
                 "MuJoCo computes it from the hulls"
             )
         return tuple(notes)

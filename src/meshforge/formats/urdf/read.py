@@ -213,7 +213,8 @@ def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> tu
 def _note_roots(links: UrdfLinks) -> Iterator[str]:
     if len(links.roots) > 1:
         yield (
-            f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the origin, as "
+            f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the "
+            "origin, as "
             "MuJoCo does; PyBullet cannot load such a file"
         )
 
@@ -228,7 +229,9 @@ def _note_stray_collisions(robot: Element, found: LinkCollisions) -> Iterator[st
     known = {id(collision) for _, collision in found}
     lines = [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]
     if lines:
-        yield f"{pluralize(len(lines), 'collision')} in no link, the first on line {lines[0]}: passed over, as by engines"
+        yield (
+            f"{pluralize(len(lines), 'collision')} in no link, the first on line {lines[0]}: passed over, as by engines"
+        )
 
 
 def _note_shapes(found: LinkCollisions) -> Iterator[str]:

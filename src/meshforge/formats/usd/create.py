@@ -178,7 +178,8 @@ class _Creator:
         loose = [link for link in self.bodies if link not in held]
         if loose:
             yield (
-                f"{pluralize(len(loose), 'body', 'bodies')} free to fall ({join_names(loose, 3)}): for one that stands fast, "
+                f"{pluralize(len(loose), 'body', 'bodies')} free to fall ({join_names(loose, 3)}): for one that "
+                "stands fast, "
                 "join it to the world with a PhysicsFixedJoint"
             )
         many = [

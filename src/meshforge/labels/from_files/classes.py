@@ -94,4 +94,7 @@ def describe_unknown_class(name: str, hulls: int, vocabulary: Sequence[str]) -> 
     """The sentence on a name that means nothing in a vocabulary."""
     like = nearest_name(name, vocabulary)
     hint = f"; did you mean {like!r}?" if like else ""
-    return f"{pluralize(hulls, 'hull')} left out: {name!r} is not in the vocabulary, and no pattern says what it means{hint}"
+    return (
+        f"{pluralize(hulls, 'hull')} left out: {name!r} is not in the vocabulary, and no pattern says what "
+        f"it means{hint}"
+    )

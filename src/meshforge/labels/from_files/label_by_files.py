@@ -69,7 +69,9 @@ def propose_from_files(
     vocabulary: Sequence[str] | None,
     spread: ExecutionOptions,
 ) -> Proposals:
-    """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when None."""
+    """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when
+    None.
+    """
     files = _require_files(project, source)
     words = (project.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, how)
     patterns = name_patterns(project.folder, project.settings, words, how.meanings)

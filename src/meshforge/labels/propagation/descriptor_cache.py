@@ -111,7 +111,9 @@ class DescriptorCache:
                 yield asset, result
 
     def read_rows(self, asset: str) -> tuple[Floats, Ints] | None:
-        """The rows of an asset, and which of its hulls touch, as of `ShapeDescriptor`; None where it has to be described."""
+        """The rows of an asset, and which of its hulls touch, as of `ShapeDescriptor`; None where it has to be
+        described.
+        """
         found = _read_kept(self._work[asset], "seen", "rows", "touching")
         return (found[0], found[1]) if found else None
 

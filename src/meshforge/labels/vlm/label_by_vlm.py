@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from meshforge.project import Project
 
 
-UsageCallback = Callable[["Bill"], None]
+UsageCallback = Callable[["Usage"], None]
 VlmWriteBlock = Callable[[], AbstractContextManager[object]]
 
 

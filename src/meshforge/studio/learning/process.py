@@ -52,8 +52,8 @@ def learn(folder: Path, ticket: CancelToken, number: int, take: bool) -> LessonV
 def compute_reach(folder: Path, ticket: CancelToken, program: str) -> tuple[Reach, ...] | None:
     """What a program does on every asset that can be read, None where it was interrupted.
 
-    Of a family of more than 400 only on those that are looked at while learning (`select_assets`): all assets of a family
-    without bounds do not go into memory, and reading them anew after each change would take minutes.
+    Of a family of more than 400 only on those that are looked at while learning (`select_assets`): all assets of a
+    family without bounds do not go into memory, and reading them anew after each change would take minutes.
     """
     project = Project.open(folder)
     plan = _load_program(project, Program.parse(program))
