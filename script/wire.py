@@ -25,7 +25,7 @@ def schema() -> dict[str, Any]:
 
     What the server sends has all of its fields; what the page sends may leave out those with a default.
     """
-    sent = _models(asset, asset, events, family, program, program)
+    sent = _models(asset, events, family, program)
     asked = _models(requests)
     pairs = [*((model, "serialization") for model in sent), *((model, "validation") for model in asked)]
     _, whole = models_json_schema(pairs, ref_template=_REF)  # type: ignore[arg-type]  # literals become str in a list

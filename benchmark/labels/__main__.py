@@ -5,12 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from meshforge.perception import propagation
-
 from benchmark.assets import CATEGORIES, samples
 from benchmark.labels.fitting import fitted, rows_of
 from meshforge.common import write_atomically
-from meshforge.labels.propagation.propagate import METRIC_FILE
+from meshforge.labels.propagation import propagate
 
 _ABOUT = "made by `python -m benchmark.labels` on the calibration set of the benchmark"
 
@@ -19,7 +17,7 @@ def main() -> None:
     """Write the file."""
     weights = fitted([rows_of(samples(category, calibration=True)) for category in CATEGORIES])
     data = {"about": _ABOUT, "weights": [round(float(weight), 4) for weight in weights]}
-    write_atomically(Path(propagation.__file__).parent / METRIC_FILE, json.dumps(data, indent=1) + "\n")
+    write_atomically(Path(propagate.__file__).parent / propagate.METRIC_FILE, json.dumps(data, indent=1) + "\n")
 
 
 if __name__ == "__main__":

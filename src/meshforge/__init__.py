@@ -42,15 +42,15 @@ __all__ = [
     "synthesize",
 ]
 
-_ROOMS = {
-    "errors": ("MeshForgeError",),
+_PACKAGES = {
+    "common": ("MeshForgeError",),
     "formats": ("load", "load_many", "save"),
     "language": ("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
     "project": ("Project",),
     "symbolic": ("Hull", "Label", "SymbolicMesh"),
     "synthesis": ("Answer", "Demonstration", "Options", "Step", "synthesize"),
 }
-_HOMES = {name: room for room, names in _ROOMS.items() for name in names}
+_HOMES = {name: package for package, names in _PACKAGES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:

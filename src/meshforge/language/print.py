@@ -97,5 +97,6 @@ def show_label(label: str) -> str:
 
 
 def show_rule(rule: Rule, width: int) -> str:
+    """A rule on one line, its arrow behind `width` characters at least."""
     label = f" as {show_label(rule.label)}" if rule.label is not None else ""
     return f"{show(rule.extractor):<{width}} => {rule.action}{label}"

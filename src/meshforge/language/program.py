@@ -149,6 +149,7 @@ def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
 
 
 def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
+    """An extractor that asks for the label `new` wherever it asked for `old`."""
     match node:
         case All() | Is():
             return _rename_in_base(node, old, new)

@@ -18,7 +18,7 @@ from meshforge.checks import Finding
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.batch.pages import opened, texts
-from tests.unit.views.scenes import box, hull, table
+from tests.unit.rendering.scenes import box, hull, table
 
 PROGRAM = Program.parse(
     """\

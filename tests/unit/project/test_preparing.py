@@ -15,8 +15,8 @@ from meshforge.language import Delete, Merge
 from meshforge.project import PreparationResult, Project
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
+from tests.unit.batch.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
 from tests.unit.project.tables import FIRST, SECOND, applied, labelled
 
 HIGH, LOW = "high/stand.urdf", "low/stand.urdf"

@@ -38,9 +38,9 @@ EXIT_TIMEOUT = 3.0
 """Seconds that a worker process is waited for."""
 _LOG = logging.getLogger(__name__)
 
-ROUTERS = tuple(room.router for room in (queries, jobs, edits, jobs, queries, queries, connection, edits))
+ROUTERS = (queries.router, edits.router, jobs.router, jobs.checks_router, connection.router)
 
-PAGE_FOLDER = Path(__file__).parent.parent.parent / "static"
+PAGE_FOLDER = Path(__file__).parent.parent / "static"
 
 
 def serve(

@@ -14,7 +14,7 @@ from meshforge.labels.vlm.labeller import Labeller
 from meshforge.labels.vlm.prompt import MODES, ModeName, PromptConfig
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.loopback import CUT, Asked, Server, labels_as_json, serving, status
-from tests.unit.perception.vlm.asking import client, key
+from tests.unit.labels.vlm.asking import client, key
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")

@@ -9,7 +9,7 @@ from meshforge.common import UsageError
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError
 from tests.loopback import FAULTS, Server, serving, sometimes
-from tests.unit.perception.vlm.asking import client, key, question
+from tests.unit.labels.vlm.asking import client, key, question
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")

@@ -16,7 +16,7 @@ from meshforge.labels.from_files.segments import PointAlignment
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
-from tests.unit.project.labels.partnet import HULLS, write_partnet
+from tests.unit.labels.partnet import HULLS, write_partnet
 from tests.unit.project.tables import FIRST, SECOND, fresh
 
 ASSET = "mobility.urdf"

@@ -10,7 +10,7 @@ from meshforge.geometry import Ints, Pose
 from meshforge.rendering import render_id_buffer, render_thumbnail
 from meshforge.rendering.id_buffer import ThumbnailPixels
 from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
-from tests.unit.views.scenes import box, hull, table
+from tests.unit.rendering.scenes import box, hull, table
 
 
 def shown(pixels: ThumbnailPixels) -> Ints:

@@ -12,7 +12,7 @@ from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
 from meshforge.geometry.decomposition.settings import DecomposeSettings
 from meshforge.symbolic import Opaque, Surface, SymbolicMesh
-from tests.unit.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
+from tests.unit.batch.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
 
 
 def test_opaque_pieces_and_bodies_that_only_show_something_can_be_decomposed(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from meshforge.common import MeshForgeError, UsageError
 from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
 from meshforge.labels.vlm.request import ServerFeatures
 from tests.loopback import DROP, FAULTS, GARBAGE, SLOW, Asked, Fault, serving, status
-from tests.unit.perception.vlm.asking import SCHEMA, VARIABLE, client, key, question
+from tests.unit.labels.vlm.asking import SCHEMA, VARIABLE, client, key, question
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
@@ -371,7 +371,7 @@ def test_without_the_sdk_the_message_names_the_extra(monkeypatch: pytest.MonkeyP
 
 
 def test_nothing_heavy_is_loaded_before_something_is_asked() -> None:
-    code = "import sys, meshforge.perception.vlm, meshforge.project; print({'openai', 'PIL'} & sys.modules.keys())"
+    code = "import sys, meshforge.labels.vlm.client, meshforge.project; print({'openai', 'PIL'} & sys.modules.keys())"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 

@@ -17,7 +17,7 @@ from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES
 from tests.examples import examples
 from tests.unit.batch.families import table_boxes
-from tests.unit.project.labels.test_propagating import family
+from tests.unit.labels.test_propagating import family
 
 HULLS = tuple(table_boxes())
 Act = tuple[str, str, str, str]
@@ -35,7 +35,7 @@ class Labeller:
     """The process, and what was asked of it."""
 
     def __init__(self, folder: Path) -> None:
-        command = [sys.executable, "-m", "tests.unit.project.labels.labelling_process", str(folder)]
+        command = [sys.executable, "-m", "tests.unit.labels.labelling_process", str(folder)]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._out.readline() == "ready\n"
 

@@ -19,7 +19,7 @@ from meshforge.rendering.colors import (
     rgb,
 )
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.views.scenes import box, hull, table
+from tests.unit.rendering.scenes import box, hull, table
 
 
 def row(count: int) -> SymbolicMesh:

@@ -19,7 +19,7 @@ def carried(kernel: str, without: str = "") -> str | None:
     """What comes of carrying labels over with one of the kernels; None where this processor cannot run it."""
     environment = os.environ | {"OPENBLAS_CORETYPE": kernel, "NPY_DISABLE_CPU_FEATURES": without}
     done = subprocess.run(
-        [sys.executable, "-m", "tests.unit.perception.kernel_process"],
+        [sys.executable, "-m", "tests.unit.labels.kernel_process"],
         env={name: value for name, value in environment.items() if value},
         capture_output=True,
         text=True,

@@ -10,7 +10,7 @@ from PIL import Image
 
 from meshforge.common import UsageError
 from meshforge.rendering import encode_webp, render, write_png
-from tests.unit.views.scenes import table
+from tests.unit.rendering.scenes import table
 
 
 def test_a_png_is_read_back_pixel_by_pixel(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
 from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
 from tests.corpus_path import corpus
 from tests.examples import examples
-from tests.unit.views.scenes import box, hull, pixels, table
+from tests.unit.rendering.scenes import box, hull, pixels, table
 
 SMALL = 320
 

@@ -9,7 +9,7 @@ from meshforge.batch import Preparation, apply_preparation, cut_hull, split_hull
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats import load, read, save
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.preparation.samples import QUICK, stand, write_boxes, write_stand
+from tests.unit.batch.preparation.samples import QUICK, stand, write_boxes, write_stand
 from tests.urdf_sample import corner_obj
 
 NONE = Preparation()

@@ -18,8 +18,8 @@ from meshforge.batch import (
 )
 from meshforge.common import AssetError
 from meshforge.formats import read
+from tests.unit.batch.preparation.samples import VOXELS, stand, write_boxes
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.preparation.samples import VOXELS, stand, write_boxes
 
 
 def hulls(preparation: Preparation | None) -> dict[str, bytes]:

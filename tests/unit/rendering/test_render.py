@@ -14,7 +14,7 @@ from meshforge.geometry import Aabb, Pose
 from meshforge.rendering import COLOR_BY, VIEWS, View, encode_png, label_colors, render, render_id_buffer
 from meshforge.rendering.colors import SELECTED, rgb
 from meshforge.symbolic import Asset, Document, Surface, SymbolicMesh
-from tests.unit.views.scenes import box, hull, near, pixels, table
+from tests.unit.rendering.scenes import box, hull, near, pixels, table
 
 SMALL = (200, 150)
 

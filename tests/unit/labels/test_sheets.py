@@ -12,7 +12,7 @@ from meshforge.labels.progress import PER_SHEET
 from meshforge.project import Project
 from meshforge.rendering import label_colors
 from tests.unit.batch.families import label_of, table_boxes
-from tests.unit.project.labels.test_propagating import family
+from tests.unit.labels.test_propagating import family
 
 NAMES = tuple(table_boxes())
 

@@ -9,7 +9,7 @@ from meshforge.geometry import Aabb
 from meshforge.rendering.camera import VIEWS, Camera, View, aim_camera
 from meshforge.rendering.raycast import ViewFrame, cast_rays, cast_rays_adaptively, cast_rays_with_steps, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
-from tests.unit.views.scenes import box, table
+from tests.unit.rendering.scenes import box, table
 
 SIZE = (201, 150)
 

@@ -18,7 +18,7 @@ from meshforge.rendering import (
 )
 from meshforge.rendering.colors import KEPT, MADE, REMOVED, rgb
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.views.scenes import box, edited, hull, near, pixels, table
+from tests.unit.rendering.scenes import box, edited, hull, near, pixels, table
 
 SIZE = (200, 150)
 

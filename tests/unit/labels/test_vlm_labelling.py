@@ -26,7 +26,7 @@ from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
-from tests.unit.project.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
+from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
 
 MANY = 200
 

@@ -8,7 +8,7 @@ import pytest
 from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
 from meshforge.rendering import VIEWS, View, count_visible_pixels, render_id_buffer
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.views.scenes import box, hull, table
+from tests.unit.rendering.scenes import box, hull, table
 
 
 @pytest.mark.parametrize(("view", "first"), [("front", 0), ("back", 1), ("iso", 0), ("iso-back", 1)])
