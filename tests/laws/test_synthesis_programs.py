@@ -87,7 +87,7 @@ import json
 from benchmark.learning.families import VOCABULARIES, family
 from meshforge.language import Delete, Program, select
 from meshforge.symbolic import Label
-from meshforge.synthesis import Demonstration, Step, outcome_json, synthesize
+from meshforge.synthesis import Demonstration, Step, outcome_to_json, synthesize
 from tests.unit.synthesis.test_running_example import learned
 
 def ambiguous(mislabelled):
@@ -103,7 +103,7 @@ def ambiguous(mislabelled):
     return synthesize([demo], {**meshes, name: mesh}, vocabulary=VOCABULARIES["table"])
 
 for outcome in (learned(), ambiguous(False), ambiguous(True)):
-    out = outcome_json(outcome)
+    out = outcome_to_json(outcome)
     del out["seconds"]
     print(json.dumps(out))
 """

@@ -65,12 +65,12 @@ SCRIPT = """\
 import sys
 import time
 from pathlib import Path
-from meshforge.batch import apply, expand, jobs
+from meshforge.batch import apply, expand, make_jobs
 from meshforge.language import Program
 
 if __name__ == "__main__":
     assets, out, text = sys.argv[1:]
-    for outcome in apply(Program.parse(text), jobs(expand([assets])), Path(out), workers=1):
+    for outcome in apply(Program.parse(text), make_jobs(expand([assets])), Path(out), workers=1):
         print(outcome.asset, flush=True)
 """
 

@@ -68,7 +68,7 @@ def test_nothing_to_do_starts_no_process() -> None:
 
 def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
-    script.write_text("from meshforge.batch import isolated\nprint(list(isolated(abs, [1, -2], workers=1)))\n")
+    script.write_text("from meshforge.batch import run_isolated\nprint(list(run_isolated(abs, [1, -2], workers=1)))\n")
     done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
 

@@ -230,5 +230,5 @@ def test_settings_out_of_range_are_refused(kind: Any, wrong: dict[str, Any], mes
 
 
 def test_importing_the_door_loads_no_engine() -> None:
-    code = "import meshforge.geometry.decompose, sys; print({'coacd', 'vhacdx'} & set(sys.modules))"
+    code = "import meshforge.geometry.decomposition, sys; print({'coacd', 'vhacdx'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.strip() == "set()"
