@@ -9,7 +9,7 @@ from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize
-from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult
+from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 from meshforge.studio.edits.labels import LabelFromModel, Propagate
@@ -67,7 +67,7 @@ def start_ask(desk: Session, request: AskJob) -> Job:
 def _check_settings(desk: Session, request: ForecastJob | AskJob) -> VlmSettings:
     """Those of the project, which are tried out before anything long begins."""
     settings = desk.project.settings.vlm.model_copy(update={"mode": request.mode})
-    settings.check(desk.project.vocabulary)
+    check_vlm_settings(settings, desk.project.vocabulary)
     return settings
 
 
