@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from meshforge.batch import (
     IN_PROCESS,
     TIMEOUT,
+    ApplyOptions,
     AssetJob,
     AssetOutcome,
     AssetSet,
@@ -542,16 +543,8 @@ class Project:
             work,
             out or self.layout.edited,
             templates=templates,
-            workers=workers,
-            mass=mass,
-            link=link,
-            dry_run=dry_run,
-            resume=resume,
-            timeout=timeout,
-            memory=memory,
-            backend=backend,
-            progress=progress,
-            stop=stop,
+            options=ApplyOptions(mass, link, dry_run, resume),
+            execution=ExecutionOptions(workers, timeout, memory, stop, backend, progress),
         )
 
     def work(self) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
