@@ -9,6 +9,7 @@ from pathlib import Path
 
 from meshforge.batch import (
     DecompositionResult,
+    ExecutionOptions,
     Preparation,
     Replacement,
     WorkerFailure,
@@ -181,7 +182,9 @@ def decompose(
         _DecomposeWork(store.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow)
         for asset in assets
     ]
-    results = run_isolated(_decompose_one, work, workers=workers, timeout=timeout, done=progress, stop=stop)
+    results = run_isolated(
+        _decompose_one, work, ExecutionOptions(workers=workers, timeout=timeout, progress=progress, stop=stop)
+    )
     for asset, result in zip(assets, results, strict=True):
         if isinstance(result, WorkerFailure):
             yield PreparationResult(asset, problems=(result.why,))

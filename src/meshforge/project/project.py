@@ -7,8 +7,17 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch import TIMEOUT, AssetJob, AssetOutcome, Backend, apply, cut_hull
-from meshforge.formats import Mass
+from meshforge.batch import (
+    APPLY_DEFAULTS,
+    EXECUTION_DEFAULTS,
+    TIMEOUT,
+    ApplyOptions,
+    AssetJob,
+    AssetOutcome,
+    ExecutionOptions,
+    apply,
+    cut_hull,
+)
 from meshforge.geometry import CoacdSettings, DecomposeSettings
 from meshforge.labels import LabelStore
 from meshforge.language import Action, Orient, Program, Template
@@ -236,38 +245,16 @@ class Project(LabelStore):
         only: Collection[str] | None = None,
         *,
         out: Path | None = None,
-        workers: int | None = None,
-        mass: Mass = "keep",
-        link: bool = False,
-        dry_run: bool = False,
-        resume: bool = True,
-        timeout: float | None = TIMEOUT,
-        memory: int | None = None,
-        backend: Backend = "local",
-        progress: Callable[[], None] | None = None,
-        stop: Callable[[], bool] | None = None,
+        options: ApplyOptions = APPLY_DEFAULTS,
+        execution: ExecutionOptions = EXECUTION_DEFAULTS,
     ) -> Iterator[AssetOutcome]:
-        """Run the program on all assets or those of some ids, into `edited/` or `out`.
+        """Run the program on all assets or those of some ids, into `edited/` or `out`, as `meshforge.batch.apply` does.
 
-        All else as of `meshforge.batch.apply`. Raises ProjectError for an asset that is not there.
+        Raises ProjectError for an asset that is not there, and what `meshforge.batch.apply` raises.
         """
         program, work, templates = build_work(self, only)
-        return apply(
-            program,
-            work,
-            out or self.layout.edited,
-            templates=templates,
-            workers=workers,
-            mass=mass,
-            link=link,
-            dry_run=dry_run,
-            resume=resume,
-            timeout=timeout,
-            memory=memory,
-            backend=backend,
-            progress=progress,
-            stop=stop,
-        )
+        out = out or self.layout.edited
+        return apply(program, work, out, templates=templates, options=options, execution=execution)
 
     def work(self) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
         """What `apply` runs: the program, a job for each asset, and the templates. Raises ProjectError: no program."""

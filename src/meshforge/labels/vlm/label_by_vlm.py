@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure
+from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
 from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
 from meshforge.labels.vlm.cache import write_page
@@ -43,7 +43,7 @@ def draw_assets(
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = store.assets()
     items = list(zip(assets, store.asset_files(assets), strict=True))
-    work = spread.run(partial(_draw, manner), items)
+    work = execute(partial(_draw, manner), items, spread)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield (

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 from uuid import uuid4
 
-from meshforge.batch import AssetOutcome, Failed, status_of
+from meshforge.batch import AssetOutcome, ExecutionOptions, Failed, status_of
 from meshforge.common import ProjectError, pluralize
 from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.project import PreparationResult
@@ -62,7 +62,9 @@ def start_apply(desk: Session, request: ApplyJob) -> Job:
 
     def work(running: JobProgress) -> str:
         counts: Counter[str] = Counter()
-        outcomes = project.apply(assets, progress=running.advance, stop=lambda: running.is_stopped)
+        outcomes = project.apply(
+            assets, execution=ExecutionOptions(stop=lambda: running.is_stopped, progress=running.advance)
+        )
         for outcome in outcomes:
             counts[status_of(outcome)] += 1
             running.add_line(_apply_line(outcome))
