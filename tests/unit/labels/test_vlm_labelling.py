@@ -16,7 +16,6 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
-from meshforge.perception import vlm
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
@@ -439,7 +438,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
             raise ZeroDivisionError("no room for the picture")
         return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(vlm, "prompt", looks)
+    monkeypatch.setattr(prompt, "build_questions", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))
