@@ -62,7 +62,7 @@ def start_propagate(session: Session) -> Job:
     def record(best: str | None) -> Iterator[None]:
         with session.record_edit(Propagate(used=used, next=best), uuid4().hex):
             if _preparation_digests(session.project) != began:
-                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Carry labels over again.")
+                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
             yield
 
     def work(progress: JobProgress) -> str:
@@ -76,7 +76,7 @@ def start_propagate(session: Session) -> Job:
         return _describe_propagation(result)
 
     assets = project.assets()
-    return session.jobs.start("propagate", "Carrying labels over", len(assets), work, stays="no label was changed.")
+    return session.jobs.start("propagate", "Propagating labels", len(assets), work, stays="no label was changed.")
 
 
 def _check_labels(project: Project) -> None:
@@ -85,7 +85,7 @@ def _check_labels(project: Project) -> None:
         raise ProjectError("the vocabulary is empty", remedy="Say first what hulls can be.")
     given = (label.source in GIVEN_SOURCES for a in project.assets() for label in project.labels(a).labels.values())
     if not any(given):
-        raise ProjectError("there is no label to carry over", remedy="Label the hulls of one asset first.")
+        raise ProjectError("there is no label to propagate", remedy="Label the hulls of one asset first.")
 
 
 def _preparation_digests(project: Project) -> dict[str, str | None]:
