@@ -19,7 +19,7 @@ from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.readme import commands
 from tests.urdf_engines import bullet, mujoco_model
 

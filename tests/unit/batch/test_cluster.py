@@ -19,7 +19,7 @@ from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, tree, write_tables
 
 ray = pytest.importorskip("ray")
-pytestmark = pytest.mark.filterwarnings("ignore")  # Ray's own
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]  # the warnings are Ray's own
 
 
 @pytest.fixture(scope="module")
