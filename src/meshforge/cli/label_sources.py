@@ -82,11 +82,11 @@ def preview(
 
     match source:
         case "names":
-            found = project.propose_from_names(options.meanings, vocabulary, spread=spread)
+            found = project.propose_from_names(options.meanings, vocabulary, execution=spread)
         case "propagate":
-            found = project.propose_propagated(vocabulary, spread=spread, stage=progress)
+            found = project.propose_propagated(vocabulary, execution=spread, stage=progress)
         case _:
-            found = project.propose_from_files(labels, options.filing, vocabulary, spread=spread)
+            found = project.propose_from_files(labels, options.filing, vocabulary, execution=spread)
     if json:
         print_json(_to_json(found))
     else:
@@ -169,7 +169,7 @@ def _run_source(
 
     count = len(project.assets())
     if source == "propagate":
-        carried = project.propagate_labels(spread=spread, stage=progress, report=telling)
+        carried = project.propagate_labels(execution=spread, stage=progress, report=telling)
         return f"If some are wrong, label or correct this one next: {carried.next}" if carried.next else ""
     with progress(count, "labelling") as advance:
 
@@ -178,7 +178,7 @@ def _run_source(
             advance()
 
         if source == "names":
-            project.label_from_names(given.meanings, spread=spread, report=report)
+            project.label_from_names(given.meanings, execution=spread, report=report)
             return ""
-        bare = count - len(project.label_from_files(labels, given.filing, spread=spread, report=report))
+        bare = count - len(project.label_from_files(labels, given.filing, execution=spread, report=report))
     return f"{pluralize(bare, 'asset')} without a labels file" if bare else ""

@@ -60,7 +60,7 @@ def forecast(
 
     settings = options.settings(project)
     with progress(len(project.assets()), "drawing") as advance, catch_interrupt() as stop:
-        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, spread=spread)
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, execution=spread)
         if stop():
             raise KeyboardInterrupt
     if json:
@@ -104,7 +104,7 @@ def _ask_model(project: Project, options: VlmOptions, spread: ExecutionOptions) 
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
     bar = progress(len(project.assets()), f"asking {settings.model}")
     with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
-        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop, spread=spread)
+        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop, execution=spread)
 
 
 @contextmanager

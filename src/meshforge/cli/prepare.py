@@ -61,7 +61,8 @@ def prepare(
         refuse_options(context, ("option", "only", "again", "hollow", "workers", "timeout"), "--decompose METHOD")
         raise typer.Exit(print_all(_undo_preparation(opened, _select_assets(opened, assets), everything=remove), json))
     settings = parse_engine_settings(method, option)
-    options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
+    options = {"only": only or (), "again": again, "hollow": hollow}
+    execution = ExecutionOptions(workers=workers, timeout=timeout)
     raise typer.Exit(decompose_assets(opened, assets or opened.assets(), settings, json=json, **options))
 
 

@@ -67,7 +67,7 @@ def start_propagate(session: Session) -> Job:
 
     def work(progress: JobProgress) -> str:
         options = ExecutionOptions(stop=progress.is_stopped)
-        result = project.propagate_labels(spread=options, stage=progress.stage, keeping=record)
+        result = project.propagate_labels(execution=options, stage=progress.stage, keeping=record)
         for report in result.reports:
             progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
         if not any(report.taken for report in result.reports):
