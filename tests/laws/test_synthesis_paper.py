@@ -26,7 +26,7 @@ from meshforge.synthesis.paper.partial import (
     make_attach,
     make_operator,
 )
-from meshforge.synthesis.paper.search import Abduction, Explained, search_by_paper
+from meshforge.synthesis.paper.search import Abduction, HitWithCorrections, search_by_paper
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
@@ -184,8 +184,8 @@ def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
 ) -> None:
     examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
     answer = search_by_paper(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta))
-    assume(isinstance(answer, Explained))
-    assert isinstance(answer, Explained)
+    assume(isinstance(answer, HitWithCorrections))
+    assert isinstance(answer, HitWithCorrections)
     assert matches(answer.extractor, [corrected(example, answer.corrections) for example in examples])
     for example in examples:
         assert sum(correction.asset == example.name for correction in answer.corrections) <= eta

@@ -29,6 +29,7 @@ from meshforge.batch import (
 )
 from meshforge.batch import apply as run_program
 from meshforge.checks import ENGINES, CheckOptions
+from meshforge.cli.console import progress
 from meshforge.cli.options import (
     NOTHING_TO_SHOW,
     Backend,
@@ -43,7 +44,7 @@ from meshforge.cli.options import (
     to_execution_options,
 )
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
-from meshforge.cli.terminal import print_json, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 

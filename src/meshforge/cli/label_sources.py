@@ -10,8 +10,9 @@ from typing import Any, Literal
 import typer
 
 from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
-from meshforge.cli.terminal import print_json, print_table, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.labels import LabelFileOptions, LabelOutcome, PointAlignment, PointsOptions, Proposal, Proposals
 from meshforge.project import Project

@@ -12,8 +12,9 @@ import typer
 from pydantic import ValidationError
 
 from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
-from meshforge.cli.terminal import catch_interrupt, print_json, progress, remark
+from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError, first_validation_error, join_names, pluralize
 from meshforge.labels import Usage, VlmForecast, VlmResult
 from meshforge.project import Project

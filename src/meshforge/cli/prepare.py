@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from meshforge.cli.console import progress
 from meshforge.cli.options import (
     AssetTimeout,
     EngineMethod,
@@ -20,7 +21,7 @@ from meshforge.cli.options import (
     refuse_options,
     takes,
 )
-from meshforge.cli.terminal import print_json, progress
+from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
 from meshforge.project import PreparationResult, Project
@@ -51,7 +52,7 @@ class PrepareArguments:
 
 @takes(PrepareArguments)
 def prepare(given: PrepareArguments) -> None:
-    """Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls.
+    """Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls.
 
     The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
     asset; the asset's own files stay as they are. To split one hull: meshforge split.

@@ -21,7 +21,8 @@ from meshforge.batch import (
     write_report,
 )
 from meshforge.checks import CheckOptions, Examination, examine_mesh
-from meshforge.cli.terminal import progress, remark
+from meshforge.cli.console import progress
+from meshforge.cli.terminal import remark
 from meshforge.formats import load
 from meshforge.language import Program, RuleTrace, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
@@ -30,7 +31,7 @@ NOTHING_WRITTEN = " (nothing was written)"
 
 
 def write_report_page(path: Path, assets: Sequence[ReportAsset], **more: Any) -> None:
-    """Write it with a bar on stderr, and say where it is; more: as of `write_report`."""
+    """Write the page with a bar on stderr, and say where it is; more: the other arguments of `write_report`."""
     with progress(len(assets), "drawing") as advance:
         write_report(path, assets=assets, progress=advance, **more)
     remark(f"report: {path}")

@@ -13,7 +13,6 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.cli.options import Json, takes
-from meshforge.cli.synthesize_dialog import Conversation
 from meshforge.cli.synthesize_script import check_all_asked, read_answers, run_script
 from meshforge.cli.synthesize_session import LearningSession
 from meshforge.cli.synthesize_text import (
@@ -40,13 +39,13 @@ class SynthesizeArguments:
         Path | None, typer.Option("--answers", help="A JSON file that answers questions, in place of a person.")
     ] = None
     accept_repairs: Annotated[
-        bool, typer.Option("--accept-repairs", help="Mend every label that is probably wrong, without asking.")
+        bool, typer.Option("--accept-repairs", help="Repair every label that is probably wrong, without asking.")
     ] = False
     reject_repairs: Annotated[
         bool, typer.Option("--reject-repairs", help="Leave labels as they are, now and later, without asking.")
     ] = False
     list_answers: Annotated[
-        bool, typer.Option("--list-answers", help="Only list what was answered, mended and refused so far.")
+        bool, typer.Option("--list-answers", help="Only list what was answered, repaired and refused so far.")
     ] = False
     forget: Annotated[
         list[str] | None,
@@ -93,7 +92,12 @@ def synthesize(given: SynthesizeArguments) -> None:
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None
-    outcome = Conversation(session, input, typer.echo).run() if asks else run_script(session, answers, verdict)
+    if asks:
+        from meshforge.cli.synthesize_dialog import Conversation  # lazy: 50 modules of rich that a script does not need
+
+        outcome = Conversation(session, input, typer.echo).run()
+    else:
+        outcome = run_script(session, answers, verdict)
     if given.json:
         print_json(outcome_to_json(outcome))
     else:
@@ -145,14 +149,14 @@ def _print_answers(project: Project, folder: Path, json: bool) -> None:
     if said.ids:
         remark(f"To take one back: meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(said.ids[0])}")
     else:
-        remark("nothing was answered, mended or refused yet")
+        remark("nothing was answered, repaired or refused yet")
 
 
 def _answer_lines(said: AnswersFile) -> Iterator[str]:
     for line in said.answers:
         hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
         yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
-    yield from (f"{line.id}  mended, was {_describe_before(line)}" for line in said.confirmed)
+    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in said.confirmed)
     yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in said.rejected)
 
 

@@ -26,8 +26,7 @@ class LearningSession:
     """Learns as often as it is asked to.
 
     keep: whether programs, answers and repairs are kept in the project. stopped: whether a person ended the last
-    lesson; answers: how many it took into account; given: answers that are not kept; follow: a program to tell
-    about.
+    search; given: answers that are not kept; follow: a program to say of why it was not learned.
     """
 
     project: Project

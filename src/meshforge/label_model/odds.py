@@ -1,7 +1,7 @@
 """How believable each label is: the odds against every other label, from its source and confidence and from look-
 alikes.
 
-What believing costs is in nats. Tuned on families of box furniture; `script/bench repairs` judges it on families
+Costs are in nats. Tuned on families of box furniture; `script/bench repairs` judges it on families
 that nothing was tuned on.
 """
 
@@ -24,13 +24,13 @@ PERSON_PROBABILITY = 0.9995
 """How much a person's label is believed."""
 
 MAX_MACHINE_PROBABILITY = (0.85, 0.98)
-"""The most that a label of confidence 1 is believed lies between these; where, the batch tells for each source."""
+"""The most that a label of confidence 1 is believed lies between these; where, the batch says for each source."""
 
 MIN_MACHINE_PROBABILITY = 0.5
 """A machine's label is believed so much at least, whatever its confidence, before look-alikes are asked."""
 
 AGREEMENT = 0.85
-"""Similar hulls that give a label such a chance tell whether others of the source are right."""
+"""Similar hulls that give a label such a chance show whether others of the source are right."""
 
 PRIOR_ACCURACY = (0.96, 20.0)
 """The share of right labels that is assumed beforehand, and how many hulls that counts for."""
@@ -63,7 +63,7 @@ class LabelBeliefs:
 
     demonstrated: by the names that examples have, in the frame to reason in, before any rule; batch: all other
     meshes, in that frame as far as they have one; those that are demonstrated too are left out.
-    Hulls that rules made have no standing: what to correct is the label of what they were made from.
+    Hulls that rules made have no odds: what to correct is the label of what they were made from.
     """
 
     def __init__(
@@ -74,11 +74,11 @@ class LabelBeliefs:
         self._names, meshes = [*demonstrated, *others], [*shown, *others.values()]
         self._counts, self._vocabulary = [len(mesh.hulls) for mesh in meshes], vocabulary
         self._hulls = [hull for mesh in meshes for hull in mesh.hulls]
-        self._votes = said = vote_by_lookalikes(meshes, vocabulary)
-        self._accuracies = surest = _source_accuracies(self._hulls, said, vocabulary)
+        self._votes = votes = vote_by_lookalikes(meshes, vocabulary)
+        self._accuracies = accuracies = _source_accuracies(self._hulls, votes, vocabulary)
         places = [(name, hull) for name, mesh in demonstrated.items() for hull in mesh.hulls]
         self._odds_by_hull = {
-            (name, hull.name): _odds_of_hull(hull, said.chances[row], said.nearest[row], surest, vocabulary)
+            (name, hull.name): _odds_of_hull(hull, votes.chances[row], votes.nearest[row], accuracies, vocabulary)
             for row, (name, hull) in enumerate(places)
         }
 
@@ -103,12 +103,12 @@ class LabelBeliefs:
         return found if found and found.hull.annotation == hull.annotation and hull.parent is None else None
 
     def odds(self, asset: str, hull: Hull, to: str) -> float:
-        """The odds for the hull's label against the label `to` [nats]; infinite where it has no standing."""
+        """The odds for the hull's label against the label `to` [nats]; infinite where it has none."""
         found = self.odds_of(asset, hull)
         return found.odds.get(to, math.inf) if found else math.inf
 
     def cost(self, asset: str, hull: Hull, to: str) -> float:
-        """What it costs to believe that the hull is to be labelled `to` [nats], never below 0."""
+        """The cost of the hypothesis that the hull is to be labelled `to` [nats], never below 0."""
         odds = self.odds(asset, hull, to)
         return odds if odds > 30 else math.log1p(math.exp(odds)) + CORRECTION_COST
 
@@ -120,11 +120,11 @@ def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:
     return mesh.asset is not None and other.asset is not None and mesh.asset.path == other.asset.path
 
 
-def _source_accuracies(hulls: Sequence[Hull], said: LookalikeVotes, vocabulary: Sequence[str]) -> Mapping[str, float]:
-    """The share of right labels of each source, as far as similar hulls that agree among themselves tell."""
+def _source_accuracies(hulls: Sequence[Hull], votes: LookalikeVotes, vocabulary: Sequence[str]) -> Mapping[str, float]:
+    """The share of right labels of each source, as far as similar hulls that agree among themselves show."""
     right, total = Counter[str](), Counter[str]()
     if vocabulary:
-        for hull, best, chance in zip(hulls, said.chances.argmax(axis=1), said.chances.max(axis=1), strict=True):
+        for hull, best, chance in zip(hulls, votes.chances.argmax(axis=1), votes.chances.max(axis=1), strict=True):
             if hull.annotation and chance >= AGREEMENT:
                 total[hull.annotation.source] += 1
                 right[hull.annotation.source] += hull.annotation.name == vocabulary[best]
@@ -133,32 +133,31 @@ def _source_accuracies(hulls: Sequence[Hull], said: LookalikeVotes, vocabulary: 
 
 
 def _odds_of_hull(
-    hull: Hull, chances: Floats, nearest: Ints, surest: Mapping[str, float], vocabulary: Sequence[str]
+    hull: Hull, chances: Floats, nearest: Ints, accuracies: Mapping[str, float], vocabulary: Sequence[str]
 ) -> LabelOdds:
     by_label = dict(zip(vocabulary, chances.tolist(), strict=True))
     others = [label for label in vocabulary if label != hull.label]
-    odds = {
-        label: max(-MAX_ODDS_FOR_CORRECTION, _log_odds(hull, label, by_label, surest, len(others))) for label in others
-    }
+    log_odds = {label: _log_odds(hull, label, by_label, accuracies, len(others)) for label in others}
+    odds = {label: max(-MAX_ODDS_FOR_CORRECTION, one) for label, one in log_odds.items()}
     return LabelOdds(hull, odds, tuple(vocabulary[place] for place in nearest))
 
 
-def _log_odds(hull: Hull, to: str, chances: Mapping[str, float], surest: Mapping[str, float], others: int) -> float:
+def _log_odds(hull: Hull, to: str, chances: Mapping[str, float], accuracies: Mapping[str, float], others: int) -> float:
     """The logarithm of the odds of the hull's label, or of having none, against another label."""
     if hull.annotation is None:
         return NO_LABEL_COST - math.log(chances[to])
-    right = label_probability(hull, surest)
+    right = label_probability(hull, accuracies)
     agreement = chances.get(hull.annotation.name, min(chances.values()))
     return math.log(right / (1 - right) * others) + math.log(agreement / chances[to])
 
 
-def label_probability(hull: Hull, surest: Mapping[str, float]) -> float:
+def label_probability(hull: Hull, accuracies: Mapping[str, float]) -> float:
     """The probability that a hull's label is right, looking at its source and confidence only."""
     assert hull.annotation
     if is_human(hull):
         return PERSON_PROBABILITY
     low, high = MAX_MACHINE_PROBABILITY
-    most = min(high, max(low, surest[hull.annotation.source]))
+    most = min(high, max(low, accuracies[hull.annotation.source]))
     return min(most, max(MIN_MACHINE_PROBABILITY, hull.annotation.confidence))
 
 

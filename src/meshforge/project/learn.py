@@ -59,7 +59,15 @@ def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
     settings = project.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     confirm = _ask_once(asked or how.confirm) if how.confirm else None
-    templates, rejected = project.templates(names), _list_rejections(said)
+    templates = project.templates(names)
+    options = replace(
+        how.options or Options(),
+        contact=settings.thresholds.contact,
+        extremity=settings.thresholds.extremity,
+        rejected=tuple(_list_rejections(said)),
+        follow=how.follow,
+        stop=how.stop,
+    )
 
     def learned(answers: Sequence[Answer]) -> LearningOutcome:
         return synthesize(
@@ -68,14 +76,9 @@ def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
             orient=project.orientation,
             templates=templates,
             vocabulary=settings.vocabulary or None,
-            contact=settings.thresholds.contact,
-            extremity=settings.thresholds.extremity,
-            options=how.options or Options(),
+            options=options,
             confirm=confirm,
             answers=answers,
-            rejected=rejected,
-            follow=how.follow,
-            stop=how.stop,
         )
 
     outcome = learned([*looked, *fitting])

@@ -12,7 +12,7 @@ import numpy as np
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.outcome import reading_id
 from meshforge.synthesis.questions import Choice, Hint, Question
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -86,15 +86,14 @@ def _suggest_strangest(weighed: RankedReadings, names: Sequence[str]) -> Hint | 
 
 def _hull_names(weighed: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
     chosen = weighed.field.on(weighed.terms[reading].bits, mesh)
-    hulls = weighed.field.meshes[mesh].hulls
-    return tuple(hulls[index].name for index in sorted(bits_of(chosen)))
+    return weighed.field.meshes[mesh].names_of(chosen)
 
 
 def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) -> tuple[str, ...]:
-    """The assets whose results to look at, the most telling first; none of which every rule is known.
+    """The assets whose results to look at, the most revealing first; none of which every rule is known.
 
     First each time the asset on which most belief is in readings that none before it would refute, then the one that
-    stands for most hulls unlike any before. trust: how much each tells; where labels are doubtful less, since what is
+    stands for most hulls unlike any before. trust: how much each shows; where labels are doubtful less, since what is
     wrong there may be a label.
     """
     known = [set(names[: len(weighed.examples)]) for weighed, names in learned]
@@ -166,16 +165,16 @@ def choose_first_demonstration(
     and the labels that may be wrong.
 
     Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
-    extremity: as of `synthesize`; among: the ids of those in question, by default all: labels are judged by all.
+    extremity: of the program; among: the ids of those in question, by default all: labels are judged by all.
     """
     delta = EXTREMITY if extremity is None else extremity
     staged = {name: one for name, mesh in meshes.items() if (one := _stage_or_none(mesh, orient, contact))}
     errors = LabelBeliefs({}, staged, vocabulary).errors
     worth: dict[str, float] = {}
     for name, mesh in staged.items():
-        told = _count_selections(mesh, vocabulary, delta) if among is None or name in among else 0
-        if told > 1:
-            worth[name] = told - COST_OF_HULL * len(mesh.hulls) - COST_OF_WRONG_LABEL * errors[name]
+        selections = _count_selections(mesh, vocabulary, delta) if among is None or name in among else 0
+        if selections > 1:
+            worth[name] = selections - COST_OF_HULL * len(mesh.hulls) - COST_OF_WRONG_LABEL * errors[name]
     return max(worth, key=worth.__getitem__, default=None)
 
 

@@ -23,7 +23,7 @@ from meshforge.language import (
     show_label,
     size_of,
 )
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.outcome import reading_id
@@ -31,11 +31,11 @@ from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.task import LearningTask
 
-_MAX_SENTENCES = 4  # sentences
+_MAX_SENTENCES = 4
 
 
 def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
-    """What a person can look at, the likeliest first; answered: the meshes of which an answer told."""
+    """What a person can look at, the likeliest first; answered: the meshes that an answer is about."""
     example = next(example for example in examples if example.name == miss.asset)
     lines = [*_advise_on_missing_labels(miss, example), *_advise_on_near_contacts(miss, example)]
     if answered:
@@ -141,7 +141,7 @@ def follow_rule(
     barred = next(_find_exclusion(wanted, task), None)
     if barred:
         return text + barred
-    wrong = next(_find_difference(wanted, examples, task.extremity), None)
+    wrong = next(_find_difference(wanted, examples, task.options.geo_extremity), None)
     if wrong:
         return text + wrong
     if weighed is None:
@@ -165,10 +165,8 @@ def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: 
     """On which mesh it does something else than was shown."""
     for example in examples:
         found = select_mask(wanted, example.mesh, extremity)
-        extra, missing = (
-            _hull_names(example, found & ~example.selection),
-            _hull_names(example, example.selection & ~found),
-        )
+        extra = example.mesh.names_of(found & ~example.selection)
+        missing = example.mesh.names_of(example.selection & ~found)
         said = [f"leaves out {join_names(missing)}"] if missing else []
         said += [f"selects {join_names(extra)} too"] if extra else []
         if said:
@@ -212,7 +210,3 @@ def _leaves_of(extractor: Extractor) -> Iterator[All | Is | Attach | Geo]:
         yield from _leaves_of(extractor.right)
     else:
         yield extractor
-
-
-def _hull_names(example: Example, mask: int) -> list[str]:
-    return [example.mesh.hulls[index].name for index in sorted(bits_of(mask))]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge.common import MeshForgeError
-from meshforge.language import EXTREMITY, Program, Rule, Template
+from meshforge.language import Program, Rule, Template
 from meshforge.symbolic import Label, SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
@@ -22,9 +22,8 @@ Batch = Mapping[str, SymbolicMesh]
 class LearningTask:
     """Demonstrations, the batch they stand for, and what a person said since.
 
-    frame: the program without its rules; rejected: corrections of labels that a person refused;
-    confirmed: those that were made, as a person said that they are right;
-    follow: a program of which is to be told why it is not what was learned.
+    frame: the program without its rules; rejected: corrections of labels not to propose; confirmed: those that were
+    made, as a person said that they are right.
     """
 
     rules: tuple[RuleSpec, ...]
@@ -35,13 +34,7 @@ class LearningTask:
     answers: tuple[Answer, ...]
     rejected: frozenset[LabelCorrection]
     options: Options
-    follow: Program | None = None
     confirmed: tuple[LabelCorrection, ...] = ()
-
-    @property
-    def extremity(self) -> float:
-        """The threshold of `Geo`."""
-        return EXTREMITY if self.frame.extremity is None else self.frame.extremity
 
 
 def name_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:

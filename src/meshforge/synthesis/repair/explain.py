@@ -10,15 +10,25 @@ from math import exp, log, prod
 from types import MappingProxyType
 
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
-from meshforge.language import EXTREMITY, Extractor, show, size_of
+from meshforge.language import Extractor, show, size_of
 from meshforge.symbolic import Hull
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair import candidates
-from meshforge.synthesis.repair import candidates as candidates_module
-from meshforge.synthesis.repair.candidates import Candidate, key_cost, search_larger, search_small, total_chance
-from meshforge.synthesis.repair.relabelings import LabelChange, Variants, enumerate_relabelings, to_correction
+from meshforge.synthesis.repair.candidates import (
+    MAX_BELIEF_AGAINST_PERSON,
+    MIN_BELIEF,
+    MIN_BELIEF_WITHOUT_EXACT,
+    NO_EXTRACTOR_COST,
+    NODE_COST,
+    RIVAL_MARGIN,
+    Candidate,
+    key_cost,
+    search_larger,
+    search_small,
+    total_chance,
+)
+from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.terms import order_key
 
 SMALL_SIZE = 5
@@ -56,7 +66,6 @@ def explain_by_corrections(
     labels: LabelBeliefs,
     options: Options,
     budget: TimeBudget,
-    extremity: float = EXTREMITY,
     exact: Extractor | None = None,
     spent: Mapping[str, int] = _NONE_SPENT,
     rejected: Collection[LabelCorrection] = (),
@@ -68,7 +77,7 @@ def explain_by_corrections(
     corrections not to propose. Raises OutOfTime.
     """
     some = tuple(example for example in examples if example.mesh.hulls)
-    return _RepairCase(some, vocabulary, labels, options, budget, extremity, exact, spent, rejected).explain()
+    return _RepairCase(some, vocabulary, labels, options, budget, exact, spent, rejected).explain()
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +89,6 @@ class _RepairCase:
     labels: LabelBeliefs
     options: Options
     budget: TimeBudget
-    extremity: float
     exact: Extractor | None
     spent: Mapping[str, int]
     rejected: Collection[LabelCorrection]
@@ -98,7 +106,7 @@ class _RepairCase:
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
         places = {label: place for place, label in enumerate(self.vocabulary)}
-        return key_cost(order_key(self.exact, places)) if self.exact else candidates.NO_EXTRACTOR_COST
+        return key_cost(order_key(self.exact, places)) if self.exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
@@ -107,7 +115,7 @@ class _RepairCase:
 
     def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
-        within = self._exact_cost - candidates.NODE_COST
+        within = self._exact_cost - NODE_COST
         room = MAX_RELABELINGS // max(1, len(self.examples))
         ways = [
             enumerate_relabelings(
@@ -117,7 +125,7 @@ class _RepairCase:
         ]
         if not any(len(some) > 1 for some in ways):
             return None
-        return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.extremity)
+        return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.options.geo_extremity)
 
     def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
@@ -128,11 +136,9 @@ class _RepairCase:
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL_SIZE, self._limit)
         found = list(search_small(variants, above, self._exact_cost, self.budget))
-        within = min([self._exact_cost, *(one.cost + candidates.RIVAL_MARGIN for one in found)])
+        within = min([self._exact_cost, *(one.cost + RIVAL_MARGIN for one in found)])
         options = replace(self.options, max_size=self._limit)
-        found += search_larger(
-            self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.budget
-        )
+        found += search_larger(self.examples, variants, self.vocabulary, options, above, within, self.budget)
         return found
 
     def _rival_cost(self, variants: Variants) -> float:
@@ -141,9 +147,9 @@ class _RepairCase:
 
     def _choose(self, candidates: Sequence[Candidate], sure: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
-        least = candidates_module.MIN_BELIEF if self.exact else candidates_module.MIN_BELIEF_WITHOUT_EXACT
+        least = MIN_BELIEF if self.exact else MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
-            if candidate.score > candidates[0].score + candidates_module.RIVAL_MARGIN:
+            if candidate.score > candidates[0].score + RIVAL_MARGIN:
                 break
             if all(sure[place] >= least for place in changes_of(candidate)):
                 return candidate
@@ -155,10 +161,10 @@ class _RepairCase:
         for at, change in places:
             example = self.examples[at]
             hull = example.mesh.hulls[change[0]]
-            standing = self.labels.odds_of(example.name, hull)
-            assert standing, "only hulls with a standing are relabelled"
-            most = candidates.MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
-            said = explain_correction(standing, change[1], chosen.extractor, len(places) == 1)
+            odds = self.labels.odds_of(example.name, hull)
+            assert odds, "only hulls with odds are relabelled"
+            most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
+            said = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
             rows.append((to_correction(example, change), min(sure[at, change], most), said))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
         corrections, believed, whys = zip(*rows, strict=True)
@@ -194,17 +200,17 @@ def compute_change_beliefs(candidates: Sequence[Candidate], instead: float) -> M
     return {place: share / total for place, share in shares.items()}
 
 
-def explain_correction(standing: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
     """One sentence on the label itself, and what its correction makes possible.
 
     alone: whether it is the only correction.
     """
-    evidence = "; ".join([*_label_evidence(standing, to), _describe_effect(extractor, alone)])
+    evidence = "; ".join([*_label_evidence(odds, to), _describe_effect(extractor, alone)])
     return evidence[0].upper() + evidence[1:]
 
 
-def _label_evidence(standing: LabelOdds, to: str) -> list[str]:
-    similar, hull = standing.similar, standing.hull
+def _label_evidence(odds: LabelOdds, to: str) -> list[str]:
+    similar, hull = odds.similar, odds.hull
     agreeing, of = similar.count(to), len(similar)
     said = []
     if agreeing > similar.count(hull.label or ""):

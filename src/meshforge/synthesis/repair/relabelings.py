@@ -11,14 +11,11 @@ import numpy as np
 
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import SLACK, Extractor, reference_length
-from meshforge.symbolic import Hull, Label, mask_of
-from meshforge.synthesis.demonstration import Example
+from meshforge.symbolic import Label, mask_of
+from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.observation_table import HullGroups, HullTable
-
-LabelChange = tuple[int, str]
-"""A hull by its index, and the label it gets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,23 +55,13 @@ def enumerate_relabelings(
     return _sort_by_cost(every)
 
 
-def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
-    """A change as it is called outside."""
-    hull = example.mesh.hulls[change[0]]
-    return LabelCorrection(example.name, hull.name, hull.label, change[1])
-
-
 def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
     """The example with labels changed."""
     if not changes:
         return example
     hulls = example.mesh.hulls
-    mesh = example.mesh.with_labels({hulls[index].name: _repair_label(hulls[index], to) for index, to in changes})
+    mesh = example.mesh.with_labels({hulls[index].name: Label(to, source="repair") for index, to in changes})
     return Example(example.name, mesh, example.selection)
-
-
-def _repair_label(hull: Hull, to: str) -> Label:
-    return Label(to, source="repair")
 
 
 def _single_changes(

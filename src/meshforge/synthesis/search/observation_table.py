@@ -90,18 +90,18 @@ class ObservationTable:
         """
         first: dict[tuple[bytes, bool], tuple[int, int]] = {}
         for mesh, mask in enumerate(selections):
-            for hull, look in enumerate(self._signatures[mesh]):
-                first.setdefault((look, bool(mask >> hull & 1)), (mesh, hull))
-        for (look, selected), place in first.items():
-            if selected and (look, False) in first:
-                return place, first[look, False]
+            for hull, signature in enumerate(self._signatures[mesh]):
+                first.setdefault((signature, bool(mask >> hull & 1)), (mesh, hull))
+        for (signature, selected), place in first.items():
+            if selected and (signature, False) in first:
+                return place, first[signature, False]
         return None
 
 
 class HullGroups:
     """The groups of the hulls in a row, numbered by their first hull.
 
-    looks: of each hull, which leaves select it; of: the group of each hull; width: how many groups there are.
+    signatures: of each hull, which leaves select it; of: the group of each hull; width: how many groups there are.
     vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own.
     """
 

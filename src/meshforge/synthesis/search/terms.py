@@ -56,7 +56,7 @@ def leaf_key(leaf: All | Is | Attach | Geo, labels: Mapping[str, int]) -> Key:
     """The key of an extractor without set operators; labels: the place of each label in the vocabulary.
 
     Doubts count what fits by accident more easily than labels, and contact between two labels, do: `All`; a
-    direction, since there are six to try; an `Attach` that is not between two labels, since it tells how parts
+    direction, since there are six to try; an `Attach` that is not between two labels, since it says how parts
     were cut rather than what they are.
     """
     match leaf:
@@ -112,7 +112,7 @@ class Compound:
 class Term:
     """An extractor, its place in the order, and its selection as a bit set over the search's groups of hulls.
 
-    made: the extractor itself, or the operands it is put together from: most terms are never written out.
+    form: the extractor itself, or the operands it is put together from: most terms are never written out.
     """
 
     bits: int
@@ -130,12 +130,6 @@ class Term:
         """Its syntax nodes."""
         size: int = self.key[0]
         return size
-
-    @property
-    def doubts(self) -> int:
-        """How much in it fits by accident easily (search/order.py)."""
-        doubts: int = self.key[1]
-        return doubts
 
 
 def combine(joint: SetOperator, left: Term, right: Term) -> Term:
