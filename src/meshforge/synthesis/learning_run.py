@@ -27,7 +27,7 @@ from meshforge.synthesis.outcome import (
     TimedOut,
     reading_id,
 )
-from meshforge.synthesis.paper.search import HitWithCorrections, search_by_paper
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.enumeration import enumerate_consistent
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -131,7 +131,7 @@ class LearningRun:
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         task = self._task
-        found = search_by_paper(
+        found = PaperSearch(
             examples,
             task.frame.labels,
             self._budget,
@@ -139,7 +139,7 @@ class LearningRun:
             make_confirmer(spec.number, self._confirm) if self._confirm else None,
             task.rejected,
             self._repairs.counts,
-        )
+        ).run()
         self._record_effort(spec, found.tried)
         if isinstance(found, HitWithCorrections):
             return self._repairs.record_inferred(spec.number, found)

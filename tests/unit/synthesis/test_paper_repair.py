@@ -10,7 +10,7 @@ from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import HitWithCorrections, search_by_paper
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
@@ -33,9 +33,9 @@ def run(
     rejected: Container[LabelCorrection] = (),
     spent: Mapping[str, int] | None = None,
 ) -> SearchResult | HitWithCorrections:
-    return search_by_paper(
+    return PaperSearch(
         examples, LABELS, TimeBudget(60), options, confirm=confirm, rejected=rejected, spent=spent or {}
-    )
+    ).run()
 
 
 def one_leg_wrong() -> Example:
@@ -166,12 +166,12 @@ def test_bounds_cut_what_only_a_repair_would_complete() -> None:
 def test_time_may_run_out_amid_relabelings() -> None:
     wanted = Diff(Is("leg"), Is("panel"))
     ticks = iter([0.0, 0.0, 0.0, 0.0] + [100.0] * 100)
-    answer = search_by_paper(
+    answer = PaperSearch(
         [misread(table(), wanted, leg1_low="panel")],
         LABELS,
         TimeBudget(60, clock=lambda: next(ticks)),
         Options(max_size=3),
-    )
+    ).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None
     assert answer.nearest.extractor == Is("panel")

@@ -60,40 +60,34 @@ class Explanation:
     cost: float
 
 
-def explain_by_corrections(
-    examples: Sequence[Example],
-    vocabulary: Sequence[str],
-    labels: LabelBeliefs,
-    options: Options,
-    budget: TimeBudget,
-    exact: Extractor | None = None,
-    spent: Mapping[str, int] = _NONE_SPENT,
-    rejected: Collection[LabelCorrection] = (),
-) -> Explanation | None:
-    """The most believable extractor with corrections of labels, None where what is exact is as believable.
+class CorrectionSearch:
+    """One rule that may have been shown on wrong labels.
 
     vocabulary: the labels to ask for and to correct to; exact: the smallest extractor that needs no correction, None
     where there is none; spent: corrections made before for other rules, by the name of the mesh; rejected:
-    corrections not to propose. Raises OutOfTime.
+    corrections not to propose.
     """
-    some = tuple(example for example in examples if example.mesh.hulls)
-    return _RepairCase(some, vocabulary, labels, options, budget, exact, spent, rejected).explain()
 
+    def __init__(
+        self,
+        examples: Sequence[Example],
+        vocabulary: Sequence[str],
+        labels: LabelBeliefs,
+        options: Options,
+        budget: TimeBudget,
+        exact: Extractor | None = None,
+        spent: Mapping[str, int] = _NONE_SPENT,
+        rejected: Collection[LabelCorrection] = (),
+    ) -> None:
+        self._examples = tuple(example for example in examples if example.mesh.hulls)
+        self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
+        self._exact, self._spent, self._rejected = exact, spent, rejected
 
-@dataclass(frozen=True, eq=False)
-class _RepairCase:
-    """One rule that may have been shown on wrong labels."""
+    def run(self) -> Explanation | None:
+        """The most believable extractor with corrections of labels, None where what is exact is as believable.
 
-    examples: Sequence[Example]
-    vocabulary: Sequence[str]
-    labels: LabelBeliefs
-    options: Options
-    budget: TimeBudget
-    exact: Extractor | None
-    spent: Mapping[str, int]
-    rejected: Collection[LabelCorrection]
-
-    def explain(self) -> Explanation | None:
+        Raises OutOfTime.
+        """
         variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
@@ -105,49 +99,49 @@ class _RepairCase:
     @cached_property
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
-        places = {label: place for place, label in enumerate(self.vocabulary)}
-        return key_cost(order_key(self.exact, places)) if self.exact else NO_EXTRACTOR_COST
+        places = {label: place for place, label in enumerate(self._vocabulary)}
+        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
         """Nodes that an explanation may have."""
-        return min(self.options.max_size, size_of(self.exact) - 1 if self.exact else self.options.max_size)
+        return min(self._options.max_size, size_of(self._exact) - 1 if self._exact else self._options.max_size)
 
     def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
         within = self._exact_cost - NODE_COST
-        room = MAX_RELABELINGS // max(1, len(self.examples))
+        room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
             enumerate_relabelings(
-                example, self.vocabulary, self.labels, self._count_allowed(example), self.rejected, within, room
+                example, self._vocabulary, self._labels, self._count_allowed(example), self._rejected, within, room
             )
-            for example in self.examples
+            for example in self._examples
         ]
         if not any(len(some) > 1 for some in ways):
             return None
-        return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.options.geo_extremity)
+        return Variants(self._examples, ways, self._vocabulary, self._options.layers, self._options.geo_extremity)
 
     def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
         if not any(hull.label for hull in example.mesh.hulls):
             return 0
-        return self.options.eta - self.spent.get(example.name, 0)
+        return self._options.eta - self._spent.get(example.name, 0)
 
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL_SIZE, self._limit)
-        found = list(search_small(variants, above, self._exact_cost, self.budget))
+        found = list(search_small(variants, above, self._exact_cost, self._budget))
         within = min([self._exact_cost, *(one.cost + RIVAL_MARGIN for one in found)])
-        options = replace(self.options, max_size=self._limit)
-        found += search_larger(self.examples, variants, self.vocabulary, options, above, within, self.budget)
+        options = replace(self._options, max_size=self._limit)
+        found += search_larger(self._examples, variants, self._vocabulary, options, above, within, self._budget)
         return found
 
     def _rival_cost(self, variants: Variants) -> float:
         """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
-        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self.exact))
+        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
 
     def _choose(self, candidates: Sequence[Candidate], sure: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
-        least = MIN_BELIEF if self.exact else MIN_BELIEF_WITHOUT_EXACT
+        least = MIN_BELIEF if self._exact else MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
             if candidate.score > candidates[0].score + RIVAL_MARGIN:
                 break
@@ -159,9 +153,9 @@ class _RepairCase:
         places = changes_of(chosen)
         rows = []
         for at, change in places:
-            example = self.examples[at]
+            example = self._examples[at]
             hull = example.mesh.hulls[change[0]]
-            odds = self.labels.odds_of(example.name, hull)
+            odds = self._labels.odds_of(example.name, hull)
             assert odds, "only hulls with odds are relabelled"
             most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
             said = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)

@@ -14,7 +14,7 @@ from meshforge.synthesis.demonstration import Example, name_demonstrations
 from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.questions import LabelCorrection, Repair
-from meshforge.synthesis.repair.explain import explain_by_corrections
+from meshforge.synthesis.repair.explain import CorrectionSearch
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.task import LearningTask
 
@@ -59,15 +59,18 @@ class RepairCollector:
     ) -> tuple[LabelCorrection, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
         task = self._task
-        explanation = task.options.repair and explain_by_corrections(
-            examples,
-            task.frame.labels,
-            self._beliefs,
-            task.options,
-            self._budget,
-            found.extractor if isinstance(found, Hit) else None,
-            self.counts,
-            task.rejected,
+        explanation = (
+            task.options.repair
+            and CorrectionSearch(
+                examples,
+                task.frame.labels,
+                self._beliefs,
+                task.options,
+                self._budget,
+                found.extractor if isinstance(found, Hit) else None,
+                self.counts,
+                task.rejected,
+            ).run()
         )
         if not explanation:
             return ()

@@ -7,10 +7,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp
 
-import numpy as np
-
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import SLACK, Extractor, reference_length
+from meshforge.language import Extractor
 from meshforge.symbolic import Label, mask_of
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
@@ -109,36 +107,11 @@ class Variant:
     avoid: int
 
 
-class VariantHullTable(HullTable):
-    """The hulls of many relabelings of some meshes in one row; boxes and contacts are those of the meshes."""
-
-    __slots__ = ()
-
-    def __init__(self, examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> None:
-        copies = [len(some) for some in ways]
-        sizes = [len(example.mesh.hulls) for example in examples]
-        self.counts = np.repeat(np.array(sizes, dtype=np.int64), copies)
-        self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
-        self._owner = np.repeat(np.arange(len(self.counts)), self.counts)
-        corners = [example.mesh.corners for example in examples]
-        self._low = np.concatenate([np.tile(low, (n, 1)) for (low, _), n in zip(corners, copies, strict=True)])
-        self._high = np.concatenate([np.tile(high, (n, 1)) for (_, high), n in zip(corners, copies, strict=True)])
-        self._slack = np.repeat([SLACK * reference_length(example.mesh) for example in examples], copies)
-        self._labels = [
-            label
-            for example, some in zip(examples, ways, strict=True)
-            for one in some
-            for label in _labels_under(example, one)
-        ]
-        firsts = np.cumsum([0, *copies])
-        pairs = [
-            (
-                self.starts[first : first + n, None, None]
-                + np.array(sorted(example.mesh.contacts), dtype=np.int64).reshape(-1, 2)
-            )
-            for example, first, n in zip(examples, firsts, copies, strict=False)
-        ]
-        self._contacts = np.concatenate([pair.reshape(-1, 2) for pair in pairs])
+def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> HullTable:
+    """The hulls of each example under each of its relabelings, in one row."""
+    rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
+    labels = [label for example, one in rows for label in _labels_under(example, one)]
+    return HullTable([example.mesh for example, _ in rows], labels)
 
 
 class Variants:
@@ -155,7 +128,7 @@ class Variants:
         layers: Layers,
         extremity: float,
     ) -> None:
-        self._groups = HullGroups(VariantHullTable(examples, ways), vocabulary, layers, extremity)
+        self._groups = HullGroups(build_hull_table(examples, ways), vocabulary, layers, extremity)
         self.width, self.terms = self._groups.width, self._groups.terms
         self.by_example: list[list[Variant]] = []
         begin = 0
