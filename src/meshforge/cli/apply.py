@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.batch import (
+    ApplyOptions,
     AssetJob,
     AssetOutcome,
     Failed,
@@ -96,22 +97,12 @@ def apply(given: ApplyArguments) -> None:
     if len(work.jobs) > 1:
         remark(str(plan_run(work.jobs, work.out)))
     summary, started = RunSummary(), perf_counter()
+    options = ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
     bounds = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     with progress(len(work.jobs), "editing") as advance:
+        execution = replace(bounds, progress=advance)
         for outcome in run_program(
-            work.program,
-            work.jobs,
-            work.out,
-            templates=work.templates,
-            workers=bounds.workers,
-            mass=given.mass,
-            link=given.link,
-            dry_run=given.dry_run,
-            resume=not given.fresh,
-            timeout=bounds.timeout,
-            memory=bounds.memory,
-            backend=bounds.backend,
-            progress=advance,
+            work.program, work.jobs, work.out, templates=work.templates, options=options, execution=execution
         ):
             summary.add(outcome)
             if given.json:

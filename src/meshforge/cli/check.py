@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any, Literal
@@ -118,7 +118,7 @@ def check(given: CheckArguments) -> None:
     journal_file = open_journal(given.journal) if given.journal else nullcontext()
     with journal_file as journal, progress(len(jobs), "checking") as advance:
         known = journal.inputs if journal else {}
-        results = check_assets(jobs, task, execution, known=known, done=advance)
+        results = check_assets(jobs, task, replace(execution, progress=advance), known=known)
         for job, outcome in zip(jobs, results, strict=True):
             row = _to_row(journal, job.id, outcome)
             failed += row["failed"]

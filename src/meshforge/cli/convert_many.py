@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 import typer
 
 from meshforge.batch import (
+    ApplyOptions,
     AssetJob,
     AssetOutcome,
     ExecutionOptions,
@@ -37,7 +37,7 @@ def convert_many(
     sources: Sequence[str],
     out: Path,
     labels: Path | None,
-    options: Mapping[str, Any],
+    options: ApplyOptions,
     execution: ExecutionOptions,
     report: Path | None,
     *,
@@ -48,26 +48,16 @@ def convert_many(
     if len(jobs) > 1:
         remark(str(plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:
-        for outcome in apply(
-            Program(),
-            jobs,
-            out,
-            workers=execution.workers,
-            timeout=execution.timeout,
-            memory=execution.memory,
-            backend=execution.backend,
-            progress=advance,
-            **options,
-        ):
+        for outcome in apply(Program(), jobs, out, options=options, execution=replace(execution, progress=advance)):
             summary.add(outcome)
             if json:
                 print_json(to_json_line(outcome), compact=True)
             else:
                 typer.echo(_describe_outcome(outcome))
     if not json:
-        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options["dry_run"])
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options.dry_run)
     if report:
-        _write_report(report, f"{out.resolve().name} as {options['to']}", jobs, summary, perf_counter() - started)
+        _write_report(report, f"{out.resolve().name} as {options.to}", jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 

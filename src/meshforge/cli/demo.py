@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.batch import ReportAsset, write_report
+from meshforge.batch import ExecutionOptions, ReportAsset, write_report
 from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
@@ -71,7 +71,7 @@ def _run_all(out: Path, workers: int | None) -> None:
     typer.echo(indent(str(program), "    "))
     started = perf_counter()
     with progress(len(project.assets()), "editing") as advance:
-        outcomes = list(project.apply(workers=workers, progress=advance))
+        outcomes = list(project.apply(execution=ExecutionOptions(workers, progress=advance)))
     seconds = perf_counter() - started
     assets = list(compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown))
     with progress(len(assets), "drawing") as advance:

@@ -16,6 +16,7 @@ from meshforge.batch import (
     MeshReader,
     ReportAsset,
     WorkerFailure,
+    execute,
     read_again,
     status_of,
     write_report,
@@ -52,7 +53,7 @@ def compare_outcomes(
     meshes = read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
     todo = [(after, measures, before) for _, before, after in pairs if before and after] if measures else []
-    found = ExecutionOptions(timeout=READ_TIMEOUT).run(_examine, todo)
+    found = execute(_examine, todo, ExecutionOptions(timeout=READ_TIMEOUT))
     for outcome, was, now in pairs:
         name, is_shown = outcome.asset, outcome.asset in demonstrated
         if isinstance(outcome, Failed) or was is None or now is None:

@@ -86,9 +86,14 @@ def synthesize(given: SynthesizeArguments) -> None:
     if given.list_answers:
         _print_answers(project, given.project, given.json)
         return
-    options = Options(strategy=given.strategy, layers=given.layers, repair=not given.no_repair, budget=given.budget)
-    follow = Program.read(given.follow) if given.follow else None
-    session = LearningSession(project, options, keep=not given.dry_run, follow=follow)
+    options = Options(
+        strategy=given.strategy,
+        layers=given.layers,
+        repair=not given.no_repair,
+        budget=given.budget,
+        follow=Program.read(given.follow) if given.follow else None,
+    )
+    session = LearningSession(project, options, keep=not given.dry_run)
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None

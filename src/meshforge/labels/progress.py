@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, plan_run, run_isolated
+from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
 from meshforge.store import AssetFiles, asset_files_of, survey
@@ -112,7 +112,7 @@ def write_contact_sheets(
     """Writes `labels-001.png` and so on, in place of those of an earlier time; what cannot be drawn is left out."""
     vocabulary = project.vocabulary
     works = [_Work(place, vocabulary) for place in asset_files_of(project, assets)]
-    images = run_isolated(_draw, works, timeout=_TIMEOUT, done=progress)
+    images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
     cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
     written = list[Path]()
     while batch := tuple(islice(cells, PER_SHEET)):

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from meshforge.common import ProjectError
-from meshforge.language import Program
 from meshforge.project import accept
 from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
 from meshforge.project.family import FamilyMeshes
@@ -44,7 +43,6 @@ class LearnOptions:
     stop: Callable[[], bool] | None = None
     answers: Sequence[Answer] = ()
     meshes: Mapping[str, SymbolicMesh] | None = None
-    follow: Program | None = None
 
 
 def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
@@ -65,7 +63,6 @@ def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rejected=tuple(_list_rejections(said)),
-        follow=how.follow,
         stop=how.stop,
     )
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from meshforge.batch import (
     DecompositionResult,
+    ExecutionOptions,
     Preparation,
     Replacement,
     WorkerFailure,
@@ -184,7 +185,9 @@ def decompose(
         _DecomposeWork(project.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow)
         for asset in assets
     ]
-    results = run_isolated(_decompose_one, work, workers=workers, timeout=timeout, done=progress, stop=stop)
+    results = run_isolated(
+        _decompose_one, work, ExecutionOptions(workers=workers, timeout=timeout, progress=progress, stop=stop)
+    )
     for asset, result in zip(assets, results, strict=True):
         if isinstance(result, WorkerFailure):
             yield PreparationResult(asset, problems=(result.why,))

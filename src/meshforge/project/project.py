@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.batch import (
+    APPLY_DEFAULTS,
+    EXECUTION_DEFAULTS,
     IN_PROCESS,
     TIMEOUT,
+    ApplyOptions,
     AssetJob,
     AssetOutcome,
     AssetSet,
-    Backend,
     Correction,
     ExecutionOptions,
     Preparation,
@@ -24,7 +26,6 @@ from meshforge.batch import (
     load_named_templates,
     read_preparation,
 )
-from meshforge.formats import Mass
 from meshforge.geometry import CoacdSettings, DecomposeSettings
 from meshforge.labels import (
     LabelFileOptions,
@@ -460,17 +461,15 @@ class Project:
         stop: Callable[[], bool] | None = None,
         answers: Sequence[Answer] = (),
         meshes: Mapping[str, SymbolicMesh] | None = None,
-        follow: Program | None = None,
     ) -> Lesson:
         """Learn the program from the demonstrations and from what a person said since.
 
         accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
         confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
         meshes: the assets by id, where they are in memory already (`Family`); else they are read, of very many some.
-        follow: a program somebody had in mind; the outcome tells what became of it.
         """
         how = learn.LearnOptions(
-            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes, follow=follow
+            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes
         )
         return learn.learn_program(self, how)
 
@@ -521,38 +520,16 @@ class Project:
         only: Collection[str] | None = None,
         *,
         out: Path | None = None,
-        workers: int | None = None,
-        mass: Mass = "keep",
-        link: bool = False,
-        dry_run: bool = False,
-        resume: bool = True,
-        timeout: float | None = TIMEOUT,
-        memory: int | None = None,
-        backend: Backend = "local",
-        progress: Callable[[], None] | None = None,
-        stop: Callable[[], bool] | None = None,
+        options: ApplyOptions = APPLY_DEFAULTS,
+        execution: ExecutionOptions = EXECUTION_DEFAULTS,
     ) -> Iterator[AssetOutcome]:
-        """Run the program on all assets or those of some ids, into `edited/` or `out`.
+        """Run the program on all assets or those of some ids, into `edited/` or `out`, as `meshforge.batch.apply` does.
 
-        All else as of `meshforge.batch.apply`. Raises ProjectError for an asset that is not there.
+        Raises ProjectError for an asset that is not there, and what `meshforge.batch.apply` raises.
         """
         program, work, templates = run.build_work(self, only)
-        return apply(
-            program,
-            work,
-            out or self.layout.edited,
-            templates=templates,
-            workers=workers,
-            mass=mass,
-            link=link,
-            dry_run=dry_run,
-            resume=resume,
-            timeout=timeout,
-            memory=memory,
-            backend=backend,
-            progress=progress,
-            stop=stop,
-        )
+        out = out or self.layout.edited
+        return apply(program, work, out, templates=templates, options=options, execution=execution)
 
     def work(self) -> tuple[Program, tuple[AssetJob, ...], Mapping[str, Template]]:
         """What `apply` runs: the program, a job for each asset, and the templates. Raises ProjectError: no program."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic
 from typing import Literal
@@ -17,6 +17,7 @@ from meshforge.batch import (
     WorkerFailure,
     apply_preparation,
     asset_digests,
+    execute,
     find_sources,
     read_preparation,
     record_digest,
@@ -96,7 +97,7 @@ def iterate_survey(
     work = {key: _AssetPaths(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
-    results = (spread or ExecutionOptions()).run(_read_facts, todo, progress)
+    results = execute(_read_facts, todo, replace(spread or ExecutionOptions(), progress=progress))
     try:
         for key, own in work.items():
             if key not in fresh:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Generic, Literal, TypeVar
 
-from meshforge.batch.execution import ExecutionOptions
+from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.outcome import MOST_SHOWN, RunSummary
-from meshforge.batch.workers import WorkerFailure
+from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import Examination, Finding
 from meshforge.formats import load
 from meshforge.language import RuleTrace
@@ -152,7 +152,7 @@ def read_again(readers: Sequence[MeshReader | None]) -> list[SymbolicMesh | None
     None for what cannot be read any more, or has no reader.
     """
     wanted = [reader for reader in readers if reader]
-    found = iter(ExecutionOptions(timeout=READ_TIMEOUT).run(_try_read, wanted) if wanted else ())
+    found = execute(_try_read, wanted, ExecutionOptions(timeout=READ_TIMEOUT))
     meshes = [next(found) if reader else None for reader in readers]
     return [None if isinstance(mesh, WorkerFailure) else mesh for mesh in meshes]
 

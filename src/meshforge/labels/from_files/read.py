@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, read_prepared
+from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
 from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
 from meshforge.labels.from_files.classes import ClassMeaning, FileLabels, describe_unknown_class, meaning_of
@@ -181,7 +181,7 @@ def read_label_files(
     ]
     with (
         closing(iterate_survey(project.found, layout, plain, spread=spread)) as facts,
-        closing(spread.run(_read_by_mesh, work)) as others,
+        closing(execute(_read_by_mesh, work, spread)) as others,
     ):
         for asset, file in files.items():
             if asset in plain:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from meshforge.batch import (
     ExecutionOptions,
     WorkerFailure,
+    execute,
     has_same_files,
     read_prepared,
     record_digest,
@@ -104,7 +105,7 @@ class DescriptorCache:
     def describe(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
         """Describe some assets, and give those that cannot be, with why; done: called for each."""
         work = [self._work[asset] for asset in assets]
-        for asset, result in zip(assets, self._spread.run(_describe, work, done), strict=True):
+        for asset, result in zip(assets, execute(_describe, work, replace(self._spread, progress=done)), strict=True):
             if isinstance(result, WorkerFailure):
                 yield asset, f"{self._work[asset].path}: {result.why}"
             elif result:
@@ -128,7 +129,9 @@ class DescriptorCache:
     ) -> Iterator[tuple[str, list[Floats] | str]]:
         """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
-        for (asset, _), result in zip(wanted, self._spread.run(_describe_sides, work, done), strict=True):
+        for (asset, _), result in zip(
+            wanted, execute(_describe_sides, work, replace(self._spread, progress=done)), strict=True
+        ):
             yield asset, f"{self._work[asset].path}: {result.why}" if isinstance(result, WorkerFailure) else result
 
 

@@ -115,7 +115,7 @@ def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> F
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
     from meshforge.labels.propagation.propagate import compute_posterior
 
-    (found,) = run_isolated(compute_posterior, [family], workers=1 if stop else 0, stop=stop)
+    (found,) = run_isolated(compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"the labels could not be carried over: {found.why}")
     return found

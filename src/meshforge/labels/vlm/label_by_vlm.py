@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure
+from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
 from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
 from meshforge.store import AssetFiles, VlmSettings, asset_files_of, hull_digests
@@ -48,7 +48,7 @@ def draw_assets(
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = project.assets()
     items = list(zip(assets, asset_files_of(project, assets), strict=True))
-    work = spread.run(partial(_draw, manner), items)
+    work = execute(partial(_draw, manner), items, spread)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield (
