@@ -130,14 +130,14 @@ def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: P
 
 
 def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> LearningContext:
-    said = session.project.answers()
+    answers = session.project.answers()
     return LearningContext(
         folder,
         assets=len(session.project.assets()),
         in_use=len(session.ids_in_use),
         readable=len(session.meshes()),
-        answers=len(said.answers) + len(session.given) - len(outcome.stale),
-        repairs=len(said.confirmed),
+        answers=len(answers.answers) + len(session.given) - len(outcome.stale),
+        repairs=len(answers.confirmed),
         kept=session.keep,
         stopped=session.stopped,
     )
@@ -145,24 +145,25 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
     """List all answers and repairs by their ids."""
-    said = project.answers()
+    answers = project.answers()
     if json:
-        print_json(said.model_dump(mode="json", by_alias=True))
+        print_json(answers.model_dump(mode="json", by_alias=True))
         return
-    for line in _answer_lines(said):
+    for line in _answer_lines(answers):
         typer.echo(line)
-    if said.ids:
-        remark(f"To take one back: meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(said.ids[0])}")
+    if answers.ids:
+        command = f"meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(answers.ids[0])}"
+        remark(f"To take one back: {command}")
     else:
         remark("nothing was answered, repaired or refused yet")
 
 
-def _answer_lines(said: AnswersFile) -> Iterator[str]:
-    for line in said.answers:
+def _answer_lines(answers: AnswersFile) -> Iterator[str]:
+    for line in answers.answers:
         hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
         yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
-    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in said.confirmed)
-    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in said.rejected)
+    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in answers.confirmed)
+    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in answers.rejected)
 
 
 def _describe_before(line: RepairLine) -> str:
@@ -177,10 +178,10 @@ def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
         typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
     else:
         notes = []
-        for said in ids:
-            note = project.take_back(said)
+        for answer_id in ids:
+            note = project.take_back(answer_id)
             notes += [note] if note else []
-            typer.echo(f"taken back: {said}")
+            typer.echo(f"taken back: {answer_id}")
     for note in notes:
         remark(note)
     remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")

@@ -77,9 +77,9 @@ def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
 
 
 def _describe_inputs(about: LearningContext) -> str:
-    said = [pluralize(about.answers, "answer")] if about.answers else []
-    said += [pluralize(about.repairs, "repaired label")] if about.repairs else []
-    return f" with {' and '.join(said)}" if said else ""
+    parts = [pluralize(about.answers, "answer")] if about.answers else []
+    parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
+    return f" with {' and '.join(parts)}" if parts else ""
 
 
 def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> Iterator[str]:
@@ -120,9 +120,9 @@ def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:
 
 def _describe_stale(outcome: LearningOutcome, about: LearningContext) -> Iterator[str]:
     for answer in outcome.stale:
-        said = f"{answer.rule}:{answer.asset}"
-        yield f"the answer {said} no longer fits what is there, and is left out"
-        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(said)}"
+        question = f"{answer.rule}:{answer.asset}"
+        yield f"the answer {question} no longer fits what is there, and is left out"
+        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
 
 
 def _describe_overruled(outcome: LearningOutcome) -> Iterator[str]:

@@ -112,11 +112,11 @@ def refine_by_neighbors(family: FamilyTable, chances: Floats) -> Floats:
     degree = np.maximum(np.bincount(family.touching.ravel(), minlength=len(chances)), 1)[:, None]
     own = np.log(chances + _LEAST_CHANCE)
     for _ in range(_NEIGHBOR_ROUNDS):
-        said = chances @ bond.T
-        votes = np.zeros_like(chances)
-        np.add.at(votes, a, said[b])
-        np.add.at(votes, b, said[a])
-        evidence = own + _NEIGHBORS_WEIGHT * votes / degree
+        messages = chances @ bond.T
+        received = np.zeros_like(chances)
+        np.add.at(received, a, messages[b])
+        np.add.at(received, b, messages[a])
+        evidence = own + _NEIGHBORS_WEIGHT * received / degree
         chances = np.exp(evidence - evidence.max(axis=1, keepdims=True))
         chances /= chances.sum(axis=1, keepdims=True)
     return chances

@@ -37,21 +37,21 @@ right as without, with noisy ones a third of the corrections are spared."""
 
 
 def choose_question(
-    rule: int, weighed: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
+    rule: int, ranked: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
 ) -> Question | None:
     """The question about one rule that is worth a person's time, None where there is none.
 
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
     """
-    doubt = weighed.question_value
+    doubt = ranked.question_value
     if len(declined) >= MAX_NEITHER_ANSWERS:
         return None
-    split = weighed.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
+    split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
     choices = tuple(
-        Choice(reading_id(rule, reading), _hull_names(weighed, reading, split.asset)) for reading in split.choices
+        Choice(reading_id(rule, reading), _hull_names(ranked, reading, split.asset)) for reading in split.choices
     )
     return Question(rule, names[split.asset], choices, doubt.harm, split.left)
 
@@ -62,8 +62,8 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
     learned: for each rule its readings, and the names of the meshes of their field.
     """
     gains: dict[str, float] = {}
-    for weighed, names in learned:
-        for place, gain in weighed.question_value.gains(len(weighed.examples)).items():
+    for ranked, names in learned:
+        for place, gain in ranked.question_value.gains(len(ranked.examples)).items():
             gains[names[place]] = gains.get(names[place], 0.0) + gain
     if gains:
         most = max(gains, key=lambda name: (gains[name], name))
@@ -71,8 +71,8 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
     return _suggest_strangest(*learned[0]) if learned else None
 
 
-def _suggest_strangest(weighed: RankedReadings, names: Sequence[str]) -> Hint | None:
-    field, count = weighed.field, len(weighed.examples)
+def _suggest_strangest(ranked: RankedReadings, names: Sequence[str]) -> Hint | None:
+    field, count = ranked.field, len(ranked.examples)
     shown = (1 << field.width_of(count)) - 1
     fresh = {
         name: sum(not shown >> group & 1 for group in field.groups[place])
@@ -84,9 +84,9 @@ def _suggest_strangest(weighed: RankedReadings, names: Sequence[str]) -> Hint | 
     return Hint(asset, f"it has {pluralize(fresh[asset], 'hull')} unlike any that was demonstrated")
 
 
-def _hull_names(weighed: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
-    chosen = weighed.field.on(weighed.terms[reading].bits, mesh)
-    return weighed.field.meshes[mesh].names_of(chosen)
+def _hull_names(ranked: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
+    chosen = ranked.field.on(ranked.terms[reading].bits, mesh)
+    return ranked.field.meshes[mesh].names_of(chosen)
 
 
 def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) -> tuple[str, ...]:
@@ -96,7 +96,7 @@ def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) 
     stands for most hulls unlike any before. trust: how much each shows; where labels are doubtful less, since what is
     wrong there may be a label.
     """
-    known = [set(names[: len(weighed.examples)]) for weighed, names in learned]
+    known = [set(names[: len(ranked.examples)]) for ranked, names in learned]
     every = {name for _, names in learned for name in names}
     names = sorted(name for name in every if not all(name in some for some in known))
     chosen = list(islice(_rank_by_difference(learned, names, trust), SAMPLE_SIZE))
@@ -117,11 +117,11 @@ def _rank_by_difference(
         return
     place = {name: k for k, name in enumerate(names)}
     tables = []
-    for weighed, called in learned:
-        table = np.zeros((len(weighed.compared), len(names)))
-        for row, reading in enumerate(weighed.compared):
-            others = [place[called[k]] for k in weighed.differences(reading) if called[k] in place]
-            table[row, others] = weighed.beliefs[reading]
+    for ranked, called in learned:
+        table = np.zeros((len(ranked.compared), len(names)))
+        for row, reading in enumerate(ranked.compared):
+            others = [place[called[k]] for k in ranked.differences(reading) if called[k] in place]
+            table[row, others] = ranked.beliefs[reading]
         tables.append(table)
     at_stake = np.concatenate(tables)
     weights = np.array([trust[name] for name in names])
@@ -135,16 +135,16 @@ def _rank_by_difference(
 
 
 def _rank_by_novelty(
-    weighed: RankedReadings,
+    ranked: RankedReadings,
     called: Sequence[str],
     names: Sequence[str],
     before: Sequence[str],
     trust: Mapping[str, float],
 ) -> Iterator[str]:
     """Assets one by one, each the one whose hulls stand for most hulls of the batch that are unlike any before."""
-    groups = {name: frozenset(some) for name, some in zip(called, weighed.field.groups, strict=True)}
+    groups = {name: frozenset(some) for name, some in zip(called, ranked.field.groups, strict=True)}
     many = Counter(group for some in groups.values() for group in some)
-    seen = {group for name in [*called[: len(weighed.examples)], *before] for group in groups.get(name, ())}
+    seen = {group for name in [*called[: len(ranked.examples)], *before] for group in groups.get(name, ())}
     rest = [name for name in names if name in groups]
     while rest:
         best = max(rest, key=lambda name: trust[name] * sum(many[group] for group in groups[name] - seen))

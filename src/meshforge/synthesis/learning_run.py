@@ -149,32 +149,32 @@ class LearningRun:
         return RankedReadings.of_single(search, found.extractor)
 
     def _follow(
-        self, spec: RuleSpec, weighed: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
+        self, spec: RuleSpec, ranked: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
     ) -> None:
         wanted = self._task.options.follow
         if wanted and spec.number <= len(wanted.rules):
             extractor = wanted.rules[spec.number - 1].extractor
-            self._followed.append(follow_rule(spec, extractor, weighed, names, examples, self._task))
+            self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
 
-    def _accept(self, spec: RuleSpec, weighed: RankedReadings, names: tuple[str, ...]) -> None:
-        rule = Rule(weighed.extractor, spec.action, spec.label)
-        self._learned.append(RuleOutcome(rule, weighed, names))
+    def _accept(self, spec: RuleSpec, ranked: RankedReadings, names: tuple[str, ...]) -> None:
+        rule = Rule(ranked.extractor, spec.action, spec.label)
+        self._learned.append(RuleOutcome(rule, ranked, names))
         if not self._question:
             declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
-            self._question = choose_question(spec.number, weighed, names, self._repairs.trust, declined)
+            self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
         self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
 
     def _finish(self) -> LearningOutcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
         known = [(learned.readings, learned.names) for learned in self._learned]
-        ahead, looks = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         if self._question:
             return Ambiguous(
-                program=program, question=self._question, hint=ahead, sample=looks, **self._common_fields()
+                program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._common_fields())
+        return Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
 
     def _propose_repairs(self) -> LearningOutcome:
         return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
@@ -231,9 +231,9 @@ class LearningRun:
         }
 
 
-def _list_readings(rule: int, weighed: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
-    for place, (term, belief) in enumerate(zip(weighed.terms, weighed.beliefs, strict=True)):
-        differs = tuple(names[k] for k in weighed.differences(place))
+def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
+    for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
+        differs = tuple(names[k] for k in ranked.differences(place))
         yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
 
 

@@ -114,8 +114,8 @@ def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
         case OpenAttach(selected, anchor):
             (low, high), (anchor_low, anchor_high) = _base_bounds(selected, demo), _base_bounds(anchor, demo)
             return demo.attach(low, anchor_low), demo.attach(high, anchor_high)
-        case OpenOperator(joint, left, right):
-            return _combine_bounds(joint, bounds(left, demo), bounds(right, demo))
+        case OpenOperator(operator, left, right):
+            return _combine_bounds(operator, bounds(left, demo), bounds(right, demo))
         case _:
             selection = demo.select(partial)
             return selection, selection
@@ -125,12 +125,12 @@ def _base_bounds(base: BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
     return (0, demo.everything) if isinstance(base, BaseHole) else bounds(base, demo)
 
 
-def _combine_bounds(joint: SetOperator, left: Bounds, right: Bounds) -> Bounds:
-    if joint is Union:
+def _combine_bounds(operator: SetOperator, left: Bounds, right: Bounds) -> Bounds:
+    if operator is Union:
         return left[0] | right[0], left[1] | right[1]
-    if joint is Intersect:
+    if operator is Intersect:
         return left[0] & right[0], left[1] & right[1]
-    assert joint is Diff
+    assert operator is Diff
     return left[0] & ~right[1], left[1] & ~right[0]
 
 

@@ -92,9 +92,9 @@ class CorrectionSearch:
         if variants is None or not all(variants.by_example):
             return None
         candidates = self._find_candidates(variants)
-        sure = compute_change_beliefs(candidates, self._rival_cost(variants))
-        chosen = self._choose(rank_candidates(candidates), sure)
-        return self._to_explanation(chosen, sure) if chosen else None
+        beliefs = compute_change_beliefs(candidates, self._rival_cost(variants))
+        chosen = self._choose(rank_candidates(candidates), beliefs)
+        return self._to_explanation(chosen, beliefs) if chosen else None
 
     @cached_property
     def _exact_cost(self) -> float:
@@ -139,17 +139,17 @@ class CorrectionSearch:
         """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
         return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
 
-    def _choose(self, candidates: Sequence[Candidate], sure: Mapping[ChangeAt, float]) -> Candidate | None:
+    def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
         least = MIN_BELIEF if self._exact else MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
             if candidate.score > candidates[0].score + RIVAL_MARGIN:
                 break
-            if all(sure[place] >= least for place in changes_of(candidate)):
+            if all(beliefs[place] >= least for place in changes_of(candidate)):
                 return candidate
         return None
 
-    def _to_explanation(self, chosen: Candidate, sure: Mapping[ChangeAt, float]) -> Explanation:
+    def _to_explanation(self, chosen: Candidate, beliefs: Mapping[ChangeAt, float]) -> Explanation:
         places = changes_of(chosen)
         rows = []
         for at, change in places:
@@ -158,8 +158,8 @@ class CorrectionSearch:
             odds = self._labels.odds_of(example.name, hull)
             assert odds, "only hulls with odds are relabelled"
             most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
-            said = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
-            rows.append((to_correction(example, change), min(sure[at, change], most), said))
+            why = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
+            rows.append((to_correction(example, change), min(beliefs[at, change], most), why))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
         corrections, believed, whys = zip(*rows, strict=True)
         return Explanation(chosen.extractor, corrections, believed, whys, chosen.cost)
@@ -206,10 +206,10 @@ def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bo
 def _label_evidence(odds: LabelOdds, to: str) -> list[str]:
     similar, hull = odds.similar, odds.hull
     agreeing, of = similar.count(to), len(similar)
-    said = []
+    reasons = []
     if agreeing > similar.count(hull.label or ""):
-        said.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
-    return [*said, *_label_doubts(hull)]
+        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
+    return [*reasons, *_label_doubts(hull)]
 
 
 def _label_doubts(hull: Hull) -> list[str]:

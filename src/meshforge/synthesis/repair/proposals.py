@@ -87,8 +87,8 @@ class RepairCollector:
 
     @cached_property
     def _beliefs(self) -> LabelBeliefs:
-        said = {answer.asset for answer in self._task.answers}
-        known = said.union(name for name, _ in name_demonstrations(self._task.demos))
+        answered = {answer.asset for answer in self._task.answers}
+        known = answered.union(name for name, _ in name_demonstrations(self._task.demos))
         return LabelBeliefs(
             {name: mesh for name, mesh in self._meshes.items() if name in known},
             {name: mesh for name, mesh in self._meshes.items() if name not in known},

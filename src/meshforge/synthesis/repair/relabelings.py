@@ -70,9 +70,9 @@ def _single_changes(
     within: float,
 ) -> list[Relabeling]:
     found = []
-    standing = {(one.hull, one.was) for one in rejected if one.asset == example.name}
+    rejected_labels = {(one.hull, one.was) for one in rejected if one.asset == example.name}
     for index, hull in enumerate(example.mesh.hulls):
-        if (hull.name, hull.label) in standing:
+        if (hull.name, hull.label) in rejected_labels:
             continue
         for to in vocabulary:
             cost = labels.cost(example.name, hull, to)

@@ -73,11 +73,11 @@ def leaf_key(leaf: All | Is | Attach | Geo, labels: Mapping[str, int]) -> Key:
             assert_never(leaf)
 
 
-def operator_key(joint: SetOperator, left: Key, right: Key) -> Key:
+def operator_key(operator: SetOperator, left: Key, right: Key) -> Key:
     """The key of a set operator over two extractors; the operands of `Union` and `Intersect` count in order."""
-    if joint is not Diff and right < left:
+    if operator is not Diff and right < left:
         left, right = right, left
-    return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[joint], left, right)
+    return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[operator], left, right)
 
 
 def order_key(extractor: Extractor, labels: Mapping[str, int]) -> Key:
@@ -132,15 +132,15 @@ class Term:
         return size
 
 
-def combine(joint: SetOperator, left: Term, right: Term) -> Term:
+def combine(operator: SetOperator, left: Term, right: Term) -> Term:
     """A set operator over two terms; the operands of `Union` and `Intersect` are put in order."""
-    if joint is not Diff and right.key < left.key:
+    if operator is not Diff and right.key < left.key:
         left, right = right, left
-    if joint is Union:
+    if operator is Union:
         bits = left.bits | right.bits
     else:
-        bits = left.bits & ~right.bits if joint is Diff else left.bits & right.bits
-    return Term(bits, operator_key(joint, left.key, right.key), Compound(joint, left, right))
+        bits = left.bits & ~right.bits if operator is Diff else left.bits & right.bits
+    return Term(bits, operator_key(operator, left.key, right.key), Compound(operator, left, right))
 
 
 def first_term(terms: list[Term]) -> Term | None:
