@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge.common import ProjectError
-from meshforge.language import Program
 from meshforge.project import accept
 from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
 from meshforge.project.family import FamilyMeshes
@@ -39,7 +38,6 @@ class LearnOptions:
     stop: Callable[[], bool] | None = None
     answers: Sequence[Answer] = ()
     meshes: Mapping[str, SymbolicMesh] | None = None
-    follow: Program | None = None
 
 
 def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
@@ -54,7 +52,14 @@ def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     confirm = _ask_once(asked or how.confirm) if how.confirm else None
-    templates, rejected = store.templates(names), _list_rejections(said)
+    templates = store.templates(names)
+    options = replace(
+        how.options or Options(),
+        contact=settings.thresholds.contact,
+        extremity=settings.thresholds.extremity,
+        rejected=tuple(_list_rejections(said)),
+        stop=how.stop,
+    )
 
     def learned(answers: Sequence[Answer]) -> LearningOutcome:
         return synthesize(
@@ -63,14 +68,9 @@ def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
             orient=store.orientation,
             templates=templates,
             vocabulary=settings.vocabulary or None,
-            contact=settings.thresholds.contact,
-            extremity=settings.thresholds.extremity,
-            options=how.options or Options(),
+            options=options,
             confirm=confirm,
             answers=answers,
-            rejected=rejected,
-            follow=how.follow,
-            stop=how.stop,
         )
 
     outcome = learned([*looked, *fitting])

@@ -176,18 +176,14 @@ class Project(LabelStore):
         stop: Callable[[], bool] | None = None,
         answers: Sequence[Answer] = (),
         meshes: Mapping[str, SymbolicMesh] | None = None,
-        follow: Program | None = None,
     ) -> LearningOutcome:
         """Learn the program from the demonstrations and from what a person said since.
 
         accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
         confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
         meshes: the assets by id, where they are in memory already (`Family`); else they are read, of very many some.
-        follow: a program somebody had in mind; the outcome tells what became of it.
         """
-        how = LearnOptions(
-            accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes, follow=follow
-        )
+        how = LearnOptions(accept=accept, options=options, confirm=confirm, stop=stop, answers=answers, meshes=meshes)
         return learn_program(self, how)
 
     def mesh_before_rule(

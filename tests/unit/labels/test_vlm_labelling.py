@@ -403,7 +403,7 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
         inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
 
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), keeping=keeping)
+        found = project.label_with_vlm(settings(server), write_block=keeping)
     assert inside == [[0, 0, 6, 6]]
     assert [report.taken for report in found.reports] == [6, 6]
 

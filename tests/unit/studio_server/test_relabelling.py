@@ -178,7 +178,7 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
         with history.record(project, Propagate(used=0, next=best)):
             yield
 
-    project.propagate_labels(keeping=keeping)
+    project.propagate_labels(write_block=keeping)
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
     now = carried(project, history)
     assert now and now.unused == 1
