@@ -7,12 +7,24 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, CheckOutcome, EarlierExamination, MeshReader, ReportAsset, ReportStatus
-    from meshforge.checks import CheckOptions, Examination, Severity
-
+from meshforge.batch import (
+    AssetJob,
+    CheckOutcome,
+    EarlierExamination,
+    MeshReader,
+    ReportAsset,
+    ReportHeader,
+    ReportStatus,
+    RunFigures,
+    TopItems,
+    read_again,
+    read_job,
+)
+from meshforge.checks import CheckOptions, Examination, Finding, Severity
+from meshforge.cli.report import write_report_page
+from meshforge.formats import load
 
 _FROM_JOURNAL = "kept in the journal from an earlier run"
 
@@ -33,8 +45,6 @@ class CheckReport:
     """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
 
     def __init__(self) -> None:
-        from meshforge.batch import TopItems
-
         self._counts: Counter[ReportStatus] = Counter()
         self._lines: TopItems[_ReportLine] = TopItems()
 
@@ -46,18 +56,9 @@ class CheckReport:
 
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
-        from meshforge.batch import RunFigures
-        from meshforge.cli.report import write_report_page
-
         figures = RunFigures(self._counts, {}, "those that failed or have errors")
-        write_report_page(
-            path,
-            _to_report_assets(list(self._lines)),
-            title=title,
-            about=_describe_measures(measures),
-            figures=figures,
-            seconds=seconds,
-        )
+        header = ReportHeader(title, _describe_measures(measures), seconds, figures)
+        write_report_page(path, header, _to_report_assets(list(self._lines)))
 
 
 def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
@@ -71,9 +72,6 @@ def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
 
 def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
-    from meshforge.batch import EarlierExamination
-    from meshforge.checks import Finding
-
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
     fixed = found.get("fixed")
@@ -97,9 +95,6 @@ def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
 
 def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
     """The assets with their meshes, mended ones before and after."""
-    from meshforge.batch import ReportAsset, read_again, read_job
-    from meshforge.formats import load
-
     before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
     after: list[MeshReader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
     meshes = read_again([*before, *after])

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Seconds, parse_engine_settings
-
-if TYPE_CHECKING:
-    from meshforge.geometry import Polytope
-    from meshforge.symbolic import Asset
+from meshforge.cli.terminal import remark
+from meshforge.common import pluralize
+from meshforge.formats import read_triangles, save
+from meshforge.geometry import Polytope, Pose, cache_folder
+from meshforge.geometry import decompose as run
+from meshforge.symbolic import Asset, Body, Document, Geom
 
 
 def decompose(
@@ -27,12 +29,6 @@ def decompose(
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
     import numpy as np
     from rich.console import Console
-
-    from meshforge.cli.terminal import remark
-    from meshforge.common import pluralize
-    from meshforge.formats import read_triangles, save
-    from meshforge.geometry import cache_folder
-    from meshforge.geometry import decompose as run
 
     settings = parse_engine_settings(method, option)
     surfaces = read_triangles(mesh)
@@ -57,9 +53,6 @@ def decompose(
 
 def _to_asset(mesh: Path, hulls: list[Polytope]) -> Asset:
     """The hulls as an asset of one body, to be written in any format."""
-    from meshforge.geometry import Pose
-    from meshforge.symbolic import Asset, Body, Document, Geom
-
     width = len(str(len(hulls) - 1))
     geoms = tuple(Geom(f"hull_{k:0{width}}", "body", hull) for k, hull in enumerate(hulls))
     return Asset(mesh, "decomposition", (Body("body", Pose.identity()),), geoms, Document())

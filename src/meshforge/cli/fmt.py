@@ -7,6 +7,9 @@ from typing import Annotated
 
 import typer
 
+from meshforge.common import write_atomically
+from meshforge.language import Program
+
 
 def fmt(
     program: Annotated[Path, typer.Argument(help="A program file, *.mf.")],
@@ -14,9 +17,6 @@ def fmt(
     check: Annotated[bool, typer.Option("--check", help="Only tell, by exit code 1, whether it would change.")] = False,
 ) -> None:
     """Print a program in its canonical form, comments kept."""
-    from meshforge.common import write_atomically
-    from meshforge.language import Program
-
     text = str(Program.read(program))
     changed = text != program.read_text(encoding="utf-8")
     if check:

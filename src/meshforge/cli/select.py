@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
+from meshforge.cli.terminal import print_json, remark
+from meshforge.language import labels_of, parse_extractor
+from meshforge.symbolic import SymbolicMesh
 
 
 def select(
@@ -22,8 +22,6 @@ def select(
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
-    from meshforge.cli.terminal import print_json, remark
-    from meshforge.language import labels_of, parse_extractor
     from meshforge.rendering import render, write_png
 
     mesh = open_asset(asset, labels, project)
@@ -44,8 +42,6 @@ def select(
 
 def _warn_of_label(label: str, mesh: SymbolicMesh) -> None:
     """An asset need not have every label of its family, so one that is missing here is a remark, not an error."""
-    from meshforge.cli.terminal import remark
-
     here = sorted({hull.label for hull in mesh.hulls if hull.label})
     if label not in here:
         remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")

@@ -49,8 +49,8 @@ def synthesize(
     rules = collect_rule_specs(demos)
     labels = choose_vocabulary(demos, meshes.values(), orient, vocabulary)
     frame = Program(labels, orient, (), contact, extremity)
-    watch = TimeBudget(options.budget, clock, stop)
-    asked = _RepairConfirmer(confirm, rejected, watch)
+    budget = TimeBudget(options.budget, clock, stop)
+    asked = _RepairConfirmer(confirm, rejected, budget)
     confirmed: tuple[LabelCorrection, ...] = ()
     while True:
         task = LearningTask(
@@ -68,7 +68,7 @@ def synthesize(
             follow,
             confirmed,
         )
-        outcome = LearningRun(task, watch, asked.confirm if confirm else None).run()
+        outcome = LearningRun(task, budget, asked.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):
             return outcome
         confirmed += asked.confirm_all(outcome.repairs)
@@ -78,9 +78,9 @@ class _RepairConfirmer:
     """Asks a person about each correction once; what was confirmed is not to be undone by another one."""
 
     def __init__(
-        self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[LabelCorrection], watch: TimeBudget
+        self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[LabelCorrection], budget: TimeBudget
     ) -> None:
-        self._confirm, self._watch = confirm, watch
+        self._confirm, self._budget = confirm, budget
         self._decisions = dict.fromkeys(rejected, False)
 
     @property
@@ -108,7 +108,7 @@ class _RepairConfirmer:
         """Whether a repair is confirmed."""
         assert self._confirm
         if repair.correction not in self._decisions:
-            with self._watch.pause():
+            with self._budget.pause():
                 self._decisions[repair.correction] = self._confirm(repair)
         return self._decisions[repair.correction]
 

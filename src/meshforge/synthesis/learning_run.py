@@ -61,8 +61,8 @@ class _OutcomeFields(TypedDict):
 class LearningRun:
     """Learns the rules of a task one after the other, as far as it gets."""
 
-    def __init__(self, task: LearningTask, watch: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
-        self._task, self._watch, self._confirm = task, watch, confirm
+    def __init__(self, task: LearningTask, budget: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
+        self._task, self._budget, self._confirm = task, budget, confirm
         self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
         self._learned: list[RuleOutcome] = []
         self._tried: list[SearchEffort] = []
@@ -70,7 +70,7 @@ class LearningRun:
         self._searching = 0.0
         self._followed = list(find_obstacles(task, task.follow)) if task.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
-        self._repairs = RepairCollector(task, meshes, watch)
+        self._repairs = RepairCollector(task, meshes, budget)
 
     def run(self) -> LearningOutcome:
         """What comes of it."""
@@ -85,9 +85,9 @@ class LearningRun:
         while True:
             examples, rest = self._replays.examples(agreed)
             names = (*(example.name for example in examples), *(replay.name for replay in rest))
-            start = self._watch.elapsed
+            start = self._budget.elapsed
             found = self._find_readings(agreed, examples, [replay.mesh for replay in rest])
-            self._searching += self._watch.elapsed - start
+            self._searching += self._budget.elapsed - start
             if not isinstance(found, tuple):
                 self._follow(agreed, found if isinstance(found, RankedReadings) else None, names, examples)
             match found:
@@ -108,10 +108,10 @@ class LearningRun:
         self, agreed: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
-        task, watch = self._task, self._watch
+        task, budget = self._task, self._budget
         if task.options.strategy == "paper":
             return self._find_by_paper(agreed, examples, rest)
-        search = Search(examples, task.frame.labels, watch, task.options, task.extremity, rest)
+        search = Search(examples, task.frame.labels, budget, task.options, task.extremity, rest)
         found = search.run()
         self._record_effort(agreed, found.tried)
         if isinstance(found, Unfinished):
@@ -134,7 +134,7 @@ class LearningRun:
         found = search_by_paper(
             examples,
             task.frame.labels,
-            self._watch,
+            self._budget,
             task.options,
             task.extremity,
             make_confirmer(agreed.number, self._confirm) if self._confirm else None,
@@ -146,7 +146,7 @@ class LearningRun:
             return self._repairs.record_inferred(agreed.number, found)
         if not isinstance(found, Hit):
             return found
-        search = Search(examples, task.frame.labels, self._watch, task.options, task.extremity, rest)
+        search = Search(examples, task.frame.labels, self._budget, task.options, task.extremity, rest)
         return RankedReadings.of_single(search, found.extractor)
 
     def _follow(
@@ -202,7 +202,7 @@ class LearningRun:
                 task.frame,
                 task.templates,
                 replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
-                self._watch,
+                self._budget,
                 None,
                 list(task.batch.values()),
             )
@@ -217,7 +217,7 @@ class LearningRun:
         self._tried = [*self._tried[: agreed.number - 1], tried]
 
     def _common_fields(self) -> _OutcomeFields:
-        elapsed = self._watch.elapsed
+        elapsed = self._budget.elapsed
         return {
             "rules": tuple(learned.rule for learned in self._learned),
             "readings": tuple(

@@ -103,10 +103,10 @@ def test_what_nothing_selects_is_a_miss_with_the_nearest() -> None:
 
 def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
     ticks = count()
-    watch = TimeBudget(30, clock=lambda: next(ticks))
+    budget = TimeBudget(30, clock=lambda: next(ticks))
     mesh = table()
     example = Example("table", mesh, select_mask(Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), mesh))
-    answer = search_by_paper([example], LABELS, watch, EXACT)
+    answer = search_by_paper([example], LABELS, budget, EXACT)
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None
     assert answer.nearest.extractor == Is("drawer")

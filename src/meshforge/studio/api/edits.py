@@ -54,7 +54,7 @@ def learn(desk: CurrentSession) -> Done:
 def stop_learning(desk: CurrentSession) -> Done:
     """Stop the lesson that is under way."""
     desk.learning.stop()
-    return Done(describe="stopped")
+    return Done(said="stopped")
 
 
 @router.get("/labels/sources")

@@ -38,7 +38,7 @@ def build_project_view(
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rules=rule_lines(read_demonstrated_steps(project)),
-        describe=tuple(_list_feedback(project)),
+        said=tuple(_list_feedback(project)),
         templates=project.template_names(),
         carried=carried,
         next=following,

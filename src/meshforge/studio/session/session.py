@@ -128,9 +128,9 @@ class Session:
             finally:
                 self.learning.resume()
             if entry is None:
-                return Done(describe=said, nothing=True)
+                return Done(said=said, nothing=True)
             self.announce((entry,), "edit", by)
-        return Done(describe=entry.title)
+        return Done(said=entry.title)
 
     def undo(self, by: str | None = None) -> Done:
         """Take back what was done last."""
@@ -149,9 +149,9 @@ class Session:
             finally:
                 self.learning.resume()
             if not entries:
-                return Done(describe=f"there is nothing to {way}", nothing=True)
+                return Done(said=f"there is nothing to {way}", nothing=True)
             self.announce(entries, way, by)
-        return Done(describe=entries[0].title)
+        return Done(said=entries[0].title)
 
     def announce(self, entries: Iterable[HistoryEntry], did: EditWay, by: str | None = None) -> None:
         """Tell all pages of entries that were made, undone or redone, after what they changed (cards follow)."""
@@ -160,7 +160,7 @@ class Session:
             said = entries[0].title
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, describe=said, by=by))
+            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
 
     @contextmanager
     def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
@@ -193,7 +193,7 @@ class Session:
         with self._mutex:
             self._take_learned = self.pages.program.by_hand
             self.learning.restart()
-        return Done(describe="learning")
+        return Done(said="learning")
 
     def _has_demonstrations(self) -> bool:
         shown = set(self.project.layout.ids_with("demonstrations"))

@@ -68,7 +68,7 @@ class HistoryChanged(Wire):
     kind: Literal["history"] = "history"
     history: HistoryView
     did: Literal["edit", "undo", "redo"]
-    describe: str
+    said: str
     by: str | None = None
 
 

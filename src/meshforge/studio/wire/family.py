@@ -100,7 +100,7 @@ class ProjectView(Wire):
     contact: float | None = None
     extremity: float | None = None
     rules: tuple[RuleLine, ...] = ()
-    describe: tuple[Said, ...] = ()
+    said: tuple[Said, ...] = ()
     templates: tuple[str, ...] = ()
     carried: CarriedOver | None = None
     next: Next

@@ -54,7 +54,7 @@ class Uploaded(Wire):
 class Done(Wire):
     """An edit that is on disk; said: what was done, in words. nothing: there was nothing to do."""
 
-    describe: str
+    said: str
     nothing: bool = False
 
 

@@ -53,13 +53,13 @@ class OrientationSearch:
         frame: Program,
         templates: Mapping[str, Template],
         options: Options,
-        watch: TimeBudget,
+        budget: TimeBudget,
         sizes: Sequence[int] | None,
     ) -> None:
         self.rules = tuple(rules)
         self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
         self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
-        self._frame, self._templates, self._options, self._watch = frame, templates, options, watch
+        self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
         self._extremity = EXTREMITY if frame.extremity is None else frame.extremity
         self._turners = [
             (name, demo, MeshTurner(demo.mesh, frame.contact)) for name, demo in name_demonstrations(demos)
@@ -72,7 +72,7 @@ class OrientationSearch:
     def attempt(self, orient: Orient) -> FrameAttempt | None:
         """Learning in the frame of a directive, as far as it came; None where it fails on a demonstrated mesh."""
         if orient not in self._by_orient:
-            self._watch.check()
+            self._budget.check()
             self._by_orient[orient] = self._begin(orient)
         return self._by_orient[orient]
 
@@ -106,7 +106,7 @@ class OrientationSearch:
 
     def _search(self, rule: RuleInFrame, most: int) -> None:
         options = replace(self._options, max_size=most)
-        answer = Search(rule.examples, self._frame.labels, self._watch, options, self._extremity).run()
+        answer = Search(rule.examples, self._frame.labels, self._budget, options, self._extremity).run()
         if isinstance(answer, Unfinished):
             raise OutOfTime
         if isinstance(answer, Hit):

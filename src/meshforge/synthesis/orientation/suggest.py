@@ -44,7 +44,7 @@ def suggest_orientation(
     frame: Program,
     templates: Mapping[str, Template],
     options: Options,
-    watch: TimeBudget,
+    budget: TimeBudget,
     sizes: Sequence[int] | None,
     batch: Sequence[SymbolicMesh] = (),
 ) -> OrientationSuggestion | None:
@@ -56,7 +56,7 @@ def suggest_orientation(
     limit = len(rules) * options.max_size if sizes is None else sum(sizes) - MIN_SAVING
     if "G" not in options.layers:
         return None
-    lesson = OrientationSearch(demos, rules, frame, templates, options, watch, sizes)
+    lesson = OrientationSearch(demos, rules, frame, templates, options, budget, sizes)
     if limit < sum(lesson.floors):
         return None
     trials = Trials(lesson, options.max_size)

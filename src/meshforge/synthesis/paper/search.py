@@ -30,7 +30,7 @@ class Explained:
 def search_by_paper(
     examples: Sequence[Example],
     vocabulary: Sequence[str],
-    watch: TimeBudget,
+    budget: TimeBudget,
     options: Options,
     extremity: float = EXTREMITY,
     confirm: Callable[[LabelCorrection], bool] | None = None,
@@ -45,9 +45,9 @@ def search_by_paper(
     """
     demos = [ExampleMasks(example, extremity) for example in examples]
     left = {demo.name: max(0, options.eta - (spent or {}).get(demo.name, 0)) for demo in demos}
-    abduction = Abduction(demos, vocabulary, left, watch) if options.repair else None
+    abduction = Abduction(demos, vocabulary, left, budget) if options.repair else None
     grammar, asking = HoleGrammar(vocabulary, options.layers), Confirmations(confirm, rejected)
-    search = _WorklistSearch(demos, grammar, watch, options.max_size, abduction, asking)
+    search = _WorklistSearch(demos, grammar, budget, options.max_size, abduction, asking)
     try:
         return search.run()
     except OutOfTime:
@@ -61,12 +61,12 @@ class _WorklistSearch:
         self,
         demos: Sequence[ExampleMasks],
         grammar: HoleGrammar,
-        watch: TimeBudget,
+        budget: TimeBudget,
         max_size: int,
         abduction: Abduction | None,
         asking: Confirmations,
     ) -> None:
-        self._demos, self._grammar, self._watch, self._max_size = demos, grammar, watch, max_size
+        self._demos, self._grammar, self._budget, self._max_size = demos, grammar, budget, max_size
         self._abduction, self._confirmations = abduction, asking
         self._size = self._complete = self._filled = 0
         self.nearest = NearestTracker(demos)
@@ -79,7 +79,7 @@ class _WorklistSearch:
         worklist = Worklist(self._max_size)
         worklist.put(Hole())
         while popped := worklist.pop():
-            self._watch.check()
+            self._budget.check()
             size, partial = popped
             self._size = size - 1
             if isinstance(partial, Open):
@@ -119,9 +119,9 @@ class Abduction:
     """
 
     def __init__(
-        self, demos: Sequence[ExampleMasks], vocabulary: Sequence[str], allowed: Mapping[str, int], watch: TimeBudget
+        self, demos: Sequence[ExampleMasks], vocabulary: Sequence[str], allowed: Mapping[str, int], budget: TimeBudget
     ) -> None:
-        self._demos, self._allowed, self._watch = demos, allowed, watch
+        self._demos, self._allowed, self._budget = demos, allowed, budget
         counts: Counter[str] = Counter()
         for demo in demos:
             counts.update({label: mask.bit_count() for label, mask in demo.labels.items()})
@@ -144,7 +144,7 @@ class Abduction:
 
     def _repair(self, extractor: Extractor, demo: ExampleMasks) -> tuple[LabelChange, ...] | None:
         for changes in self._candidates(extractor, demo):
-            self._watch.check()
+            self._budget.check()
             if demo.select(extractor, demo.relabel(changes)) == demo.target:
                 return changes
         return None

@@ -55,7 +55,7 @@ def explain_by_corrections(
     vocabulary: Sequence[str],
     labels: LabelBeliefs,
     options: Options,
-    watch: TimeBudget,
+    budget: TimeBudget,
     extremity: float = EXTREMITY,
     exact: Extractor | None = None,
     spent: Mapping[str, int] = _NONE_SPENT,
@@ -68,7 +68,7 @@ def explain_by_corrections(
     corrections not to propose. Raises OutOfTime.
     """
     some = tuple(example for example in examples if example.mesh.hulls)
-    return _RepairCase(some, vocabulary, labels, options, watch, extremity, exact, spent, rejected).explain()
+    return _RepairCase(some, vocabulary, labels, options, budget, extremity, exact, spent, rejected).explain()
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class _RepairCase:
     vocabulary: Sequence[str]
     labels: LabelBeliefs
     options: Options
-    watch: TimeBudget
+    budget: TimeBudget
     extremity: float
     exact: Extractor | None
     spent: Mapping[str, int]
@@ -127,11 +127,11 @@ class _RepairCase:
 
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL_SIZE, self._limit)
-        found = list(search_small(variants, above, self._exact_cost, self.watch))
+        found = list(search_small(variants, above, self._exact_cost, self.budget))
         within = min([self._exact_cost, *(one.cost + candidates.RIVAL_MARGIN for one in found)])
         options = replace(self.options, max_size=self._limit)
         found += search_larger(
-            self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.watch
+            self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.budget
         )
         return found
 

@@ -35,8 +35,8 @@ class RepairCollector:
     meshes: all meshes by name, oriented, before the first rule.
     """
 
-    def __init__(self, task: LearningTask, meshes: Mapping[str, SymbolicMesh], watch: TimeBudget) -> None:
-        self._task, self._meshes, self._watch = task, meshes, watch
+    def __init__(self, task: LearningTask, meshes: Mapping[str, SymbolicMesh], budget: TimeBudget) -> None:
+        self._task, self._meshes, self._budget = task, meshes, budget
         self._found: dict[LabelCorrection, Repair] = {}
 
     @property
@@ -64,7 +64,7 @@ class RepairCollector:
             task.frame.labels,
             self._beliefs,
             task.options,
-            self._watch,
+            self._budget,
             task.extremity,
             found.extractor if isinstance(found, Hit) else None,
             self.counts,

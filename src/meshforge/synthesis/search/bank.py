@@ -36,10 +36,10 @@ class Bank:
     merge: False keeps every term instead (to test that the answer is the same).
     """
 
-    def __init__(self, leaves: Sequence[Term], width: int, watch: TimeBudget, merge: bool = True) -> None:
+    def __init__(self, leaves: Sequence[Term], width: int, budget: TimeBudget, merge: bool = True) -> None:
         self._leaves = leaves
         self._width = width
-        self._watch = watch
+        self._budget = budget
         self._merge = merge
         self._levels: list[Level] = []
         self._known: set[int] = {0}
@@ -84,7 +84,7 @@ class Bank:
         for small in range(1, (size - 1) // 2 + 1):
             large = self.level(size - 1 - small).terms
             for x in self.level(small).terms:
-                self._watch.check()
+                self._budget.check()
                 a, xk = x.bits, x.key
                 for y in large:
                     b = y.bits

@@ -74,12 +74,12 @@ class Search:
         self,
         examples: Sequence[Example],
         vocabulary: Sequence[str],
-        watch: TimeBudget,
+        budget: TimeBudget,
         options: Options,
         extremity: float = EXTREMITY,
         batch: Sequence[SymbolicMesh] = (),
     ) -> None:
-        self.examples, self.options, self.watch = tuple(examples), options, watch
+        self.examples, self.options, self.budget = tuple(examples), options, budget
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
         self.field = ObservationTable(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
@@ -88,7 +88,7 @@ class Search:
         self._exhausted = self._kept = self._goals = 0
 
     def run(self) -> SearchResult:
-        """The answer, within the limits of the options and the watch."""
+        """The answer, within the limits of the options and the budget."""
         try:
             return self._find_hit() or self._report_miss()
         except OutOfTime:
@@ -127,8 +127,8 @@ class Search:
         groups, shortcuts = self.decisive, self.options.shortcuts
         whole = groups == tuple(range(self.width))
         terms = [Term(_pack(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
-        bank = Bank(terms, len(groups), self.watch, shortcuts.merge)
-        completion = Completion(bank, self.watch, shortcuts)
+        bank = Bank(terms, len(groups), self.budget, shortcuts.merge)
+        completion = Completion(bank, self.budget, shortcuts)
         need = _pack(self.need, groups, whole)
         goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
         try:
@@ -144,14 +144,14 @@ class Search:
 
     def _report_miss(self) -> Miss:
         why = describe_conflict(self.field, self.selections, self.examples)
-        nearest = self._find_nearest(NEAREST_SIZE, self.watch)
+        nearest = self._find_nearest(NEAREST_SIZE, self.budget)
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _find_nearest(self, size: int, watch: TimeBudget) -> NearestExtractor | None:
+    def _find_nearest(self, size: int, budget: TimeBudget) -> NearestExtractor | None:
         """The nearest miss among extractors of up to some size."""
         terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
-        bank = Bank(terms, self.width, watch)
+        bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]
         errors = ErrorCounter(self.field, self.selections, self.width)
         made = (term for level in levels for term in level.terms)
