@@ -18,6 +18,7 @@ from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
 from meshforge.formats import labels_beside, load, output_path_of, save
+from meshforge.rendering import write_png
 from meshforge.symbolic import SymbolicMesh, write_labels
 
 
@@ -147,8 +148,6 @@ def _draw_pictures(mesh: SymbolicMesh, found: Examination, name: str, folder: Pa
     """The pictures of an asset, written below a folder."""
     if folder is None:
         return ()
-    from meshforge.rendering import write_png
-
     paths = []
     for kind, _, image in draw_examination(mesh, found):
         path = folder / f"{name}.{kind}.png"

@@ -192,7 +192,7 @@ def measure_extents(points: Floats) -> Floats:
 
 def _measure_box(local: Floats, axis: int) -> Floats:
     """The sides (3,) of the smallest box that is square to one axis: it lies along an edge of the outline."""
-    from scipy.spatial import ConvexHull, QhullError
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.3 s, only checks need it
 
     flat = np.delete(local, axis, axis=1)
     size = np.maximum(np.ptp(flat, axis=0), np.finfo(float).tiny)

@@ -150,8 +150,8 @@ def _interpolation_taps(places: Ints, count: int) -> list[tuple[Ints, Floats32]]
 
 def compute_ground_shadow(scene: RayScene, stage: ViewFrame, camera: Camera) -> Floats32:
     """How much of the sky is hidden from the ground behind each pixel (h, w), in 0..1; 0 where there is no ground."""
-    from PIL import Image
-    from scipy.ndimage import map_coordinates
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
+    from scipy.ndimage import map_coordinates  # lazy: 0.3 s, only pictures need it
 
     width, height = camera.size
     if camera.axes[2] @ stage.upright < 0.05 or len(scene.corners) == 0:
@@ -185,7 +185,7 @@ def _ground_points(stage: ViewFrame, camera: Camera, rows: Floats, columns: Floa
 
 def _shadow_from_above(scene: RayScene, stage: ViewFrame) -> tuple[Floats32, Floats, float]:
     """The shadow as seen from above (a, b), the lower corner (2,) of that picture, and the side of a cell."""
-    from scipy.ndimage import gaussian_filter
+    from scipy.ndimage import gaussian_filter  # lazy: 0.3 s, only pictures need it
 
     corners = scene.corners.reshape(-1, 3)[:, stage.ground_axes]
     low, high = corners.min(axis=0) - GROUND_REACH, corners.max(axis=0) + GROUND_REACH

@@ -171,7 +171,7 @@ def build_subject(
     return Subject(tuple(layers), points_to_frame(skins, shells), up_axis(mesh, up))
 
 
-def up_axis(mesh: SymbolicMesh, up: Up | None) -> Up:
+def up_axis(mesh: SymbolicMesh, up: Up | None = None) -> Up:
     """The axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
     return up or ("Y" if mesh.asset and mesh.asset.up == "y" else "Z")
 

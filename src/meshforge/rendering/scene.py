@@ -164,8 +164,8 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
 
     None makes it ready for all sides: things in one place then differ a little in size, not in depth.
     """
-    from embreex.mesh_construction import TriangleMesh
-    from embreex.rtcore_scene import EmbreeScene
+    from embreex.mesh_construction import TriangleMesh  # lazy: only pictures need it
+    from embreex.rtcore_scene import EmbreeScene  # lazy: only pictures need it
 
     order = (scene.item % _BIAS_STEPS)[:, None, None]
     away = _SWELL * (scene.corners - _item_centers(scene)[:, None]) if towards is None else _BIAS * towards

@@ -29,7 +29,7 @@ def compile_model(mesh: SymbolicMesh, tree: JointTree, *, everything: bool = Fal
     apart. On the plane, a hull rubs as the file has it. Joints are damped, so that what swings comes to rest. Raises
     ValueError where MuJoCo refuses the model.
     """
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     spec = mujoco.MjSpec()
     spec.option.timestep = STEP
@@ -110,7 +110,7 @@ def _set_mass(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, m
 
 
 def _add_joint(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> None:
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     mass, length = reach
     kinds = {
@@ -143,7 +143,7 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[f
 
 def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
     """Add a hull: a native shape as itself, any other as a mesh."""
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     geoms = mujoco.mjtGeom
     shape: Shape = hull.shape.move(local)

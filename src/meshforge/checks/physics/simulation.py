@@ -113,7 +113,7 @@ def simulate(mesh: SymbolicMesh) -> Physics:
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     """The rest of a mesh; None where the simulation blows up."""
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     model = compile_model(mesh, tree)
     data = mujoco.MjData(model)
@@ -219,7 +219,7 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
 
     Contacts that the file excludes count for themselves. Raises ValueError where MuJoCo refuses the model.
     """
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     model = compile_model(mesh, tree, everything=True)
     data = mujoco.MjData(model)

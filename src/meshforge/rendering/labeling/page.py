@@ -76,7 +76,7 @@ def lay_ink(page: PagePixels, share: LineStrengths, strength: float = 1.0) -> No
 
 def to_square_image(page: PagePixels, size: int, top: int) -> Image:
     """A page as a square picture, `top` pixels below its upper edge."""
-    from PIL import Image
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
 
     whole = np.full((size, size, 4), 255, np.uint8)
     whole[top : top + len(page)] = page

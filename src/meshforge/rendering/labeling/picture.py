@@ -75,7 +75,7 @@ class LabelingCanvas:
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
         """The picture of an arrangement from one side."""
-        from PIL import ImageDraw
+        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
         sitter, top = self.sitter, head_height(self.size)
         camera = arrangement.camera(view, self.drawing_size)
@@ -195,7 +195,7 @@ def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
 
     size: pixels along the sides of the picture that it is put on.
     """
-    from PIL import ImageDraw
+    from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
     sitter, side = arrangement.sitter, round(_INSET_SHARE * size)
     whole, about = Arrangement.in_place(sitter), Arrangement(sitter, arrangement.close, sitter.points)
