@@ -143,7 +143,7 @@ def _run_item(item: Any) -> Any:
 
 
 def raise_if_stopped(stop: Callable[[], bool] | None) -> None:
-    """Raise StoppedError where it is said that all is to end."""
+    """Raise StoppedError where `stop` says so."""
     if stop and stop():
         raise StoppedError("this was stopped")
 

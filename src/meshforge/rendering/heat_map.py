@@ -47,9 +47,9 @@ def draw_heat_map(
         tinted: Floats = colors[np.searchsorted(edges, measure(points, items))]
         return tinted
 
-    skins = [to_render_mesh(thing) for thing in things]
-    layer = DrawLayer(skins, np.tile(colors[0], (len(skins), 1)), tint=tint)
-    subject = Subject((layer,), points_to_frame(skins, ()), up_axis(mesh))
+    render_meshes = [to_render_mesh(thing) for thing in things]
+    layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)
+    subject = Subject((layer,), points_to_frame(render_meshes, ()), up_axis(mesh))
     return _draw_on_canvas(subject, Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges))))
 
 

@@ -134,8 +134,8 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[f
         names += tree.children_of(body)
     hulls = [hull for hull in mesh.hulls if hull.body in names]
     inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
-    told = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
-    mass = sum(told.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
+    known = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
+    mass = sum(known.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
     ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
     length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
     return max(mass, _LEAST), length
