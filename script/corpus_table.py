@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
 
-from meshforge.batch import WorkerFailure, run_isolated
+from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
 from meshforge.common import pluralize
 from script.corpus_rows import Row, entries, row
 
@@ -36,7 +36,7 @@ def corpus() -> Path:
 
 def rows(root: Path, names: Sequence[str], workers: int | None = None) -> list[Row]:
     """The rows of paths below a root, each read in a worker process, so that none can take the others along."""
-    found = run_isolated(row, [(str(root), name) for name in names], workers=workers, timeout=_SECONDS)
+    found = run_isolated(row, [(str(root), name) for name in names], ExecutionOptions(workers, _SECONDS))
     return [
         Row(n, message=one.why) if isinstance(one, WorkerFailure) else one for n, one in zip(names, found, strict=True)
     ]

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -47,6 +48,7 @@ def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
     return outcome
 
 
+@pytest.mark.slow
 @examples(100)
 @given(hidden_programs, batches)
 def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Program, batch: list[SymbolicMesh]) -> None:
@@ -109,6 +111,7 @@ for outcome in (learned(), ambiguous(False), ambiguous(True)):
 """
 
 
+@pytest.mark.slow
 def test_the_outcome_does_not_depend_on_the_hash_seed() -> None:
     root = Path(__file__).parents[2]
     printed = [

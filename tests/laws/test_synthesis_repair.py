@@ -10,6 +10,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -135,6 +136,7 @@ def test_relabelled_hulls_are_selected_as_on_relabelled_meshes(shown: Shown, dat
     assert np.array_equal(VariantHullTable(examples, ways).table(chosen, 0.05), HullTable(made).table(chosen, 0.05))
 
 
+@pytest.mark.slow
 def test_the_proposal_does_not_depend_on_the_hash_seed() -> None:
     program = """
 import json

@@ -13,7 +13,7 @@ from meshforge.language import Program, Rule
 from meshforge.project import Project
 from meshforge.samples import TABLES
 from meshforge.synthesis import Step
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 
 TAUGHT = Program.read(TABLES / "tables.mf")
 MEANT = replace(TAUGHT, rules=(TAUGHT.rules[0], TAUGHT.rules[1], TAUGHT.rules[4]))

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.batch import status_of as word
 from meshforge.formats import load
 from meshforge.geometry import Floats, is_convex
@@ -18,7 +19,7 @@ from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.readme import commands
 from tests.urdf_engines import bullet, mujoco_model
 
@@ -109,7 +110,7 @@ def test_a_stool_that_is_only_there_to_be_seen_gets_hulls_and_is_edited(tmp_path
     project.set_labels("chair_stool.gltf", {h.name: "seat" if h.name == top else "leg" for h in mesh.hulls})
     project.demonstrate("chair_stool.gltf", [Step(1, {top}, Replace("box"))])
     project.synthesize()
-    (outcome,) = project.apply(workers=0)
+    (outcome,) = project.apply(execution=IN_PROCESS)
     assert word(outcome) == "edited"
     after = load(project.folder / "edited/chair_stool.gltf")
     assert {hull.label for hull in after.hulls} == {"seat", "leg"} and len(after.hulls) == len(mesh.hulls)
@@ -129,7 +130,7 @@ def test_bodies_of_an_mjcf_that_only_show_something_get_hulls_and_keep_their_mas
     project.set_labels("lightButtons.xml", labels)
     project.demonstrate("lightButtons.xml", [Step(1, set(done.hulls), Each(Merge()))])
     project.synthesize()
-    (outcome,) = project.apply(workers=0)
+    (outcome,) = project.apply(execution=IN_PROCESS)
     assert word(outcome) == "edited"
     edited = project.folder / "edited" / "lightButtons.xml"
     path = edited if edited.is_file() else next((project.folder / "edited").rglob("lightButtons.xml"))

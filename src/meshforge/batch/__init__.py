@@ -15,8 +15,10 @@ from meshforge.batch.discovery import (
     find_assets_in,
 )
 from meshforge.batch.edit import inputs_of
-from meshforge.batch.execution import IN_PROCESS, TIMEOUT, Backend, ExecutionOptions
+from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
+    APPLY_DEFAULTS,
+    ApplyOptions,
     ApplyTask,
     AssetJob,
     load_named_templates,
@@ -76,8 +78,14 @@ from meshforge.batch.report.contents import (
     read_again,
     read_job,
 )
-from meshforge.batch.report.page import MOST_PICTURED, write_report
+from meshforge.batch.report.page import MOST_PICTURED, ReportHeader, ReportOptions, write_report
 from meshforge.batch.workers import (
+    EXECUTION_DEFAULTS,
+    IN_PROCESS,
+    TIMEOUT,
+    UNBOUNDED,
+    Backend,
+    ExecutionOptions,
     WorkerFailure,
     count_processors,
     memory_share,
@@ -87,6 +95,8 @@ from meshforge.batch.workers import (
 )
 
 __all__ = [
+    "APPLY_DEFAULTS",
+    "EXECUTION_DEFAULTS",
     "IN_PROCESS",
     "MOST_PICTURED",
     "OWN_FOLDERS",
@@ -95,6 +105,8 @@ __all__ = [
     "SETTINGS",
     "STATE",
     "TIMEOUT",
+    "UNBOUNDED",
+    "ApplyOptions",
     "ApplyTask",
     "AssetJob",
     "AssetOutcome",
@@ -114,6 +126,8 @@ __all__ = [
     "Preparation",
     "Replacement",
     "ReportAsset",
+    "ReportHeader",
+    "ReportOptions",
     "ReportStatus",
     "RuleEffect",
     "RunFigures",
@@ -133,6 +147,7 @@ __all__ = [
     "count_processors",
     "cut_hull",
     "decompose_asset",
+    "execute",
     "expand",
     "file_digest",
     "find_assets_in",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -10,11 +10,11 @@ from types import MappingProxyType
 from typing import Any
 
 from meshforge.batch.discovery import asset_id
-from meshforge.batch.execution import ExecutionOptions
+from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.journal import CheckInputs
 from meshforge.batch.provenance import software_version, source_files
-from meshforge.batch.workers import WorkerFailure
+from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
 from meshforge.formats import labels_beside, load, output_path_of, save
@@ -102,9 +102,8 @@ def check_asset(path: Path, base: Path, labels: Path | None, wanted: CheckTask) 
 def check_assets(
     work: Sequence[AssetJob],
     wanted: CheckTask,
-    spread: ExecutionOptions,
+    execution: ExecutionOptions,
     *,
-    done: Callable[[], None] | None = None,
     known: Mapping[str, CheckInputs] = MappingProxyType({}),
 ) -> Iterator[CheckOutcome | None]:
     """The examinations of many assets, in their order, in worker processes.
@@ -113,7 +112,7 @@ def check_assets(
     depended on, by id; None for an asset of which that is as it was.
     """
     items = [(job, known.get(job.id)) for job in work]
-    results = spread.run(partial(_check_job, wanted), items, done)
+    results = execute(partial(_check_job, wanted), items, execution)
     for job, result in zip(work, results, strict=True):
         yield CheckOutcome(job.path, f"{job.path}: {result.why}") if isinstance(result, WorkerFailure) else result
 

@@ -51,6 +51,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> WorkerResult:
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
+    to, names = task.options.to, task.options.names
     return OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
@@ -58,14 +59,14 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputIn
         program=program_digest(task.program),
         templates=template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
-        settings=f"mass={task.mass}{f' to={task.to}' if task.to else ''}{f' names={task.names}' if task.names else ''}",
+        settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
         software=software_version(),
     )
 
 
 def _find_up_to_date(task: ApplyTask, job: AssetJob) -> WorkerResult | None:
     """The outcome `skipped`, where the output of an earlier run is whole and made from the same."""
-    stamp = read_stamp(task.out, job.id) if task.resume else None
+    stamp = read_stamp(task.out, job.id) if task.options.resume else None
     if not stamp or not stamp.inputs or inputs_of(task, job, stamp.inputs.asset) != stamp.inputs:
         return None
     if not has_same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
@@ -80,9 +81,9 @@ def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInp
     result = task.program.run(source, task.templates)
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = plan_draft(task, job, asset)
-    if not task.dry_run:
+    if not task.options.dry_run:
         known = labels.vocabulary or task.program.labels
-        draft = write_draft(draft, mesh, known, mass=task.mass, link=task.link, names=task.names)
+        draft = write_draft(draft, mesh, known, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
@@ -93,7 +94,7 @@ def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInp
         notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
     )
-    if task.dry_run:
+    if task.options.dry_run:
         return WorkerResult(outcome)
     Stamp.of(outcome, inputs, draft).write(draft.root / DRAFT_STAMP)
     return WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)

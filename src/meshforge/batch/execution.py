@@ -7,11 +7,13 @@ import math
 import sys
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import replace
+from typing import Any
 
 from meshforge.batch.workers import (
     POLL_SECONDS,
+    UNBOUNDED,
+    ExecutionOptions,
     Item,
     Result,
     WorkerFailure,
@@ -22,84 +24,62 @@ from meshforge.batch.workers import (
 )
 from meshforge.common import MeshForgeError
 
-Backend = Literal["local", "ray"]
-TIMEOUT = 600.0
-"""Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
-
 ITEMS_A_CHUNK = 32
 """Items for each processor of a chunk: a node that dies costs the work on so many, which another one does again."""
 _CHUNKS_AHEAD = 2  # chunks handed out for each that can be worked on
 _MOST_RETRIES = 5  # nodes that may die under one chunk
 
 
-@dataclass(frozen=True, slots=True)
-class ExecutionOptions:
-    """All as of `run_isolated`; timeout [s] and memory [bytes] for one asset, an even share of the machine's when None.
+def execute(
+    function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions
+) -> Generator[Result | WorkerFailure, None, None]:
+    """The results of `function` on the items, in their order, from wherever `options` has them computed.
 
-    backend: the workers of this machine, or those of a Ray cluster, as of `run_on_cluster`. Results are the same.
+    Workers of this machine share its memory evenly where no bound is given. Raises as `run_isolated` and
+    `run_on_cluster`.
     """
-
-    workers: int | None = None
-    timeout: float | None = TIMEOUT
-    memory: int | None = None
-    stop: Callable[[], bool] | None = None
-    backend: Backend = "local"
-
-    def run(
-        self, function: Callable[[Item], Result], items: Sequence[Item], done: Callable[[], None] | None = None
-    ) -> Generator[Result | WorkerFailure, None, None]:
-        """The results of `function` on the items, in their order. Raises as `run_isolated` and `run_on_cluster`."""
-        memory, work = self.memory, run_on_cluster if self.backend == "ray" else run_isolated
-        if self.backend == "local" and memory is None:
-            memory = memory_share(min(self.workers or count_processors(), len(items)))
-        return work(
-            function, items, workers=self.workers, timeout=self.timeout, memory=memory, done=done, stop=self.stop
-        )
-
-
-IN_PROCESS = ExecutionOptions(workers=0)
-"""In this process, one asset after the other: nothing has to be started, and nothing is bounded."""
+    if options.backend == "ray":
+        return run_on_cluster(function, items, options)
+    if options.memory is None:
+        share = memory_share(min(options.workers or count_processors(), len(items)))
+        options = replace(options, memory=share)
+    return run_isolated(function, items, options)
 
 
 def run_on_cluster(
-    function: Callable[[Item], Result],
-    items: Sequence[Item],
-    *,
-    workers: int | None = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    done: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
-    """The results of `function` on the items, in their order, as of `run_isolated`, computed on all nodes of a cluster.
+    """The results of `function` on the items, in their order, computed on all nodes of a cluster.
 
     The cluster is that of RAY_ADDRESS, else one that runs on this machine, else one that is started here for as long as
-    this takes. MeshForge and the files of the assets have to be on every node, under the same paths. workers: processes
-    in all; memory: bytes for each, an even share of its node's when None. A chunk whose node dies is done again on
-    another. Raises MeshForgeError where Ray is not installed or no cluster answers, and what `run_isolated` raises.
+    this takes. MeshForge and the files of the assets have to be on every node, under the same paths. Here `workers` are
+    processes in all, and `memory` is that of each, an even share of its node's when None. A chunk whose node dies is
+    done again on another.
+    Raises MeshForgeError where Ray is not installed or no cluster answers, and what `run_isolated` raises.
     """
     ray, ours = _connect()
     waiting: deque[tuple[Any, int]] = deque()
     try:
         cores, every = _count_cores(ray)
-        cores = min(cores, workers or cores)
-        at_once = max(1, (min(workers, every) if workers else every) // cores)
+        workers = options.workers or every
+        cores = min(cores, workers)
+        at_once = max(1, min(workers, every) // cores)
         remote = ray.remote(_run_chunk).options(num_cpus=cores, max_retries=_MOST_RETRIES, scheduling_strategy="SPREAD")
         length = max(1, min(ITEMS_A_CHUNK * cores, math.ceil(len(items) / (at_once * _CHUNKS_AHEAD))))
         starts = iter(range(0, len(items), length))
         while True:
             while len(waiting) < at_once * _CHUNKS_AHEAD and (start := next(starts, None)) is not None:
                 chunk = list(items[start : start + length])
-                waiting.append((remote.remote(function, chunk, cores, timeout, memory), len(chunk)))
+                waiting.append((remote.remote(function, chunk, cores, options.timeout, options.memory), len(chunk)))
             if not waiting:
                 break
             task, count = waiting[0]
             while not ray.wait([task], timeout=POLL_SECONDS)[0]:
-                raise_if_stopped(stop)
+                raise_if_stopped(options.stop)
             waiting.popleft()
             for result in _collect_chunk(ray, task, count):
-                if done:
-                    done()
+                if options.progress:
+                    options.progress()
                 yield result
     finally:  # also when the caller stops early, or on Ctrl-C
         for task, _ in waiting:
@@ -139,8 +119,8 @@ def _run_chunk(
 ) -> list[Result | WorkerFailure]:
     """Runs on a node, in a process of Ray's; the workers that it starts need not load Ray's main module first."""
     vars(sys.modules["__main__"]).pop("__file__", None)
-    bound = memory or memory_share(workers)
-    return list(run_isolated(function, items, workers=workers, timeout=timeout, memory=bound))
+    options = ExecutionOptions(workers, timeout, memory or memory_share(workers))
+    return list(run_isolated(function, items, options))
 
 
 def _collect_chunk(ray: Any, task: Any, count: int) -> list[Any]:

@@ -29,23 +29,35 @@ class AssetJob:
     preparation: Path | None = None
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ApplyTask:
-    """What is done to every asset of a batch.
+@dataclass(frozen=True, slots=True)
+class ApplyOptions:
+    """How edited assets are written.
 
-    out: the folder that is written; to: the suffix of the format that is written, None for the asset's own; names:
-    the engine by whose names for collision they are made.
+    mass: whether bodies keep their masses where a format derives them from geometry; link: files that are only copied
+    become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
+    skipped; to: the suffix of the format that all are written in, each one's own when None; names: the engine by whose
+    names for collision hulls are written.
     """
 
-    program: Program
-    templates: Mapping[str, Template]
-    out: Path
     mass: Mass = "keep"
     link: bool = False
     dry_run: bool = False
     resume: bool = True
     to: str | None = None
     names: EngineName | None = None
+
+
+APPLY_DEFAULTS = ApplyOptions()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ApplyTask:
+    """What is done to every asset of a batch. out: the folder that is written."""
+
+    program: Program
+    templates: Mapping[str, Template]
+    out: Path
+    options: ApplyOptions = APPLY_DEFAULTS
 
 
 def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ...]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from meshforge.batch.discovery import STATE
-from meshforge.batch.jobs import ApplyTask, AssetJob
+from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
 from meshforge.batch.provenance import (
     OutputDraft,
@@ -25,7 +25,7 @@ from meshforge.batch.provenance import (
     text_digest,
 )
 from meshforge.common import AssetError, MeshForgeError
-from meshforge.formats import EngineName, Mass, labels_beside, output_path_of, read, save
+from meshforge.formats import labels_beside, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
@@ -58,27 +58,22 @@ def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset) -> OutputDraft:
     """Where the output of an asset would be."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
     folder = drafts_folder(task.out) / f"{text_digest(job.id)}-{attempt}" / DRAFT_FILES
-    if task.to is None:
+    to = task.options.to
+    if to is None:
         return OutputDraft(folder, output_path_of(asset, job.base, folder).relative_to(folder).as_posix())
     stem = job.id if job.path.is_dir() else job.id.removesuffix(job.path.suffix)
-    return OutputDraft(folder, f"{stem}{task.to}")
+    return OutputDraft(folder, f"{stem}{to}")
 
 
 def write_draft(
-    plan: OutputDraft,
-    mesh: SymbolicMesh,
-    vocabulary: tuple[str, ...],
-    *,
-    mass: Mass = "keep",
-    link: bool = False,
-    names: EngineName | None = None,
+    plan: OutputDraft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], options: ApplyOptions
 ) -> OutputDraft:
     """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
-    saved = save(mesh, main, mass=mass, link=link, names=names)
+    saved = save(mesh, main, mass=options.mass, link=options.link, names=options.names)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     order = _read_back(main, written)
     if written.labels:

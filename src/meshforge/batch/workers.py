@@ -13,17 +13,19 @@ from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from meshforge.common import MeshForgeError, StoppedError
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
 
-
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+Backend = Literal["local", "ray"]
 
+TIMEOUT = 600.0
+"""Seconds for one asset: far above the slowest real one, so that only a hang is stopped."""
 ITEMS_AHEAD = 32
 """Items handed out before the oldest is done, for each worker: enough to hide one slow item behind."""
 POLL_SECONDS = 0.1
@@ -41,6 +43,32 @@ GIB = 1 << 30
 
 
 @dataclass(frozen=True, slots=True)
+class ExecutionOptions:
+    """How work on many items, mostly assets, is executed.
+
+    workers: how many processes; None takes one a processor, never more than items; 0 works in this process, without
+    protection against crashes and without bounds. timeout: seconds for one item, None for no bound; memory: bytes that
+    a worker may take for one item, beyond what it has when that begins. stop: asked often whether to end all work in
+    the midst. backend: the workers of this machine, or those of a Ray cluster; results are the same. progress: called
+    whenever an item is finished, in any order, maybe from another thread.
+    """
+
+    workers: int | None = None
+    timeout: float | None = TIMEOUT
+    memory: int | None = None
+    stop: Callable[[], bool] | None = None
+    backend: Backend = "local"
+    progress: Callable[[], None] | None = None
+
+
+EXECUTION_DEFAULTS = ExecutionOptions()
+IN_PROCESS = ExecutionOptions(workers=0)
+"""In this process, one item after the other: nothing has to be started, and nothing is bounded."""
+UNBOUNDED = ExecutionOptions(timeout=None)
+"""In worker processes, each item for as long as it takes."""
+
+
+@dataclass(frozen=True, slots=True)
 class WorkerFailure:
     """An item whose worker did not come back, why, and after how many seconds, as far as known."""
 
@@ -49,32 +77,21 @@ class WorkerFailure:
 
 
 def run_isolated(
-    function: Callable[[Item], Result],
-    items: Sequence[Item],
-    *,
-    workers: int | None = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    done: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
-    """The results of `function` on the items, in their order, computed in worker processes.
+    """The results of `function` on the items, in their order, computed in worker processes of this machine.
 
-    workers: how many; None takes one a processor, never more than items; 0 works in this process, without
-    protection against crashes and without bounds. timeout: seconds for one item; memory: bytes that a worker may take
-    for one item, beyond what it has when that begins. done: called whenever an item is finished, in any order, maybe
-    from another thread. stop: asked often whether to end all work in the midst.
-    Raises MeshForgeError when worker processes cannot be started at all, StoppedError when it was told to stop.
+    Raises MeshForgeError when worker processes cannot be started at all, StoppedError when `options.stop` said so.
     """
-    number = min(count_processors() if workers is None else workers, len(items))
-    if number > 0:
-        yield from _run_pool(function, items, number, timeout, memory, done, stop)
+    workers = min(count_processors() if options.workers is None else options.workers, len(items))
+    if workers > 0:
+        yield from _run_pool(function, items, workers, options)
         return
     for item in items:
-        raise_if_stopped(stop)
+        raise_if_stopped(options.stop)
         result = function(item)
-        if done:
-            done()
+        if options.progress:
+            options.progress()
         yield result
 
 
@@ -84,31 +101,28 @@ def count_processors() -> int:
 
 
 def _run_pool(
-    function: Callable[[Item], Result],
-    items: Sequence[Item],
-    workers: int,
-    timeout: float | None,
-    memory: int | None,
-    done: Callable[[], None] | None,
-    stop: Callable[[], bool] | None,
+    function: Callable[[Item], Result], items: Sequence[Item], workers: int, options: ExecutionOptions
 ) -> Generator[Result | WorkerFailure, None, None]:
-    from pebble import ProcessPool
+    from pebble import ProcessPool  # lazy: PEBBLE
 
-    pool = ProcessPool(workers, initializer=_begin_worker, initargs=[function, memory], context=worker_context())
+    progress, stop = options.progress, options.stop
+    pool = ProcessPool(
+        workers, initializer=_begin_worker, initargs=[function, options.memory], context=worker_context()
+    )
     waiting: deque[Future[Result]] = deque()
     rest = iter(items)
     try:
         while True:
             while len(waiting) < ITEMS_AHEAD * workers and (item := next(rest, _END)) is not _END:
-                future = _schedule(pool, item, timeout)
-                if done:
-                    future.add_done_callback(lambda _: done())
+                future = _schedule(pool, item, options.timeout)
+                if progress:
+                    future.add_done_callback(lambda _: progress())
                 waiting.append(future)
             if not waiting:
                 break
             while stop and not wait([waiting[0]], POLL_SECONDS).done:
                 raise_if_stopped(stop)
-            oldest = _collect(waiting.popleft(), timeout)
+            oldest = _collect(waiting.popleft(), options.timeout)
             yield oldest
     finally:  # also when the caller stops early, or on Ctrl-C
         pool.stop()  # type: ignore[no-untyped-call]  # pebble has no types

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -20,6 +20,7 @@ from meshforge.cli.options import (
     ReportPath,
     Timeout,
     Workers,
+    to_execution_options,
 )
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure
 
@@ -63,7 +64,7 @@ def apply(
     """
     from time import perf_counter
 
-    from meshforge.batch import TIMEOUT, RunSummary, plan_run, to_json_line
+    from meshforge.batch import ApplyOptions, RunSummary, plan_run, to_json_line
     from meshforge.cli.terminal import print_json, progress, remark
     from meshforge.common import UsageError
 
@@ -80,10 +81,10 @@ def apply(
     if len(work.jobs) > 1:
         remark(str(plan_run(work.jobs, work.out)))
     summary, started = RunSummary(), perf_counter()
-    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    options = {"workers": workers, "backend": backend, "mass": mass, "link": link, "dry_run": dry_run}
+    options = ApplyOptions(mass, link, dry_run, resume=not fresh)
+    execution = to_execution_options(workers, timeout, memory, backend)
     with progress(len(work.jobs), "editing") as advance:
-        for outcome in work.run(out=work.out, resume=not fresh, progress=advance, **options, **bounds):
+        for outcome in work.run(out=work.out, options=options, execution=replace(execution, progress=advance)):
             summary.add(outcome)
             if json:
                 print_json(to_json_line(outcome), compact=True)

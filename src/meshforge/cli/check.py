@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -110,7 +111,7 @@ def check(
     spread = to_execution_options(workers, timeout, memory, backend)
     with open_journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
         known = book.inputs if book else {}
-        results = check_assets(work, wanted, spread, known=known, done=advance)
+        results = check_assets(work, wanted, replace(spread, progress=advance), known=known)
         for job, examined in zip(work, results, strict=True):
             row = _to_row(book, job.id, examined)
             failed += row["failed"]

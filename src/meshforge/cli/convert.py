@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -20,11 +20,12 @@ from meshforge.cli.options import (
     ReportPath,
     Timeout,
     Workers,
+    to_execution_options,
 )
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, AssetOutcome, RunSummary
+    from meshforge.batch import ApplyOptions, AssetJob, AssetOutcome, ExecutionOptions, RunSummary
     from meshforge.formats import EngineName, Loss, SaveResult
     from meshforge.symbolic import Feature, SymbolicMesh
 
@@ -61,7 +62,7 @@ def convert(
     names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
     stopped goes on where it was, and the exit code is 1 when some failed.
     """
-    from meshforge.batch import TIMEOUT
+    from meshforge.batch import ApplyOptions
     from meshforge.common import UsageError
 
     if len(paths) < 2:
@@ -79,9 +80,10 @@ def convert(
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
     if overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
-    options = {"names": names, "link": link, "dry_run": dry_run, "workers": workers, "backend": backend}
-    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    _convert_many(sources, Path(out), _parse_suffix(to), labels, {**options, **bounds}, report, json=json)
+    suffix = _parse_suffix(to)
+    options = ApplyOptions(link=link, dry_run=dry_run, to=suffix, names=names)
+    execution = to_execution_options(workers, timeout, memory, backend)
+    _convert_many(sources, Path(out), suffix, labels, options, execution, report, json=json)
     return None
 
 
@@ -102,7 +104,8 @@ def _convert_many(
     out: Path,
     suffix: str,
     labels: Path | None,
-    options: Mapping[str, Any],
+    options: ApplyOptions,
+    execution: ExecutionOptions,
     report: Path | None,
     *,
     json: bool,
@@ -118,14 +121,14 @@ def _convert_many(
     if len(jobs) > 1:
         remark(str(plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:
-        for outcome in apply(Program(), jobs, out, to=suffix, progress=advance, **options):
+        for outcome in apply(Program(), jobs, out, options=options, execution=replace(execution, progress=advance)):
             summary.add(outcome)
             if json:
                 print_json(to_json_line(outcome), compact=True)
             else:
                 typer.echo(_describe_outcome(outcome))
     if not json:
-        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options["dry_run"])
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options.dry_run)
     if report:
         write_convert_report(report, out, suffix, jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))

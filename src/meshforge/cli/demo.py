@@ -52,7 +52,7 @@ def _run_all(out: Path, workers: int | None) -> None:
     """Everything at once, with what happened in a few lines."""
     from time import perf_counter
 
-    from meshforge.batch import write_report
+    from meshforge.batch import ExecutionOptions, write_report
     from meshforge.cli.report import compare_outcomes
     from meshforge.cli.terminal import progress, remark
 
@@ -69,7 +69,7 @@ def _run_all(out: Path, workers: int | None) -> None:
     typer.echo(indent(str(program), "    "))
     started = perf_counter()
     with progress(len(project.assets()), "editing") as advance:
-        outcomes = list(project.apply(workers=workers, progress=advance))
+        outcomes = list(project.apply(execution=ExecutionOptions(workers, progress=advance)))
     seconds = perf_counter() - started
     assets = list(compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown))
     with progress(len(assets), "drawing") as advance:

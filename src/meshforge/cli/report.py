@@ -39,7 +39,7 @@ def compare_outcomes(
 
     measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
     """
-    from meshforge.batch import READ_TIMEOUT, ExecutionOptions, Failed, ReportAsset, read_again, status_of
+    from meshforge.batch import READ_TIMEOUT, ExecutionOptions, Failed, ReportAsset, execute, read_again, status_of
     from meshforge.formats import load
     from meshforge.language import RuleTrace, to_canonical_frame
 
@@ -47,7 +47,7 @@ def compare_outcomes(
     meshes = read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
     todo = [(after, measures, before) for _, before, after in pairs if before and after] if measures else []
-    found = ExecutionOptions(timeout=READ_TIMEOUT).run(_examine, todo)
+    found = execute(_examine, todo, ExecutionOptions(timeout=READ_TIMEOUT))
     for outcome, was, now in pairs:
         name, is_shown = outcome.asset, outcome.asset in demonstrated
         if isinstance(outcome, Failed) or was is None or now is None:

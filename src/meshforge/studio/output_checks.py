@@ -10,7 +10,7 @@ from typing import get_args
 
 from pydantic import TypeAdapter, ValidationError
 
-from meshforge.batch import WorkerFailure, count_processors, memory_share, read_stamp, run_isolated
+from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, memory_share, read_stamp, run_isolated
 from meshforge.checks import draw_examination, examine_mesh
 from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
 from meshforge.project import Project
@@ -85,7 +85,9 @@ class OutputChecks:
                 yield asset, self.faults_of(work.key) or ()
         bound = memory_share(min(count_processors(), max(len(fresh), 1)))
         todo = [(work, self._cache) for work in fresh]
-        results = run_isolated(_measure_all, todo, timeout=WORK_TIMEOUT, memory=bound, done=done, stop=stop)
+        results = run_isolated(
+            _measure_all, todo, ExecutionOptions(timeout=WORK_TIMEOUT, memory=bound, progress=done, stop=stop)
+        )
         for work, result in zip(fresh, results, strict=True):
             problem = result.why if isinstance(result, WorkerFailure) else result
             yield work.asset, problem or self.faults_of(work.key) or ()

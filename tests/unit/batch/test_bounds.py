@@ -8,7 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import Failed, RunSummary, Unchanged, apply, expand, make_jobs, plan_run, run_isolated, status_of
+from meshforge.batch import (
+    IN_PROCESS,
+    ExecutionOptions,
+    Failed,
+    RunSummary,
+    Unchanged,
+    apply,
+    expand,
+    make_jobs,
+    plan_run,
+    run_isolated,
+    status_of,
+)
 from meshforge.batch.outcome import MOST_SHOWN
 from meshforge.batch.workers import MIB, memory_share
 from meshforge.language import Program
@@ -27,8 +39,8 @@ def filled(mebibytes: int) -> int | str:
 
 @only_linux
 def test_a_monster_has_no_room_and_the_others_have() -> None:
-    assert list(run_isolated(filled, [10, 900, 20], workers=1, memory=500 * MIB)) == [10, "no room", 20]
-    assert list(run_isolated(filled, [900], workers=1)) == [900]
+    assert list(run_isolated(filled, [10, 900, 20], ExecutionOptions(1, None, 500 * MIB))) == [10, "no room", 20]
+    assert list(run_isolated(filled, [900], ExecutionOptions(1, None))) == [900]
 
 
 _left: list[np.ndarray] = []
@@ -42,7 +54,7 @@ def leaked(mebibytes: int) -> int:
 
 @only_linux
 def test_what_earlier_assets_left_behind_takes_no_room_from_the_next() -> None:
-    assert list(run_isolated(leaked, [300] * 4, workers=1, memory=500 * MIB)) == [1, 2, 3, 4]
+    assert list(run_isolated(leaked, [300] * 4, ExecutionOptions(1, None, 500 * MIB))) == [1, 2, 3, 4]
 
 
 @only_linux
@@ -55,8 +67,7 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
             Program.parse(PROGRAM),
             make_jobs(expand([tmp_path / "assets"])),
             tmp_path / "out",
-            memory=100 * MIB,
-            workers=1,
+            execution=ExecutionOptions(1, memory=100 * MIB),
         )
     )
     assert [status_of(outcome) for outcome in outcomes] == ["failed", "edited", "edited"]
@@ -80,7 +91,7 @@ def test_a_plan_tells_what_is_there_and_what_was_done(tmp_path: Path) -> None:
     assert (before.count, before.kinds, before.labelled, before.earlier) == (3, {"OBJ": 3}, 2, 0)
     assert before.size == sum(path.stat().st_size for path in (tmp_path / "assets").rglob("*.obj"))
     assert str(before).startswith("3 assets (3 OBJ; 0.0 MiB), 2 with labels\n")
-    list(apply(Program.parse(PROGRAM), work[:2], out, workers=0))
+    list(apply(Program.parse(PROGRAM), work[:2], out, execution=IN_PROCESS))
     after = plan_run(work, out)
     assert after.earlier == 2
     assert "an earlier run was at 2 of them" in str(after)

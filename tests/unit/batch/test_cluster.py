@@ -19,7 +19,7 @@ from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, tree, write_tables
 
 ray = pytest.importorskip("ray")
-pytestmark = pytest.mark.filterwarnings("ignore")  # Ray's own
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]  # the warnings are Ray's own
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def test_results_come_in_order_and_a_crash_or_a_hang_loses_one_item(cluster: Any
     def done() -> None:
         count[0] += 1
 
-    found = list(run_on_cluster(square_or_worse, range(40), timeout=8.0, done=done))
+    found = list(run_on_cluster(square_or_worse, range(40), ExecutionOptions(timeout=8.0, progress=done)))
     assert found[3] == WorkerFailure("its worker process died (SIGKILL)")
     assert found[5] == WorkerFailure("it took longer than 8 seconds and was stopped", 8.0)
     assert [(k, n) for k, n in enumerate(found) if k not in (3, 5)] == [
@@ -57,9 +57,9 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
     write_tables(tmp_path / "assets", 60)
     (tmp_path / "assets/table7/model.obj").write_text("v 1 2\n")
     program, work = Program.parse(PROGRAM), make_jobs(expand([tmp_path / "assets"]))
-    here = list(apply(program, work, tmp_path / "here", workers=2))
+    here = list(apply(program, work, tmp_path / "here", execution=ExecutionOptions(2)))
     there, killed = [], False
-    for outcome in apply(program, work, tmp_path / "there", backend="ray"):
+    for outcome in apply(program, work, tmp_path / "there", execution=ExecutionOptions(backend="ray")):
         there.append(outcome)
         if not killed:
             cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
@@ -68,7 +68,7 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
     assert [(o.asset, status_of(o)) for o in there] == [(o.asset, status_of(o)) for o in here]
     assert [o.asset for o in there if isinstance(o, Failed)] == ["table7/model.obj"]
     assert tree(tmp_path / "there") == tree(tmp_path / "here")
-    again = apply(program, work, tmp_path / "there", backend="ray")
+    again = apply(program, work, tmp_path / "there", execution=ExecutionOptions(backend="ray"))
     assert {status_of(o) for o in again} == {"skipped", "failed"}
 
 
@@ -101,7 +101,7 @@ def test_workers_need_not_load_ray(cluster: Any) -> None:
 
 def test_it_can_be_stopped(cluster: Any) -> None:
     with pytest.raises(StoppedError):
-        list(run_on_cluster(slow_square, range(1000), stop=lambda: True))
+        list(run_on_cluster(slow_square, range(1000), ExecutionOptions(timeout=None, stop=lambda: True)))
 
 
 def test_a_cluster_that_does_not_answer_is_one_message(monkeypatch: pytest.MonkeyPatch, cluster: Any) -> None:

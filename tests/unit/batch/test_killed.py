@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import apply, expand, make_jobs, status_of
+from meshforge.batch import IN_PROCESS, apply, expand, make_jobs, status_of
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, tree, write_tables, write_urdf_table
 from tests.unit.deaths import deaths, needs_fork
@@ -21,7 +21,7 @@ NEW = "labels top, leg, misc\nIs(misc) => Delete\nIs(leg) => Merge\n"
 
 
 def run(assets: Path, out: Path, text: str) -> list[str]:
-    outcomes = apply(Program.parse(text), make_jobs(expand([assets])), out, workers=0)
+    outcomes = apply(Program.parse(text), make_jobs(expand([assets])), out, execution=IN_PROCESS)
     return [status_of(outcome) for outcome in outcomes]
 
 
@@ -65,16 +65,17 @@ SCRIPT = """\
 import sys
 import time
 from pathlib import Path
-from meshforge.batch import apply, expand, make_jobs
+from meshforge.batch import ExecutionOptions, apply, expand, make_jobs
 from meshforge.language import Program
 
 if __name__ == "__main__":
     assets, out, text = sys.argv[1:]
-    for outcome in apply(Program.parse(text), make_jobs(expand([assets])), Path(out), workers=1):
+    for outcome in apply(Program.parse(text), make_jobs(expand([assets])), Path(out), execution=ExecutionOptions(1)):
         print(outcome.asset, flush=True)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal here")
 def test_ctrl_c_leaves_finished_work_intact_and_no_process_behind(tmp_path: Path) -> None:
     assets, out = tmp_path / "assets", tmp_path / "out"
@@ -93,7 +94,7 @@ def test_ctrl_c_leaves_finished_work_intact_and_no_process_behind(tmp_path: Path
     wait_until_gone(process.pid)
     finished = [first, *rest.split()]
     work = make_jobs(expand([assets]))[: len(finished) + 1]
-    words = [status_of(outcome) for outcome in apply(Program.parse(PROGRAM), work, out, workers=0)]
+    words = [status_of(outcome) for outcome in apply(Program.parse(PROGRAM), work, out, execution=IN_PROCESS)]
     assert words == ["skipped"] * len(finished) + ["edited"]
     assert not (out / ".meshforge" / "drafts").exists()
 

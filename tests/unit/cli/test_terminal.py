@@ -13,6 +13,7 @@ from tests.unit.cli.terminal import Terminal
 from tests.unit.project.shelves import ambiguous
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
@@ -27,6 +28,7 @@ def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None
     assert project.answers().ids == ("1:rack2.obj",)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 def test_results_go_into_a_file_while_the_bar_is_at_the_terminal(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 4)

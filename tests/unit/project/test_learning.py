@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import FamilyMeshes, Project
 from meshforge.symbolic import Label
@@ -34,7 +35,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
 def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.synthesize()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     status = project.status(workers=0)
     assert status.question and (status.next.command or "").startswith("meshforge check")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import Edited, Failed
+from meshforge.batch import IN_PROCESS, Edited, Failed
 from meshforge.batch import status_of as word
 from meshforge.common import AssetError, GeometryError, ProjectError
 from meshforge.formats import load
@@ -128,7 +128,7 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
         label_all(project, asset)
     project.demonstrate(HIGH, [Step(1, {n for n in names(project, HIGH) if "cover" in n}, Merge())])
     assert isinstance(project.synthesize(), Found)
-    outcomes = list(project.apply(workers=0))
+    outcomes = list(project.apply(execution=IN_PROCESS))
     assert [(word(o), getattr(o, "before", 0), getattr(o, "after", 0)) for o in outcomes] == [("edited", 5, 4)] * 2
     edited = load(project.folder / "edited" / LOW)
     assert {hull.name.replace("#1~", "#0~"): hull.label for hull in edited.hulls} == {
@@ -139,13 +139,13 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
     }
     assert edited.asset and edited.asset.opaque == ()
     assert all(asset.is_done for asset in project.status(workers=0).assets)
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 2
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
 
 
 def test_an_asset_that_only_its_preparation_changes_is_edited(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     (project.folder / "program.mf").write_text("labels gone\nGeo(All, +Z) => Each(Merge)\n")
-    assert all(isinstance(outcome, Edited) for outcome in project.apply(workers=0))
+    assert all(isinstance(outcome, Edited) for outcome in project.apply(execution=IN_PROCESS))
 
 
 def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
         label_all(project, asset)
     project.demonstrate(HIGH, [Step(1, {"frame/foot"}, Delete())])
     project.synthesize()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
     found = project.status(workers=0)
     assert found.outdated
@@ -168,13 +168,13 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
 def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_again(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     (project.folder / "program.mf").write_text("All => Merge\n")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     path = tmp_path / "assets" / HIGH
     path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
-    first, second = project.apply(workers=0)
+    first, second = project.apply(execution=IN_PROCESS)
     assert isinstance(first, Failed) and "out of date" in first.error and word(second) == "skipped"
     list(project.decompose(settings=QUICK, workers=0))
-    assert [word(o) for o in project.apply(workers=0)] == ["edited", "skipped"]
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "skipped"]
 
 
 def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_path: Path) -> None:
@@ -183,7 +183,7 @@ def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_
     record = project.folder / "prepared" / HIGH / "preparation.json"
     record.unlink()
     record.mkdir()
-    first, second = project.apply(workers=0)
+    first, second = project.apply(execution=IN_PROCESS)
     assert isinstance(first, Failed) and str(record) in first.error and word(second) == "edited"
     assert "preparation.json" in (project.status(workers=0).assets[0].error or "")
 

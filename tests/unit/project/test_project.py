@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.batch import status_of as word
 from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
@@ -256,8 +257,8 @@ def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
         "left_low~1": "leg",
         "right_low~1": "leg",
     }
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 3
-    assert [word(o) for o in project.apply(workers=0, out=tmp_path / "else")] == ["edited"] * 3
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 3
+    assert [word(o) for o in project.apply(execution=IN_PROCESS, out=tmp_path / "else")] == ["edited"] * 3
 
 
 def test_applying_without_a_program_says_what_to_do(tmp_path: Path) -> None:
@@ -279,7 +280,7 @@ def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> 
 def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(SECOND, ["left_low~1", "right_low~1"], Merge(), "top")
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped", "edited", "skipped"]
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped", "edited", "skipped"]
     mesh = load(project.folder / "edited" / SECOND)
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
@@ -294,7 +295,7 @@ def test_an_edit_by_hand_whose_hull_is_gone_or_changed_is_flagged_and_left_out(t
     project.correct(SECOND, ["top"], Replace("box"))
     (project.folder / "program.mf").write_text("labels top, leg, misc\nIs(misc) => Delete\n")
     write_table(tmp_path / "assets" / SECOND, 3.0)
-    outcomes = {o.asset: o for o in project.apply(workers=0)}
+    outcomes = {o.asset: o for o in project.apply(execution=IN_PROCESS)}
     assert getattr(outcomes[FIRST], "flags", None) == ("edit 1 by hand was left out: left_low~1 is gone",)
     assert getattr(outcomes[SECOND], "flags", None) == ("edit 1 by hand was left out: top has another shape now",)
     assert len(load(project.folder / "edited" / FIRST).hulls) == 5
@@ -304,10 +305,10 @@ def test_an_edit_by_hand_in_a_turned_frame_leaves_the_other_hulls_alone(tmp_path
     project = learned(tmp_path)
     text = PROGRAM.replace("\nIs(misc)", "\norient +X: Is(leg) -> Is(top)\n\nIs(misc)")
     (project.folder / "program.mf").write_text(text)
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     before = load(project.folder / "edited" / FIRST)
     project.correct(FIRST, ["top"], Delete())
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     after = load(project.folder / "edited" / FIRST)
     assert [h.name for h in after.hulls] == ["left_low~1", "right_low~1"]
     for hull in after.hulls:
@@ -327,7 +328,7 @@ def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
     project.label_from_files()
     project.demonstrate("table.urdf", [Step(1, {"body/crumb"}, Delete())])
     project.synthesize()
-    assert [word(o) for o in project.apply(workers=1)] == ["edited"]
+    assert [word(o) for o in project.apply(execution=ExecutionOptions(1))] == ["edited"]
     assert tree(tmp_path / "robots") == before
 
 
@@ -337,7 +338,7 @@ def test_a_project_among_its_assets_does_not_take_its_own_files_for_assets(tmp_p
     project.label_from_files()
     (project.folder / "program.mf").write_text(PROGRAM)
     write_table(project.folder / "templates/knob.obj")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert Project.open(tmp_path).assets() == ("a.obj",)
 
 
@@ -347,4 +348,4 @@ def test_an_unreadable_asset_is_left_out_of_learning_and_fails_in_applying(tmp_p
     with pytest.raises(MeshForgeError):
         project.mesh(THIRD)
     project.synthesize()
-    assert [word(o) for o in project.apply(workers=0)] == ["edited", "edited", "failed"]
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "edited", "failed"]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.common import DemonstrationError, MeshForgeError, ProjectError
 from meshforge.language import Program, parse_action
 from meshforge.project import Project
@@ -219,6 +220,7 @@ def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(tmp_path: Path) -> 
         previews.preview_action(project, OTHER, mesh, wrong)
 
 
+@pytest.mark.slow
 def test_the_output_is_what_was_written(tmp_path: Path) -> None:
     project = demo_project(tmp_path)
     program = project.synthesize().program
@@ -226,7 +228,7 @@ def test_the_output_is_what_was_written(tmp_path: Path) -> None:
     mesh = project.mesh(OTHER)
     with pytest.raises(ProjectError, match="it has no output yet"):
         previews.preview_result(project, OTHER, mesh, "output", None)
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     header, _ = read_packet(previews.preview_result(project, OTHER, mesh, "output", None))
     now, _ = read_packet(previews.preview_result(project, OTHER, mesh, "program", program))
     assert {hull["name"] for hull in header["hulls"]} == {hull["name"] for hull in now["hulls"]}

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import pytest
 
-from meshforge.batch import CheckTask, check_asset
+from meshforge.batch import IN_PROCESS, CheckTask, check_asset
 from meshforge.batch.provenance import read_stamp, stamp_path
 from meshforge.checks import ENGINES, CheckOptions
 from meshforge.common import ProjectError
@@ -54,6 +54,7 @@ def told(project: Project, of: Literal["asset", "output"], measures: CheckOption
     return check_asset(path, path.parent, None, CheckTask(measures, against=against)).to_json()
 
 
+@pytest.mark.slow
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: OutputChecks) -> None:
     everything = CheckOptions(fit=True, clearance=True, physics=True)
     was, now = told(project, "asset", everything), told(project, "output", everything)
@@ -120,7 +121,7 @@ def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path:
     source.write_text(source.read_text() + " ")
     with pytest.raises(ProjectError, match="the asset changed since its output was made"):
         checks.check_part(project, BARE, "engines").result(60)
-    list(project.apply([BARE], workers=0))
+    list(project.apply([BARE], execution=IN_PROCESS))
     assert key_of(project, BARE) != before
     assert checks.faults_of(key_of(project, BARE)) is None
     assert checks.check_part(project, BARE, "engines").result(60).findings == ()

@@ -2,7 +2,7 @@
 import type { Event } from "../wire";
 import { address } from "./http";
 
-export interface Listener {
+interface Listener {
   receive(event: Event): void;
   connected(is: boolean): void;
 }

@@ -2,12 +2,11 @@
 import { X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { useState } from "react";
-import { all } from "../commands/all";
 import type { Command } from "../commands/command";
-import { useDesk } from "../store/desk";
-import { beginTour } from "../store/tour";
+import { allCommands, foldCommands } from "../commands/list";
+import { startTour } from "../store/tour";
+import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
-import { folded } from "./folded";
 import css from "./overlay.module.css";
 
 const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "Demonstrate", "Learn", "Review", "Edit"];
@@ -19,10 +18,10 @@ const HOW = [
   ["Review", "Apply it to the family, look at each, accept or flag, and export."],
 ] as const;
 
-const close = () => useDesk.setState({ overlay: "none" });
+const close = () => useWorkspace.setState({ overlay: "none" });
 
 export function Help() {
-  const open = useDesk((desk) => desk.overlay === "help");
+  const open = useWorkspace((workspace) => workspace.overlay === "help");
   return (
     <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
       <Dialog.Portal>
@@ -40,7 +39,7 @@ function Content() {
   const word = search.trim().toLowerCase();
   const fits = (command: Command) =>
     !word || `${command.title} ${command.group} ${command.keys.join(" ")}`.toLowerCase().includes(word);
-  const groups = GROUPS.map((group) => ({ group, commands: all.filter((one) => one.group === group && fits(one)) }));
+  const groups = GROUPS.map((group) => ({ group, commands: allCommands.filter((one) => one.group === group && fits(one)) }));
   const none = groups.every(({ commands }) => commands.length === 0);
   return (
     <>
@@ -57,7 +56,7 @@ function Content() {
         <Button
           onClick={() => {
             close();
-            beginTour();
+            startTour();
           }}
         >
           Guided tour
@@ -99,7 +98,7 @@ function Group({ name, commands }: { name: string; commands: readonly Command[] 
     <div className={css.group} role="group" aria-label={name}>
       <h3>{name}</h3>
       <dl>
-        {folded(commands).map((command) => (
+        {foldCommands(commands).map((command) => (
           <div key={command.id} className={css.pair}>
             <dt>{command.title}</dt>
             <dd>

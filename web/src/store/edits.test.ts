@@ -2,7 +2,7 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
 import { page, ServerProblem } from "../server/http";
-import { onTheirWay, perform, sentence, undo } from "./edits";
+import { pendingEdits, perform, capitalize, undo } from "./edits";
 import { emptyProject, receive, useProject } from "./project";
 import { useToasts } from "./toasts";
 
@@ -59,9 +59,9 @@ test("an edit is over when the page was told what it changed, or is not connecte
   const history = { kind: "history", history: emptyProject.history, did: "edit", said: "done" } as const;
   receive({ ...history, by: "another page" });
   await new Promise((soon) => setTimeout(soon, 20));
-  expect([over.mock.calls.length, onTheirWay() === null]).toEqual([0, false]);
+  expect([over.mock.calls.length, pendingEdits() === null]).toEqual([0, false]);
   receive({ ...history, by: page });
-  await expect.poll(() => [over.mock.calls.length, onTheirWay()]).toEqual([1, null]);
+  await expect.poll(() => [over.mock.calls.length, pendingEdits()]).toEqual([1, null]);
   void perform(labels).then(over);
   await new Promise((soon) => setTimeout(soon, 20));
   expect(over).toHaveBeenCalledTimes(1);
@@ -70,7 +70,7 @@ test("an edit is over when the page was told what it changed, or is not connecte
 });
 
 test("names of files keep their first letter", () => {
-  expect(["table_1.obj: fine", "vocabulary: a, b", "step 1", "a/b: fine"].map(sentence)).toEqual([
+  expect(["table_1.obj: fine", "vocabulary: a, b", "step 1", "a/b: fine"].map(capitalize)).toEqual([
     "table_1.obj: fine",
     "Vocabulary: a, b",
     "Step 1",

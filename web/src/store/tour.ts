@@ -1,31 +1,31 @@
 // The guided tour of the demo: its marks, and how far one is; knows no DOM.
 import { create } from "zustand";
-import { type DeskState, useDesk } from "./desk";
+import { type WorkspaceState, useWorkspace } from "./workspace";
 import { type ProjectState, useProject } from "./project";
 import { useScenes } from "./scenes";
 
-export interface TourMark {
+interface TourStop {
   /** The part of the window that it points at: its `data-tour`. */
   at: "family" | "view" | "steps" | "panel" | "stages" | "hulls";
   title: string;
   text: string;
   /** Whether the person has done it; without, Next goes on. */
-  done?: (project: ProjectState, desk: DeskState) => boolean;
+  done?: (project: ProjectState, workspace: WorkspaceState) => boolean;
 }
 
 /** Which labels the selected hulls have. */
-function selectedLabels(desk: DeskState): ReadonlySet<string | null> {
+function selectedLabels(workspace: WorkspaceState): ReadonlySet<string | null> {
   const { scene } = useScenes.getState();
-  return new Set(scene?.hulls.filter((hull) => desk.selection.has(hull.name)).map((hull) => hull.label));
+  return new Set(scene?.hulls.filter((hull) => workspace.selection.has(hull.name)).map((hull) => hull.label));
 }
 
-const demonstrated = (project: ProjectState) => Object.values(project.cards).filter((card) => card.demonstrated).length;
-const only = (desk: DeskState, label: string) => {
-  const labels = selectedLabels(desk);
+const countDemonstrated = (project: ProjectState) => Object.values(project.cards).filter((card) => card.demonstrated).length;
+const onlyHas = (workspace: WorkspaceState, label: string) => {
+  const labels = selectedLabels(workspace);
   return labels.size === 1 && labels.has(label);
 };
 
-export const MARKS: readonly TourMark[] = [
+export const TOUR_STOPS: readonly TourStop[] = [
   {
     at: "family",
     title: "A family of tables",
@@ -37,7 +37,7 @@ export const MARKS: readonly TourMark[] = [
     at: "stages",
     title: "Four stages",
     text: "The labels are there already. Go on to 2 Demonstrate.",
-    done: (_, desk) => desk.stage === "demonstrate",
+    done: (_, workspace) => workspace.stage === "demonstrate",
   },
   {
     at: "view",
@@ -45,7 +45,7 @@ export const MARKS: readonly TourMark[] = [
     text:
       "What lies on the tables, and splinters of the cutting, are labelled misc. " +
       "Click one, then press Shift+L: all hulls with its label are selected.",
-    done: (project, desk) => only(desk, "misc") || project.project.rules.length > 0,
+    done: (project, workspace) => onlyHas(workspace, "misc") || project.project.rules.length > 0,
   },
   {
     at: "panel",
@@ -63,13 +63,13 @@ export const MARKS: readonly TourMark[] = [
     at: "panel",
     title: "The second table is easier",
     text: "Press Tab to go to another table. Both steps are guessed there: accept each with Enter, or correct it.",
-    done: (project) => demonstrated(project) > 1,
+    done: (project) => countDemonstrated(project) > 1,
   },
   {
     at: "stages",
     title: "It has learned meanwhile",
     text: "Open 3 Learn to see the program.",
-    done: (_, desk) => desk.stage === "learn",
+    done: (_, workspace) => workspace.stage === "learn",
   },
   {
     at: "panel",
@@ -77,7 +77,7 @@ export const MARKS: readonly TourMark[] = [
     text:
       "Point at a rule, and its hulls light up on all tables. " +
       "What is still open is asked: choose the picture that you mean. Then go on to 4 Review.",
-    done: (_, desk) => desk.stage === "review",
+    done: (_, workspace) => workspace.stage === "review",
   },
   {
     at: "panel",
@@ -97,7 +97,7 @@ export const MARKS: readonly TourMark[] = [
 /** step: of the mark that is shown, null while the tour is not; back: one came back to it, and stays till Next. */
 export const useTour = create<{ step: number | null; back: boolean }>()(() => ({ step: null, back: false }));
 
-export function beginTour(): void {
+export function startTour(): void {
   useTour.setState({ step: 0, back: false });
 }
 
@@ -106,22 +106,22 @@ export function endTour(): void {
 }
 
 /** To the next mark whose deed is not done yet, or back to the one before. */
-export function turnTour(by: 1 | -1): void {
+export function moveTour(by: 1 | -1): void {
   const step = useTour.getState().step ?? 0;
   if (by === -1) return useTour.setState({ step: Math.max(step - 1, 0), back: true });
-  const next = MARKS.findIndex((mark, k) => k > step && !isDone(mark));
+  const next = TOUR_STOPS.findIndex((mark, k) => k > step && !isDone(mark));
   useTour.setState({ step: next < 0 ? null : next, back: false });
 }
 
-const isDone = (mark: TourMark) => mark.done?.(useProject.getState(), useDesk.getState()) ?? false;
+const isDone = (mark: TourStop) => mark.done?.(useProject.getState(), useWorkspace.getState()) ?? false;
 
 /** Goes on whenever the person has done what a mark asks for; until the returned function is called. */
 export function followTour(): () => void {
   const look = () => {
     const { step, back } = useTour.getState();
-    const mark = step === null || back ? undefined : MARKS[step];
-    if (mark && isDone(mark)) turnTour(1);
+    const mark = step === null || back ? undefined : TOUR_STOPS[step];
+    if (mark && isDone(mark)) moveTour(1);
   };
-  const stops = [useProject.subscribe(look), useDesk.subscribe(look)];
+  const stops = [useProject.subscribe(look), useWorkspace.subscribe(look)];
   return () => stops.forEach((stop) => stop());
 }

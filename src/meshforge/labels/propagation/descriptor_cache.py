@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from meshforge.batch import (
     ExecutionOptions,
     WorkerFailure,
+    execute,
     has_same_files,
     read_prepared,
     record_digest,
@@ -28,12 +29,9 @@ from meshforge.batch import (
 )
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
-from meshforge.store import AssetFacts
+from meshforge.labels.propagation.describe import MeshDescriber
+from meshforge.store import AssetFacts, Store
 from meshforge.symbolic import EPSILON, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
@@ -82,13 +80,13 @@ class _Work:
 class DescriptorCache:
     """Those of some assets of a project, as they are known; spread: how the work is done."""
 
-    def __init__(self, project: Project, facts: Mapping[str, AssetFacts], spread: ExecutionOptions) -> None:
-        contact = project.settings.thresholds.contact or EPSILON
-        layout, base = project.layout, project.found.base
+    def __init__(self, store: Store, facts: Mapping[str, AssetFacts], spread: ExecutionOptions) -> None:
+        contact = store.settings.thresholds.contact or EPSILON
+        layout, base = store.layout, store.found.base
         self._spread = spread
         self._work = {
             asset: _Work(
-                project.path(asset),
+                store.path(asset),
                 base,
                 own.files,
                 layout.preparation(asset),
@@ -104,7 +102,7 @@ class DescriptorCache:
     def describe(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
         """Describe some assets, and give those that cannot be, with why; done: called for each."""
         work = [self._work[asset] for asset in assets]
-        for asset, result in zip(assets, self._spread.run(_describe, work, done), strict=True):
+        for asset, result in zip(assets, execute(_describe, work, replace(self._spread, progress=done)), strict=True):
             if isinstance(result, WorkerFailure):
                 yield asset, f"{self._work[asset].path}: {result.why}"
             elif result:
@@ -128,7 +126,9 @@ class DescriptorCache:
     ) -> Iterator[tuple[str, list[Floats] | str]]:
         """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
-        for (asset, _), result in zip(wanted, self._spread.run(_describe_sides, work, done), strict=True):
+        for (asset, _), result in zip(
+            wanted, execute(_describe_sides, work, replace(self._spread, progress=done)), strict=True
+        ):
             yield asset, f"{self._work[asset].path}: {result.why}" if isinstance(result, WorkerFailure) else result
 
 
@@ -143,8 +143,6 @@ def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None
 
 def _describe(work: _Work) -> str | None:
     """Describe an asset and keep that; why that cannot be done."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
         sketch = MeshDescriber(_read_mesh(work)).describe()
         arrays = {"rows": sketch.rows, "touching": sketch.touching, "sides": sketch.sides}
@@ -156,8 +154,6 @@ def _describe(work: _Work) -> str | None:
 
 def _describe_sides(work: _Work) -> list[Floats] | str:
     """The rows of an asset on some of its sides, which are kept, too; or why there are none."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
         known = {side: _read_kept(work, f"side{side}", "rows") for side in work.sides}
         sketcher = None if all(known.values()) else MeshDescriber(_read_mesh(work))

@@ -8,7 +8,16 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from meshforge.batch import OWN_FOLDERS, STATE, AssetOutcome, Failed, file_digest, read_stamp, status_of
+from meshforge.batch import (
+    OWN_FOLDERS,
+    STATE,
+    AssetOutcome,
+    ExecutionOptions,
+    Failed,
+    file_digest,
+    read_stamp,
+    status_of,
+)
 from meshforge.common import (
     ProjectError,
     UsageError,
@@ -38,7 +47,9 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
 
     def work(progress: JobProgress) -> str:
         counts: Counter[str] = Counter()
-        outcomes = project.apply(assets, progress=progress.advance, stop=progress.is_stopped)
+        outcomes = project.apply(
+            assets, execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
+        )
         for outcome in outcomes:
             counts[status_of(outcome)] += 1
             progress.add_line(_apply_line(outcome))

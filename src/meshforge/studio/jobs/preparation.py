@@ -9,7 +9,7 @@ from uuid import uuid4
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize
 from meshforge.geometry import CoacdSettings, VhacdSettings
-from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult
+from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import PreparationResult, Project
 from meshforge.store import VlmSettings
 from meshforge.studio.edits.assets import Decompose
@@ -146,7 +146,7 @@ def start_ask(session: Session, request: AskJob) -> Job:
 def _check_settings(session: Session, request: ForecastJob | AskJob) -> VlmSettings:
     """The settings of the project with the mode asked for, checked before anything long starts."""
     settings = session.project.settings.vlm.model_copy(update={"mode": request.mode})
-    settings.check(session.project.vocabulary)
+    check_vlm_settings(settings, session.project.vocabulary)
     return settings
 
 

@@ -1,7 +1,7 @@
 // The program as a text to edit, checked while one types.
 import { Check } from "lucide-react";
 import { type KeyboardEvent, useEffect, useState } from "react";
-import { writeProgram } from "../../commands/learning";
+import { writeProgram } from "../../commands/learn";
 import { api } from "../../server/api";
 import { ServerProblem } from "../../server/http";
 import { useProject } from "../../store/project";
