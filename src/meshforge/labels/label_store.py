@@ -36,7 +36,10 @@ class LabelStore(Store):
     def set_labels(
         self, asset: str, labels: Mapping[str, str | None], *, source: LabelSource = "user", confidence: float = 1.0
     ) -> LabelOutcome:
-        """Label some hulls of an asset, or take labels away by None. A machine's source never overwrites a person's."""
+        """Label some hulls of an asset, or remove their labels by None. A machine never overwrites a person's label.
+
+        Raises ProjectError, with nothing written, for an unknown hull or a label that is not in the vocabulary.
+        """
         return set_labels(self, asset, labels, source, confidence)
 
     def label_from_files(
@@ -47,12 +50,13 @@ class LabelStore(Store):
         execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
     ) -> tuple[LabelOutcome, ...]:
-        """Take over what files say: labels files, segmented points and meshes, and PartNet's semantics of links.
+        """Take labels from files: labels files, segmented points and meshes, and PartNet's semantics of links.
 
-        source: a file for a single asset, a folder that mirrors the assets, or None for those beside them; how: the way
-        they are read. A project without a vocabulary takes that of the files. execution: over worker processes, where one
-        asset that crashes or hangs costs no more than itself; unless said, the work is done in this process. report:
-        called with what became of each asset, as soon as its labels are written, in the order of the assets.
+        source: a file for a single asset, a folder that mirrors the assets, or None for the files beside them. A
+        project without a vocabulary takes that of the files. report: called with the outcome of each asset, as soon as
+        its labels are written, in the order of the assets.
+        Raises ProjectError: no file at all; UsageError: a wrong pattern, or one file for several assets; AssetError: a
+        file that cannot be read while a vocabulary is looked for.
         """
         return label_from_files(self, source, options or LabelFileOptions(), execution, report)
 
@@ -64,11 +68,11 @@ class LabelStore(Store):
         *,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
-        """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
+        """What `label_from_files` would take, with nothing written; vocabulary: one to try instead."""
         return propose_from_files(self, source, options or LabelFileOptions(), vocabulary, execution)
 
     def label_offers(self) -> LabelOffers:
-        """What `label_from_files` and `label_from_names` would give; see `OfferCache` for asking often."""
+        """What `label_from_files` and `label_from_names` would give. To ask often, use an `OfferCache`."""
         return OfferCache().of(self)
 
     def label_from_names(
@@ -80,9 +84,9 @@ class LabelStore(Store):
     ) -> tuple[LabelOutcome, ...]:
         """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
 
-        By patterns first: `meanings`, then those of the project's settings; then by the words of the vocabulary, and
-        words that are nearly those. execution, report: as of `label_from_files`.
-        Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
+        Patterns count first: `meanings`, then those of the project's settings; then the words of the vocabulary, and
+        words that are nearly those. report: called with the outcome of each asset, in their order.
+        Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
         """
         return label_from_names(self, meanings, execution, report)
 
@@ -93,15 +97,15 @@ class LabelStore(Store):
         *,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
-        """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
+        """What `label_from_names` would take, with nothing written; vocabulary: one to try instead."""
         return propose_from_names(self, meanings, vocabulary, execution)
 
     def plan_labels(self) -> str:
-        """What there is to be labelled, in words: how many assets of what, and how many have labels by now."""
+        """A sentence on how many assets there are of what, and how many have labels."""
         return describe_label_plan(self)
 
     def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
-        """How many hulls have which labels: from where, and how sure."""
+        """How many hulls have labels of which source and confidence."""
         return tally(self, progress)
 
     def draw_labels(
@@ -109,7 +113,7 @@ class LabelStore(Store):
     ) -> tuple[Path, ...]:
         """Write contact sheets of some assets, `labels-001.png` and so on, in which hulls have their labels' colours.
 
-        Sheets of an earlier time are replaced. Raises UsageError where one cannot be written.
+        Earlier sheets are replaced. Raises UsageError where one cannot be written.
         """
         return write_contact_sheets(self, folder, assets, progress)
 
@@ -121,13 +125,12 @@ class LabelStore(Store):
         report: OutcomeCallback = ignore_report,
         write_block: WriteBlock = nullcontext,
     ) -> PropagationResult:
-        """Carry the labels of a few assets to all others; what a person or a file says stays.
+        """Propagate the labels of a few assets to all others; labels of people and files stay.
 
-        How the hulls of an asset look is kept in the project, so that another time is quick. execution, report: as of
-        `label_from_files`; stage: gives what is entered for each part of the work; keeping: the block in which all is
-        written, given the asset that would help most.
-        Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop, with nothing
-        written.
+        Descriptions of the hulls are kept in the project, so that the next time is quick. stage: entered for each part
+        of the work; report: called with the outcome of each asset, in their order; write_block: the block in which all
+        labels are written, given the asset that would help most.
+        Raises ProjectError: no vocabulary, no label to begin with; StoppedError on a stop, with nothing written.
         """
         return propagate_labels(self, execution, stage, report, write_block)
 
@@ -138,7 +141,7 @@ class LabelStore(Store):
         execution: ExecutionOptions = IN_PROCESS,
         stage: Stage = ignore_stage,
     ) -> Proposals:
-        """What `propagate_labels` would give, with nothing written; vocabulary: one to be tried."""
+        """What `propagate_labels` would give, with nothing written; vocabulary: one to try instead."""
         return propose_propagated(self, vocabulary, execution, stage)
 
     def label_with_vlm(
@@ -150,12 +153,12 @@ class LabelStore(Store):
         write_block: Callable[[], AbstractContextManager[object]] | None = None,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> VlmResult:
-        """Ask a vision-language model for labels; what a person or a file says stays.
+        """Ask a vision-language model for labels; labels of people and files stay.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
-        says when to ask no more; keeping: the block in which all labels are written, in the end; None writes those of
-        an asset as soon as all is said of it; execution: how pictures are drawn. Answers are kept, so that none is paid
-        for twice. Raises MeshForgeError where nothing could be asked at all.
+        whether to ask no more; write_block: the block in which all labels are written in the end; None writes those of
+        an asset as soon as its answers are there; execution: how pictures are drawn. Answers are kept, so that none is
+        paid for twice. Raises MeshForgeError where nothing could be asked at all.
         """
         return label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
 
@@ -168,5 +171,5 @@ class LabelStore(Store):
         vocabulary: Sequence[str] | None = None,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> VlmForecast:
-        """What `label_with_vlm` would send and cost, with nothing sent; the same options; vocabulary: another one."""
+        """What `label_with_vlm` would send and what that costs, with nothing sent; vocabulary: one to try instead."""
         return forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, execution)

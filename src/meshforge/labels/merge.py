@@ -49,10 +49,7 @@ class LabelOutcome:
 def set_labels(
     store: Store, asset: str, labels: Mapping[str, str | None], source: LabelSource, confidence: float
 ) -> LabelOutcome:
-    """Write labels of one asset, or take them away by None.
-
-    Raises ProjectError for a hull that is not there or a label out of the vocabulary; then nothing is written.
-    """
+    """Write labels of one asset, or remove them by None. Raises ProjectError, with nothing written, for a wrong one."""
     given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
     away = [name for name, label in labels.items() if label is None]
     with store.lock():
@@ -137,7 +134,7 @@ class LabelWriter:
     def try_write(
         self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
     ) -> LabelOutcome:
-        """The same; that the labels that there are cannot be read is told in the report."""
+        """Write as `write` does; labels that cannot be read are a problem in the outcome."""
         try:
             return self.write(asset, hulls, given, may)
         except AssetError as error:
@@ -146,9 +143,9 @@ class LabelWriter:
     def write(
         self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
     ) -> LabelOutcome:
-        """Write those of the labels that may be taken: they may have been looked for for a long time.
+        """Write those of the labels that may be taken: since they were computed, the asset may have got others.
 
-        hulls: digests by name, in order. Raises AssetError where the labels that there are cannot be read.
+        hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
         """
         with self._store.lock():
             current = match_labels(self._store.labels(asset), hulls).labels
@@ -160,7 +157,7 @@ class LabelWriter:
 
 
 def ignore_report(report: LabelOutcome) -> None:
-    """The report where nobody wants it."""
+    """A report that nobody reads."""
 
 
 def can_replace_any(current: Label | None, given: Label) -> bool:
@@ -217,7 +214,7 @@ def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: Sy
 
 
 def _label_by_overlap(hull: Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:
-    """The label of most of what a hull overlaps, as sure as that is most."""
+    """The label of most of what a hull overlaps, with the certainty of the hull that had it."""
     common = {name: overlap_volume(hull.shape, shape) for name, shape in gone.items()}
     covered = sum(common.values())
     if not covered > 0:

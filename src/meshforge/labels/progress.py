@@ -49,7 +49,7 @@ class Tally:
 
 
 def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
-    """Count, as far as assets and their labels can be read."""
+    """Count the labels, as far as assets and their labels can be read."""
     counts = {source: [0, 0, 0] for source in LABEL_SOURCES}
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
@@ -77,7 +77,7 @@ def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
 
 
 def describe_label_plan(store: Store) -> str:
-    """How many assets of what there are, how many have labels, and how many of these labels of a person."""
+    """How many assets there are of what, how many have labels, and how many of these have labels of a person."""
     layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [
@@ -91,7 +91,7 @@ def describe_label_plan(store: Store) -> str:
 def _has_human_label(store: Store, asset: str) -> bool:
     try:
         return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
-    except AssetError:  # told when its turn comes
+    except AssetError:  # reported when its turn comes
         return False
 
 
@@ -104,7 +104,7 @@ class _Work:
 def write_contact_sheets(
     store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
 ) -> tuple[Path, ...]:
-    """Writes `labels-001.png` and so on, in place of those of an earlier time; what cannot be drawn is left out."""
+    """Write `labels-001.png` and so on, in place of earlier ones; what cannot be drawn is left out."""
     vocabulary = store.vocabulary
     works = [_Work(place, vocabulary) for place in store.asset_files(assets)]
     images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
@@ -128,7 +128,7 @@ def _draw(work: _Work) -> bytes | None:
 
 
 def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:
-    from PIL import Image
+    from PIL import Image  # lazy: 0.05 s, only contact sheets need it
 
     images = [Image.open(BytesIO(image)) for _, image in batch]
     colors = label_colors(vocabulary) | {"no label": UNLABELLED}

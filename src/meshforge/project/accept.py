@@ -13,7 +13,7 @@ from meshforge.synthesis import Ambiguous, Found
 
 @dataclass(frozen=True, slots=True)
 class ProgramState:
-    """How a program stands to what it was learned from.
+    """Whether a program is up to date with what it was learned from.
 
     outdated: whether that changed since; question: the id of the one that was open when it was learned;
     by_hand: whether a person wrote or changed the program, which then was learned from nothing.
@@ -24,18 +24,18 @@ class ProgramState:
     by_hand: bool = False
 
 
-def accept_outcome(store: Store, outcome: Found | Ambiguous, lesson: str) -> None:
+def accept_outcome(store: Store, outcome: Found | Ambiguous, inputs: str) -> None:
     """Keep a learned program, and what it was learned from."""
     store.write_program(outcome.program)
     question = outcome.question.id if outcome.question else None
-    learned = ProgramRecord(
-        program=program_digest(outcome.program), lesson=lesson, status=outcome.status, question=question
+    record = ProgramRecord(
+        program=program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
     )
-    store.write_program_record(learned)
+    store.write_program_record(record)
 
 
 def read_program_state(store: Store) -> ProgramState:
-    """How the project's program stands; one that does not parse is nothing that was learned."""
+    """The state of the project's program; one that does not parse was written by a person."""
     try:
         return program_state_of(store, store.program())
     except ProgramError:
@@ -43,26 +43,26 @@ def read_program_state(store: Store) -> ProgramState:
 
 
 def program_state_of(store: Store, program: Program | None) -> ProgramState:
-    """How a program stands to what it was learned from; one that a person wrote or changed is never outdated."""
+    """The state of a program; one that a person wrote or changed is never outdated."""
     if program is None:
         return ProgramState()
-    learned = store.program_record()
-    if not learned or learned.program != program_digest(program):
+    record = store.program_record()
+    if not record or record.program != program_digest(program):
         return ProgramState(by_hand=True)
-    outdated = learned.lesson != digest_learning_inputs(store)
-    return ProgramState(outdated, None if outdated else learned.question)
+    outdated = record.lesson != digest_learning_inputs(store)
+    return ProgramState(outdated, None if outdated else record.question)
 
 
-def replace_program(store: Store, old: Program, new: Program, lesson: str, settings: Settings) -> None:
-    """Keep a program in which a label was renamed, standing as it stood; under the lock that the caller holds.
+def replace_program(store: Store, old: Program, new: Program, inputs: str, settings: Settings) -> None:
+    """Keep a program in which a label was renamed, in the same state; under the lock that the caller holds.
 
-    lesson: the digest of what was learned from, before anything was renamed; settings: what they are going to be.
+    inputs: the digest of what was learned from, before anything was renamed; settings: what they are going to be.
     What it was learned from is written first: killed in between, it is that of the new program already.
     """
-    learned = store.program_record()
-    if learned and learned.program in (program_digest(old), program_digest(new)):
-        now = digest_learning_inputs(store, settings) if learned.lesson == lesson else learned.lesson
-        store.write_program_record(learned.model_copy(update={"program": program_digest(new), "lesson": now}))
+    record = store.program_record()
+    if record and record.program in (program_digest(old), program_digest(new)):
+        now = digest_learning_inputs(store, settings) if record.lesson == inputs else record.lesson
+        store.write_program_record(record.model_copy(update={"program": program_digest(new), "lesson": now}))
     if new != old:
         write_atomically(store.layout.program, str(new))
 

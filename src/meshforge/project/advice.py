@@ -5,14 +5,10 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.labels import label_file_beside
-from meshforge.project.status import Advice
-
-if TYPE_CHECKING:
-    from meshforge.project.accept import ProgramState
-    from meshforge.project.status import AssetStatus
+from meshforge.project.accept import ProgramState
+from meshforge.project.status import Advice, AssetStatus
 
 
 def advise(
@@ -21,7 +17,7 @@ def advise(
     assets: Sequence[AssetStatus],
     vocabulary: Sequence[str],
     rules: int | None,
-    stands: ProgramState,
+    state: ProgramState,
     problem: str | None,
     first: Callable[[Sequence[str]], str | None],
 ) -> Advice:
@@ -36,8 +32,8 @@ def advise(
         or _advise_labels(folder, paths, assets, vocabulary, rules)
         or _advise_propagation(folder, assets, rules)
         or _advise_demonstration(folder, paths, assets, rules, first)
-        or _advise_program(folder, rules, stands.outdated)
-        or _advise_question(folder, assets, stands.question)
+        or _advise_program(folder, rules, state.outdated)
+        or _advise_question(folder, assets, state.question)
         or _advise_output(folder, assets)
         or _advise_review(folder, assets)
     )
@@ -78,7 +74,7 @@ def _advise_propagation(folder: Path, assets: Sequence[AssetStatus], rules: int 
         return None
     who = f"{bare[0].id} has" if len(bare) == 1 else f"{len(bare)} assets, first {bare[0].id}, have"
     return Advice(
-        f"{who} no label: carry over those of the labelled assets.",
+        f"{who} no label: propagate those of the labelled assets.",
         f"meshforge label {_quote_path(folder)} --with propagate",
     )
 
@@ -132,7 +128,7 @@ def _advise_output(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None
     failed = [asset for asset in assets if asset.output == "failed"]
     if failed:
         some = f"{len(failed)} of {len(assets)} assets, first on {failed[0].id}"
-        say = f"The program fails on {some}: mend what is named, then apply it again."
+        say = f"The program fails on {some}: fix what is named, then apply it again."
         return Advice(say, f"meshforge apply {_quote_path(folder)}")
     return None
 

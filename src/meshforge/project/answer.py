@@ -21,9 +21,7 @@ from meshforge.synthesis import Answer, LabelCorrection, Question, Step
 
 
 def add_answer(store: Store, given: Answer) -> str:
-    """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `check_answer`
-    does.
-    """
+    """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `check_answer`."""
     line = check_answer(store, given)
     with store.lock():
         store.write_answers(store.answers().with_line(line))
@@ -66,19 +64,19 @@ def confirm_repair(store: Store, right: LabelCorrection) -> str:
     """
     with store.lock():
         mesh = store.mesh(right.asset)
-        mended, problem = _repair_label(store, mesh, right)
+        labels, problem = _repair_label(store, mesh, right)
         if problem:
             raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
-        said, identity = store.answers(), repair_id(right)
-        known = [line.before for line in said.confirmed if line.id == identity]
+        answers, identity = store.answers(), repair_id(right)
+        known = [line.before for line in answers.confirmed if line.id == identity]
         current = mesh.hull_of(right.hull).annotation
         before = known[0] if known and current == _label_of_repair(right) else LabelBefore.of(current)
         line = ConfirmationLine(
             id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before
         )
         # the record first: killed in between, the repair is merely proposed again
-        store.write_answers(said.with_line(line))
-        store.write_labels(right.asset, hull_digests(mesh), mended, store.vocabulary)
+        store.write_answers(answers.with_line(line))
+        store.write_labels(right.asset, hull_digests(mesh), labels, store.vocabulary)
     return identity
 
 
@@ -92,27 +90,27 @@ def reject_repair(store: Store, wrong: LabelCorrection) -> str:
     return identity
 
 
-def take_back(store: Store, said: str) -> str | None:
+def take_back(store: Store, entry: str) -> str | None:
     """Take back an answer or a repair by its id; of a confirmed repair the hull gets the label it had before.
 
-    Gives the sentence to tell where that label is left alone, since it was changed after the repair.
+    Gives a sentence where that label is left alone, since it was changed after the repair.
     Raises ProjectError, naming the nearest id, where there is no such one.
     """
     with store.lock():
         kept = store.answers()
-        if said not in kept.ids:
-            like = nearest_name(said, kept.ids)
+        if entry not in kept.ids:
+            like = nearest_name(entry, kept.ids)
             listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
             remedy = f"Did you mean {like!r}?" if like else listing
-            raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
-        notes = [_restore_label(store, line) for line in kept.confirmed if line.id == said]
-        store.write_answers(kept.without(said))
+            raise ProjectError(f"there is no answer or repair {entry!r}", where=str(store.folder), remedy=remedy)
+        notes = [_restore_label(store, line) for line in kept.confirmed if line.id == entry]
+        store.write_answers(kept.without(entry))
     return next(iter(notes), None)
 
 
 def take_back_all(store: Store) -> tuple[str, ...]:
     """Take back everything; gives the sentences about labels that are left alone."""
-    notes = [take_back(store, said) for said in store.answers().ids]
+    notes = [take_back(store, entry) for entry in store.answers().ids]
     return tuple(note for note in notes if note)
 
 
@@ -121,19 +119,19 @@ def _label_of_repair(correction: LabelCorrection) -> Label:
 
 
 def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
-    """The labels of a mesh with that one mended, and why that cannot be."""
+    """The labels of a mesh with one repaired, and why that cannot be."""
     given = {right.hull: _label_of_repair(right)}
-    mended, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
+    labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
     if report.problems:
-        return mended, report.problems[0]
+        return labels, report.problems[0]
     label = mesh.hull_of(right.hull).label
     if label not in (right.was, right.to):
-        return mended, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
-    return mended, None
+        return labels, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
+    return labels, None
 
 
 def _restore_label(store: Store, line: ConfirmationLine) -> str | None:
-    """Give a hull the label back that it had before a repair; the sentence to tell where that is not done."""
+    """Give a hull the label back that it had before a repair; a sentence on why, where that is not done."""
     try:
         mesh = store.mesh(line.asset)
         current = mesh.hull_of(line.hull).annotation
@@ -141,8 +139,8 @@ def _restore_label(store: Store, line: ConfirmationLine) -> str | None:
         return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
     before = line.before.annotation if line.before else None
     if current not in (before, _label_of_repair(line.correction)):
-        said = f"labelled {current.name}" if current else "without a label"
-        return f"{line.hull} in {line.asset} is left {said}, as it was changed after the repair"
+        state = f"labelled {current.name}" if current else "without a label"
+        return f"{line.hull} in {line.asset} is left {state}, as it was changed after the repair"
     if current != before:
         labels = mesh.with_labels({line.hull: before}).labels
         store.write_labels(line.asset, hull_digests(mesh), labels, store.vocabulary)

@@ -18,28 +18,28 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Step
 
 
-def demonstrate(store: Store, asset: str, done: tuple[Step, ...]) -> None:
+def demonstrate(store: Store, asset: str, steps: tuple[Step, ...]) -> None:
     """Keep the steps on an asset; no steps take the file away.
 
     Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there.
     """
     mesh = store.mesh(asset)
-    _check_hulls(asset, mesh, Demonstration(mesh, done, asset).steps)
-    store.write_steps(asset, done)
+    _check_hulls(asset, mesh, Demonstration(mesh, steps, asset).steps)
+    store.write_steps(asset, steps)
 
 
-def _check_hulls(asset: str, mesh: SymbolicMesh, done: tuple[Step, ...]) -> None:
+def _check_hulls(asset: str, mesh: SymbolicMesh, steps: tuple[Step, ...]) -> None:
     """Every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made."""
-    for rule, name in find_unknown_hulls(done, mesh.index):
+    for rule, name in find_unknown_hulls(steps, mesh.index):
         like = nearest_name(name, mesh.index)
         raise ProjectError(
             f"rule {rule}: there is no hull {name!r}", where=asset, remedy=f"Did you mean {like!r}?" if like else None
         )
 
 
-def find_unknown_hulls(done: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
+def find_unknown_hulls(steps: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
     """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
-    for step in done:
+    for step in steps:
         for name in sorted(step.select or ()):
             stem = name.rpartition("~")[0] if step.rule > 1 else name
             if name not in hulls and stem not in hulls:
@@ -92,7 +92,7 @@ def _write_reordered(store: Store, kept: Mapping[Path, DemonstrationFile], order
 
     order: the old number of the rule that is first from now on, of the second, and so on.
     """
-    said = store.answers()
+    answers = store.answers()
     actions = _actions_by_rule(kept)
     for path, file in kept.items():
         steps = _reorder(file.steps, order, actions)
@@ -100,8 +100,8 @@ def _write_reordered(store: Store, kept: Mapping[Path, DemonstrationFile], order
             path.unlink(missing_ok=True)
         elif steps != file.steps:
             write_json(path, file.model_copy(update={"steps": steps}))
-    now = _renumber(said, order, len(actions))
-    if now != said:
+    now = _renumber(answers, order, len(actions))
+    if now != answers:
         store.write_answers(now)
 
 
@@ -120,11 +120,11 @@ def _reorder(lines: Sequence[StepLine], order: Sequence[int], actions: Mapping[i
     return tuple(step.model_copy(update={"rule": place}) for place, step in enumerate(steps, 1))
 
 
-def _renumber(said: AnswersFile, order: Sequence[int], before: int) -> AnswersFile:
+def _renumber(answers: AnswersFile, order: Sequence[int], before: int) -> AnswersFile:
     """The answers about other numbers; before: how many rules there were. Answers about rules beyond stay."""
     places = {rule: place for place, rule in enumerate(order, 1)}
-    now = said.model_copy(update={"answers": ()})
-    for line in said.answers:
+    now = answers.model_copy(update={"answers": ()})
+    for line in answers.answers:
         rule = places.get(line.rule, line.rule if line.rule > before else 0)
         if rule:
             now = now.with_line(line.model_copy(update={"rule": rule, "id": f"{rule}:{line.asset}"}))

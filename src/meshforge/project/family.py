@@ -44,15 +44,15 @@ class FamilyMeshes:
 
 
 def select_assets(store: Store) -> tuple[str, ...]:
-    """The ids of the assets to learn from: all, or of very many those that something was said of, and some evenly."""
+    """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
     every = store.assets()
     if len(every) <= MOST_ASSETS:
         return every
-    said = {line.asset for line in store.answers().answers}
-    said.update(find_accepted_results(store))
-    said.update(store.demonstration_ids())
-    said.update(pick_evenly(every, MOST_ASSETS))
-    return tuple(asset for asset in every if asset in said)
+    known = {line.asset for line in store.answers().answers}
+    known.update(find_accepted_results(store))
+    known.update(store.demonstration_ids())
+    known.update(pick_evenly(every, MOST_ASSETS))
+    return tuple(asset for asset in every if asset in known)
 
 
 def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge.common import ProjectError
-from meshforge.project import accept
+from meshforge.project.accept import accept_outcome, digest_learning_inputs
 from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
 from meshforge.project.family import FamilyMeshes
 from meshforge.project.review import find_accepted_results
@@ -44,24 +44,24 @@ def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
     """What can be learned from the demonstrations. Raises ProjectError where there are none."""
     meshes = FamilyMeshes(store).meshes() if how.meshes is None else how.meshes
     demos = _read_demonstrations(store, meshes)
-    lesson = accept.digest_learning_inputs(store)
-    said = store.answers()
-    fitting, unfit = _sort_answers(store, said, demos, how.answers)
-    looked = _answers_of_accepted(store, demos, fitting)
-    asked = _RepairAsker(store, how.confirm) if how.accept and how.confirm else None
+    inputs = digest_learning_inputs(store)
+    answers_file = store.answers()
+    fitting, unfit = _sort_answers(store, answers_file, demos, how.answers)
+    accepted = _answers_of_accepted(store, demos, fitting)
+    asker = _RepairAsker(store, how.confirm) if how.accept and how.confirm else None
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
-    confirm = _ask_once(asked or how.confirm) if how.confirm else None
+    confirm = _ask_once(asker or how.confirm) if how.confirm else None
     templates = store.templates(names)
     options = replace(
         how.options or Options(),
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
-        rejected=tuple(_list_rejections(said)),
+        rejected=tuple(_list_rejections(answers_file)),
         stop=how.stop,
     )
 
-    def learned(answers: Sequence[Answer]) -> LearningOutcome:
+    def learn(answers: Sequence[Answer]) -> LearningOutcome:
         return synthesize(
             tuple(demos.values()),
             batch=meshes,
@@ -73,40 +73,40 @@ def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
             answers=answers,
         )
 
-    outcome = learned([*looked, *fitting])
-    if isinstance(outcome, NoProgram) and looked:
-        overruled = tuple(dict.fromkeys(answer.asset for answer in looked))
-        outcome = replace(learned(fitting), overruled=overruled)
-    stale = [answer for answer in outcome.stale if answer not in looked]
+    outcome = learn([*accepted, *fitting])
+    if isinstance(outcome, NoProgram) and accepted:
+        overruled = tuple(dict.fromkeys(answer.asset for answer in accepted))
+        outcome = replace(learn(fitting), overruled=overruled)
+    stale = [answer for answer in outcome.stale if answer not in accepted]
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
     if how.accept and isinstance(outcome, Found | Ambiguous):
-        accept.accept_outcome(store, outcome, asked.lesson if asked and asked.lesson else lesson)
+        accept_outcome(store, outcome, asker.inputs if asker and asker.inputs else inputs)
     return outcome
 
 
 def _ask_once(confirm: Confirm) -> Confirm:
     """Asks about each correction once, however often something is learned."""
-    said: dict[LabelCorrection, bool] = {}
+    answers: dict[LabelCorrection, bool] = {}
 
-    def asked(repair: Repair) -> bool:
-        if repair.correction not in said:
-            said[repair.correction] = confirm(repair)
-        return said[repair.correction]
+    def ask(repair: Repair) -> bool:
+        if repair.correction not in answers:
+            answers[repair.correction] = confirm(repair)
+        return answers[repair.correction]
 
-    return asked
+    return ask
 
 
 class _RepairAsker:
-    """Asks about repairs and keeps what is said at once. lesson: the digest of what is learned from, since then."""
+    """Asks about repairs and keeps the answers at once. inputs: the digest of what is learned from, since then."""
 
     def __init__(self, store: Store, confirm: Confirm) -> None:
         self._store, self._confirm = store, confirm
-        self.lesson: str | None = None
+        self.inputs: str | None = None
 
     def __call__(self, repair: Repair) -> bool:
         right = self._confirm(repair)
         (confirm_repair if right else reject_repair)(self._store, repair.correction)
-        self.lesson = accept.digest_learning_inputs(self._store)
+        self.inputs = digest_learning_inputs(self._store)
         return right
 
 
@@ -148,7 +148,7 @@ def _answers_of_accepted(store: Store, demos: Mapping[str, Demonstration], said:
     ]
 
 
-def _list_rejections(said: AnswersFile) -> list[LabelCorrection]:
+def _list_rejections(answers: AnswersFile) -> list[LabelCorrection]:
     """What is not to be proposed: what was refused, and what would undo a confirmed repair."""
-    undone = (line.correction.reverse for line in said.confirmed)
-    return [*(line.correction for line in said.rejected), *(reverse for reverse in undone if reverse)]
+    undone = (line.correction.reverse for line in answers.confirmed)
+    return [*(line.correction for line in answers.rejected), *(reverse for reverse in undone if reverse)]

@@ -36,29 +36,29 @@ def compute_status(
     settings, ids, work, reviews = store.settings, store.found.ids, build_jobs(store, only), store.reviews()
     execution = ExecutionOptions(workers=workers, stop=stop)
     facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
-    program, what, problem = _read_program(store)
-    assets = tuple(_asset_status(store, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    stands = program_state_of(store, program)
+    program, task, problem = _read_program(store)
+    assets = tuple(_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work)
+    state = program_state_of(store, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
     first = partial(suggest_first_demonstration, store) if only is None else _choose_none
-    advised = advise(store.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
+    advised = advise(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
     return Status(
         settings.name,
         assets,
         settings.vocabulary,
         rules,
-        stands.outdated,
+        state.outdated,
         problem,
         _find_lost_ids(store),
         advised,
-        stands.question,
+        state.question,
     )
 
 
 def _choose_none(assets: Sequence[str]) -> None:
-    """Of a project that is looked at in part no asset stands out."""
+    """No suggestion, where only a part of the project is looked at."""
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
@@ -72,13 +72,13 @@ def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str |
 
 
 def _asset_status(
-    store: Store, job: AssetJob, facts: AssetFacts, what: ApplyTask | None, review: Review | None
+    store: Store, job: AssetJob, facts: AssetFacts, task: ApplyTask | None, review: Review | None
 ) -> AssetStatus:
     stamp = read_stamp(store.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
     file, unreadable = _read_labels(store, job)
     homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
-    said = review if review and review.output == output_digest(stamp) else None
+    current_review = review if review and review.output == output_digest(stamp) else None
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),
@@ -86,10 +86,10 @@ def _asset_status(
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
         demonstrated=store.layout.demonstration(job.id).exists(),
         output=_output_state(stamp),
-        stale=_find_changes(stamp, job, facts, what),
+        stale=_find_changes(stamp, job, facts, task),
         error=facts.error or unreadable or failed,
         flags=(*_describe_unknown_hulls(store, job.id, facts), *(stamp.flags if stamp else ())),
-        review=said.verdict if said else None,
+        review=current_review.verdict if current_review else None,
         prepared=facts.prepared,
         sources=facts.sources,
         names=tuple(facts.hulls),
@@ -99,7 +99,7 @@ def _asset_status(
         after_labels=stamp.labels if stamp and output_digest(stamp) else (),
         output_digest=output_digest(stamp),
         corrections=len(job.corrections),
-        review_note=said.note if said else None,
+        review_note=current_review.note if current_review else None,
     )
 
 
@@ -128,12 +128,12 @@ def _output_state(stamp: Stamp | None) -> OutputState:
     return stamp.status if stamp else "none"
 
 
-def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, what: ApplyTask | None) -> tuple[str, ...]:
+def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, task: ApplyTask | None) -> tuple[str, ...]:
     """What changed since the output was made; of written files only whether they are there."""
-    if not stamp or not stamp.inputs or not what:
+    if not stamp or not stamp.inputs or not task:
         return ()
-    gone = not all((what.out / name).is_file() for name in stamp.outputs)
-    now = inputs_of(what, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
+    gone = not all((task.out / name).is_file() for name in stamp.outputs)
+    now = inputs_of(task, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
     return (*now.changes(stamp.inputs), *(["output"] if gone else []))
 
 

@@ -47,11 +47,11 @@ def rename_label(store: Store, old: str, new: str) -> None:
         after = _rename_in_settings(store, settings, old, new)
         fresh = edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
-        lesson = accept.digest_learning_inputs(store)
+        inputs = accept.digest_learning_inputs(store)
         for path, text in texts.items():
             write_atomically(path, text)
         if program:
-            accept.replace_program(store, program, rename_in_program(program, old, new), lesson, after)
+            accept.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
         write_atomically(store.layout.settings, fresh)
 
 
@@ -87,9 +87,9 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield from _rename_in_steps(path, read_json(path, DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _rename_in_steps(path, read_json(path, CorrectionsFile), old, new)
-    said = store.answers()
-    now = _rename_in_answers(said, layout.answers, old, new)
-    if now != said:
+    answers = store.answers()
+    now = _rename_in_answers(answers, layout.answers, old, new)
+    if now != answers:
         yield layout.answers, json_text(now)
 
 
@@ -112,12 +112,12 @@ def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
     return action_text(action, new) if label == old else text
 
 
-def _rename_in_answers(said: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
-    """What was said with the label by its other name; of what says the same then, one stays."""
-    now = said.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
-    for line in said.answers:
+def _rename_in_answers(answers: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
+    """All answers with the label by its new name; of those that are the same then, one stays."""
+    now = answers.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
+    for line in answers.answers:
         now = now.with_line(_rename_in_answer(line, where, old, new))
-    for repair in (*said.rejected, *said.confirmed):
+    for repair in (*answers.rejected, *answers.confirmed):
         now = now.with_line(_rename_in_repair(repair, old, new))
     return now
 
@@ -141,12 +141,12 @@ def _rename_in_repair(line: RepairLine, old: str, new: str) -> RepairLine:
 
 def _rename_in_tables(store: Store, text: str, settings: Settings, old: str, new: str) -> str:
     """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
-    told, described = settings.vlm.descriptions, "vlm.descriptions"
+    descriptions, table = settings.vlm.descriptions, "vlm.descriptions"
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):
             text = set_value(text, pattern, new, "names")
-        if old in told:
-            text = set_value(set_value(text, new, told[old], described), old, None, described)
+        if old in descriptions:
+            text = set_value(set_value(text, new, descriptions[old], table), old, None, table)
     except ProjectError as error:
         raise error.at(str(store.layout.settings)) from None
     return text

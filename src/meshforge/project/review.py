@@ -13,17 +13,17 @@ from meshforge.batch import Stamp, program_digest, read_stamp, text_digest
 from meshforge.common import ProjectError
 from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
 
-Thing = TypeVar("Thing")
+Item = TypeVar("Item")
 
 MOST_ACCEPTED = 100
 """Of more accepted results so many are learned from: each is one more mesh on which every rule must be right."""
 
 
-def pick_evenly(things: Sequence[Thing], most: int) -> Sequence[Thing]:
-    """The things in their order; of more than `most` so many, the first among them."""
-    if len(things) <= most:
-        return things
-    return [things[place * len(things) // most] for place in range(most)]
+def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
+    """The items in their order; of more than `most` so many, the first among them."""
+    if len(items) <= most:
+        return items
+    return [items[place * len(items) // most] for place in range(most)]
 
 
 def review_assets(store: Store, assets: Iterable[str], verdict: Verdict | None, note: str | None) -> None:
@@ -33,8 +33,8 @@ def review_assets(store: Store, assets: Iterable[str], verdict: Verdict | None, 
     """
     assets = tuple(assets)
     own = {asset: _build_review(store, asset, verdict, note) for asset in assets}
-    if verdict == "accepted" and len(assets) == 1 and (said := own[assets[0]]):
-        own = {assets[0]: said.model_copy(update={"seen": _read_selections(store, assets[0])})}
+    if verdict == "accepted" and len(assets) == 1 and (review := own[assets[0]]):
+        own = {assets[0]: review.model_copy(update={"seen": _read_selections(store, assets[0])})}
     store.write_reviews(own)
 
 
@@ -52,14 +52,16 @@ def _build_review(store: Store, asset: str, verdict: Verdict | None, note: str |
 
 def find_accepted_results(store: Store) -> dict[str, tuple[RuleSelection, ...]]:
     """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
-    rows = sorted((asset, said) for asset, said in store.reviews().items() if said.seen and asset in store.found.ids)
+    rows = sorted(
+        (asset, review) for asset, review in store.reviews().items() if review.seen and asset in store.found.ids
+    )
     some = pick_evenly(rows, MOST_ACCEPTED)
     present = {asset: output_digest(read_stamp(store.layout.edited, asset)) for asset, _ in some}
-    return {asset: said.seen for asset, said in some if said.output == present[asset]}
+    return {asset: review.seen for asset, review in some if review.output == present[asset]}
 
 
 def _read_selections(store: Store, asset: str) -> tuple[RuleSelection, ...]:
-    """What the rules selected on an asset; nothing where another program did that, or it was mended by hand."""
+    """What the rules selected on an asset; nothing where another program did that, or it was edited by hand."""
     stamp, program = read_stamp(store.layout.edited, asset), store.program()
     made = stamp and stamp.inputs
     if not stamp or not made or not program or made.corrections or made.program != program_digest(program):

@@ -60,7 +60,7 @@ def mesh_before_rule(
 ) -> SymbolicMesh:
     """The asset before a rule of a program, rules counted from 1; where a demonstration shows a step, after that step.
 
-    meshes: as of `Project.synthesize`. Raises MeshForgeError where the asset cannot be turned, or an action fails.
+    meshes: assets in memory, by id. Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     mesh = (meshes or {}).get(asset) or store.mesh(asset)
     replay = begin_replay(asset, Demonstration(mesh, store.steps(asset), asset), program.orient, program.contact)

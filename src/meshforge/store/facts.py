@@ -75,7 +75,7 @@ def survey(
     execution: ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
 ) -> dict[str, AssetFacts]:
-    """The facts of all assets by id, or of some; all as of `iterate_survey`."""
+    """The facts of all assets, or of some, by id; see `iterate_survey`."""
     return dict(iterate_survey(found, layout, only, execution=execution, progress=progress))
 
 

@@ -17,7 +17,7 @@ Verdict = Literal["accepted", "flagged"]
 
 
 class _Entry(JsonFile):
-    """One thing that was said. id: what it is called; it follows from the other fields."""
+    """An answer or a repair. id: its name, which follows from the other fields."""
 
     id: str
 
@@ -30,7 +30,7 @@ class _Entry(JsonFile):
     @property
     @abstractmethod
     def proper_id(self) -> str:
-        """What it is to be called."""
+        """The id that it must have."""
 
 
 class AnswerLine(_Entry):
@@ -98,7 +98,7 @@ class ConfirmationLine(RepairLine):
 
 
 class AnswersFile(JsonFile):
-    """answers.json: answers by rule and asset, repairs by asset and hull; of one id only what was said last."""
+    """answers.json: answers by rule and asset, repairs by asset and hull; of one id only the last."""
 
     answers: tuple[AnswerLine, ...] = ()
     confirmed: tuple[ConfirmationLine, ...] = ()
@@ -106,21 +106,21 @@ class AnswersFile(JsonFile):
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """The ids of everything that was said."""
+        """The ids of all entries."""
         return tuple(line.id for line in (*self.answers, *self.confirmed, *self.rejected))
 
-    def without(self, said: str) -> AnswersFile:
-        """The same without what has this id."""
+    def without(self, entry: str) -> AnswersFile:
+        """All but the entry of this id."""
         return self.model_copy(
             update={
-                "answers": tuple(line for line in self.answers if line.id != said),
-                "confirmed": tuple(line for line in self.confirmed if line.id != said),
-                "rejected": tuple(line for line in self.rejected if line.id != said),
+                "answers": tuple(line for line in self.answers if line.id != entry),
+                "confirmed": tuple(line for line in self.confirmed if line.id != entry),
+                "rejected": tuple(line for line in self.rejected if line.id != entry),
             }
         )
 
     def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
-        """The same with one thing more, in place of what was said under its id before."""
+        """All, and one entry more in place of that of the same id."""
         rest = self.without(line.id)
         match line:
             case AnswerLine():

@@ -82,7 +82,7 @@ class Layout:
 
     @property
     def sketches(self) -> Path:
-        """How the hulls of assets are described, so that labels are soon carried over again."""
+        """How the hulls of assets are described, so that labels are propagated quickly the next time."""
         return self.folder / STATE / "sketches"
 
     @property
@@ -130,5 +130,7 @@ def json_text(content: BaseModel) -> str:
 
 
 def invalid_file(path: Path, error: ValidationError) -> ProjectError:
-    """The complaint about the first field that does not fit."""
-    return ProjectError(first_validation_error(error), where=str(path), remedy="Mend the file by hand, or remove it.")
+    """The error that names the first field that does not fit."""
+    return ProjectError(
+        first_validation_error(error), where=str(path), remedy="Correct the file by hand, or remove it."
+    )

@@ -45,7 +45,7 @@ def _check_name(name: str) -> None:
 
 
 class ProgramRecord(JsonFile):
-    """What a program was learned from, and what the lesson came to; question: the id of the one that stayed open."""
+    """What a program was learned from, and the outcome of learning; question: the id of the one that stayed open."""
 
     program: str
     lesson: str

@@ -25,9 +25,10 @@ TomlValue = str | float | Sequence[str]
 
 
 class VlmSettings(BaseModel):
-    """Prices in dollars a million tokens; all else as of `Endpoint` and `Manner`. The key is never written here.
+    """The table [vlm]: the fields of `Endpoint` and `PromptConfig`, which say what they mean.
 
-    max_cost: the most that one run may cost [$]; examples: ids of labelled assets that the model is shown.
+    Prices are in dollars a million tokens. The key is never written here. max_cost: the most that one run may cost [$];
+    examples: ids of labelled assets that the model is shown.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -89,7 +90,7 @@ def read_settings(folder: Path) -> Settings:
     try:
         return Settings.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Mend the file by hand.") from error
+        raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Correct the file by hand.") from error
     except ValidationError as error:
         raise invalid_file(path, error) from error
 

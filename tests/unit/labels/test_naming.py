@@ -138,7 +138,7 @@ def test_offers_follow_the_patterns(tmp_path: Path) -> None:
         ('"strut" = "dor"', "the pattern strut means 'dor', which is not in the vocabulary\n  Did you mean 'door'?"),
         (
             '"/[/" = "door"',
-            "the pattern /[/ is no regular expression: unterminated character set at position 0\n  Mend it.",
+            "the pattern /[/ is no regular expression: unterminated character set at position 0\n  Correct it.",
         ),
     ],
 )

@@ -70,7 +70,7 @@ def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_
     assert "propagate" not in str(of(project).next.command)
     project.set_labels("a.obj", {name: label_of(name) for name in table_boxes()})
     advice = of(project).next
-    assert advice.say == "2 assets, first b.obj, have no label: carry over those of the labelled assets."
+    assert advice.say == "2 assets, first b.obj, have no label: propagate those of the labelled assets."
     assert advice.command == f"meshforge label {project.folder} --with propagate"
     project.propagate_labels()
     assert "demonstrate" in str(of(project).next.command)

@@ -34,13 +34,7 @@ from meshforge.symbolic import Label, match_labels, read_labels
 def label_from_files(
     store: Store, source: Path | None, options: LabelFileOptions, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
-    """Take over what the file of each asset that has one says; a problem with one asset is told in its report.
-
-    source: a file for a single asset, a folder that mirrors the assets; None for those beside them.
-    A project without a vocabulary takes that of the files, in the order of their mention.
-    Raises ProjectError: no file at all; UsageError: a pattern that makes no sense, or one file for several assets;
-    AssetError: a file that cannot be read, while a vocabulary is looked for.
-    """
+    """Take the labels that files give; see `LabelStore.label_from_files`."""
     files = _require_files(store, source)
     if not store.vocabulary:
         store.set_vocabulary(_read_vocabulary(files, options))
@@ -66,9 +60,7 @@ def propose_from_files(
     vocabulary: Sequence[str] | None,
     execution: ExecutionOptions,
 ) -> Proposals:
-    """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when
-    None.
-    """
+    """What `label_from_files` would take, with nothing written."""
     files = _require_files(store, source)
     words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, options)
     patterns = name_patterns(store.folder, store.settings, words, options.meanings)

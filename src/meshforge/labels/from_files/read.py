@@ -90,12 +90,12 @@ def label_by_links(
 
     A hull whose own names say another label of the vocabulary, and that alone, is that: PartNet calls what is on a link
     by its finer parts, `handle-7` on a drawer.
-    Raises AssetError: it cannot be read, or tells of no link of this asset.
+    Raises AssetError: it cannot be read, or names no link of this asset.
     """
     semantics = {one.link: one.name for one in read_semantics(path)}
     links = {body.name for body in mesh.asset.bodies} if mesh.asset else set()
     if links.isdisjoint(semantics):
-        raise AssetError("it tells of no link of this asset", where=str(path))
+        raise AssetError("it names no link of this asset", where=str(path))
     labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
     for own in names_of_mesh(mesh):
         if own.body not in semantics:

@@ -45,7 +45,7 @@ def pattern_of(text: str, label: str) -> NamePattern:
     try:
         expression = re.compile(text[1:-1] if is_expression else rf"\A{translate(text)}", re.IGNORECASE)
     except re.error as error:
-        raise UsageError(f"the pattern {text} is no regular expression: {error}", remedy="Mend it.") from None
+        raise UsageError(f"the pattern {text} is no regular expression: {error}", remedy="Correct it.") from None
     return NamePattern(text, label, expression)
 
 

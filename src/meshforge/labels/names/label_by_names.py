@@ -43,11 +43,7 @@ def _check_pattern(text: str, label: str, vocabulary: Sequence[str]) -> NamePatt
 def label_from_names(
     store: Store, meanings: PatternPairs, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
-    """Give the labels that names say to hulls that have none; a problem with one asset is told in its report.
-
-    meanings: patterns besides those of the project, which they precede.
-    Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
-    """
+    """Give hulls without a label the one that their names say; see `LabelStore.label_from_names`."""
     patterns = require_patterns(store, store.vocabulary, meanings)
     writer, reports = LabelWriter(store), list[LabelOutcome]()
     for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
@@ -57,7 +53,7 @@ def label_from_names(
 
 
 def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
-    """The patterns that say what names mean. Raises as `label_from_names`."""
+    """The patterns that say what names mean. Raises ProjectError: no vocabulary; UsageError: a wrong pattern."""
     if not vocabulary:
         remedy = "Say first what hulls can be."
         raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
@@ -84,17 +80,14 @@ def names_of_mesh(mesh: SymbolicMesh) -> Iterator[HullNames]:
 
 
 def names_of_facts(facts: AssetFacts) -> Iterator[HullNames]:
-    """The same from what is known of an asset."""
+    """The names of each hull of an asset, from its facts."""
     return map(HullNames, facts.hulls, facts.bodies, facts.mentions)
 
 
 def propose_from_names(
     store: Store, meanings: PatternPairs, vocabulary: Sequence[str] | None, execution: ExecutionOptions
 ) -> Proposals:
-    """What names would give, told from the survey; vocabulary: that to be tried, the project's when None.
-
-    Raises as `label_from_names`.
-    """
+    """What names would give, by the survey alone, with nothing written."""
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
     patterns = require_patterns(store, words, meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0

@@ -36,7 +36,7 @@ from meshforge.symbolic import EPSILON, SymbolicMesh
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
 
-_REMEDY = "Carry labels over again."
+_REMEDY = "Propagate the labels again."
 
 
 def write_arrays(path: Path, key: str, arrays: Arrays) -> None:
@@ -78,7 +78,7 @@ class _Work:
 
 
 class DescriptorCache:
-    """Those of some assets of a project, as they are known; spread: how the work is done."""
+    """The descriptions of some assets of a project, as far as they are known."""
 
     def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: ExecutionOptions) -> None:
         contact = store.settings.thresholds.contact or EPSILON
@@ -100,7 +100,7 @@ class DescriptorCache:
         }
 
     def describe(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
-        """Describe some assets, and give those that cannot be, with why; done: called for each."""
+        """Describe some assets; yield those that cannot be described, with why. done: called for each."""
         work = [self._work[asset] for asset in assets]
         for asset, result in zip(
             assets, execute(_describe, work, replace(self._execution, progress=done)), strict=True
@@ -111,14 +111,12 @@ class DescriptorCache:
                 yield asset, result
 
     def read_rows(self, asset: str) -> tuple[Floats, Ints] | None:
-        """The rows of an asset, and which of its hulls touch, as of `ShapeDescriptor`; None where it has to be
-        described.
-        """
+        """The `rows` and `touching` of the asset's `ShapeDescriptor`; None where it is not described yet."""
         found = _read_kept(self._work[asset], "seen", "rows", "touching")
         return (found[0], found[1]) if found else None
 
     def read_sides(self, asset: str) -> Floats:
-        """The other sides of an asset that was described, as of `ShapeDescriptor`."""
+        """The `sides` of the `ShapeDescriptor` of an asset that was described."""
         if found := _read_kept(self._work[asset], "seen", "sides"):
             return found[0]
         raise AssetError("how it is described is gone", where=str(self._work[asset].path), remedy=_REMEDY)
@@ -139,7 +137,6 @@ def _digest_key(facts: AssetFacts, contact: float) -> str:
 
 
 def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None:
-
     return read_arrays(work.place(what), work.key, *names)
 
 
@@ -167,12 +164,12 @@ def _describe_sides(work: _Work) -> list[Floats] | str:
                 write_arrays(work.place(f"side{side}"), work.key, {"rows": kept[0]})
             found += kept
         return found
-    except Exception as error:  # as above
+    except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
 
 def _read_mesh(work: _Work) -> SymbolicMesh:
-    """The mesh of an asset. Raises AssetError where that is another one than was known of before."""
+    """The mesh of an asset. Raises AssetError where its files changed since the survey."""
     mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
     if record_digest(work.preparation) != work.prepared or not has_same_files(work.files, work.path, work.base):
         raise AssetError("it was changed meanwhile", where=str(work.path), remedy=_REMEDY)

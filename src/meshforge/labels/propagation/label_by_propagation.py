@@ -35,7 +35,7 @@ WriteBlock = Callable[[str | None], AbstractContextManager[object]]
 
 @contextmanager
 def ignore_stage(total: int, what: str) -> Iterator[Callable[[], None]]:
-    """Where nobody is told."""
+    """A stage that reports nothing."""
     yield lambda: None
 
 
@@ -116,7 +116,7 @@ def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> F
 
     (found,) = run_isolated(compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
-        raise MeshForgeError(f"the labels could not be carried over: {found.why}")
+        raise MeshForgeError(f"the labels could not be propagated: {found.why}")
     return found
 
 
@@ -135,11 +135,7 @@ def propagate_labels(
     report: OutcomeCallback,
     write_block: WriteBlock = nullcontext,
 ) -> PropagationResult:
-    """Carry labels to all hulls that have none, or one that a machine was less sure of.
-
-    stage: gives what is entered for each part of the work; keeping: the block in which all is written.
-    Raises ProjectError: no vocabulary, or no label to begin with; StoppedError when it was told to stop.
-    """
+    """Give labels to hulls that have none, or a less certain one of a machine; see `LabelStore.propagate_labels`."""
     findings = _compare_assets(store, store.vocabulary, execution, stage)
     writer, reports = LabelWriter(store), list[LabelOutcome]()
     with write_block(findings.next), stage(len(store.assets()), "labelling") as advance:
@@ -158,7 +154,7 @@ def propagate_labels(
 def propose_propagated(
     store: Store, vocabulary: Sequence[str] | None, execution: ExecutionOptions, stage: Stage
 ) -> Proposals:
-    """What `propagate_labels` would write, with nothing written; vocabulary: one to be tried. Raises as that."""
+    """What `propagate_labels` would write, with nothing written."""
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
     findings = _compare_assets(store, words, execution, stage)
     found, labelled = list[LabelEvidence](), 0

@@ -54,9 +54,9 @@ def metric_weights() -> Floats:
 def find_doubtful_sides(
     family: FamilyTable, sides: Callable[[int], Floats], metric: Floats
 ) -> Iterator[tuple[int, tuple[int, ...]]]:
-    """Each mesh of which no hull is told, and on which other sides it has to be looked at closely, none or some.
+    """Each mesh without a labelled hull, and on which other sides it has to be looked at closely, none or some.
 
-    sides: `ShapeDescriptor.sides` of the mesh of that number; metric: as of `vote_by_similarity`.
+    sides: `ShapeDescriptor.sides` of the mesh of that number; metric: the weight of each column of a row.
     """
     if not len(family.labelled):
         return
@@ -75,15 +75,15 @@ def find_doubtful_sides(
 
 
 def correct_upright(family: FamilyTable, closer: Iterable[tuple[int, Sequence[Floats]]], metric: Floats) -> FamilyTable:
-    """The family with those meshes turned whose hulls are then clearly more like the hulls whose label is told.
+    """The family with those meshes turned whose hulls are then clearly more like the labelled hulls.
 
-    looked: meshes, each with its rows on those sides that `find_doubtful_sides` tells.
+    closer: meshes, each with its rows on those sides that `find_doubtful_sides` names.
     """
     labelled_rows, rows, spans = _rows_with_labels(family, metric), family.rows, dict(_spans_of(family))
     turned = rows.copy()
 
     def apart(found: Floats) -> float:
-        """How far hulls are from those that are told, on the average."""
+        """The mean distance of hulls from the labelled ones."""
         return _mean_distance(found * metric, labelled_rows)
 
     for mesh, sides in closer:
@@ -113,7 +113,7 @@ def _mean_distance(rows: Floats, labelled_rows: Floats) -> float:
 
 
 def choose_next(family: FamilyTable, chances: Floats, count: int) -> list[int]:
-    """The meshes to label next, the best first; those without an untold hull are not among them.
+    """The meshes to label next, the best first; those whose hulls all have labels are not among them.
 
     chances: of the labels of each hull (hulls, labels).
     """
@@ -161,12 +161,12 @@ class FamilyPosterior:
         ]
 
     def next_to_label(self, count: int = 1) -> list[int]:
-        """The meshes to label next, the most helpful first; none on which every hull is told already."""
+        """The meshes to label next, the most helpful first; none whose hulls all have labels."""
         return choose_next(self.family, self.chances, count)
 
 
 class Propagator:
-    """Meshes of one kind, described once; labels may then be told again and again."""
+    """Meshes of one kind, described once; labels can then be propagated again and again."""
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
         descriptors = [MeshDescriber(mesh).describe() for mesh in meshes]
@@ -177,7 +177,7 @@ class Propagator:
     def propagate(self, labels: Sequence[str | None], metric: Floats | None = None) -> FamilyPosterior:
         """What some labels say about all hulls, these included.
 
-        told: of each hull of all meshes, None where its label is not known; metric: the weight of each column of a
+        labels: of each hull of all meshes, None where it is not known; metric: the weight of each column of a
         description, None for the one that ships.
         """
         metric = metric_weights() if metric is None else metric
@@ -188,7 +188,7 @@ class Propagator:
 
 
 def compute_posterior(family: FamilyTable, metric: Floats | None = None) -> FamilyPosterior:
-    """What the labels that are told say about all hulls of a family whose meshes stand upright."""
+    """What known labels say about all hulls of a family whose meshes stand upright."""
     if not family.labels:
         return FamilyPosterior(family, np.zeros((len(family.codes), 0)))
     return FamilyPosterior(
@@ -206,7 +206,7 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
 
 
 def build_family(seen: Sequence[tuple[Floats, Ints]]) -> FamilyTable:
-    """A family of which no label is told yet; seen: `rows` and `touching` of the sketch of each mesh."""
+    """A family without any label yet; seen: `rows` and `touching` of the descriptor of each mesh."""
     rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in seen)])
     sizes = np.array([len(own) for own, _ in seen], dtype=np.int64)
     starts = np.cumsum(sizes) - sizes

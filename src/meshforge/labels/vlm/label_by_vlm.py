@@ -71,8 +71,8 @@ def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
 class VlmResult:
     """What came of asking a model. reports: of all assets, in their order; usage: what was asked, and its cost.
 
-    open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not come
-    to, and ended: why, None where all were; blind: the model did not tell the colour of a red picture.
+    open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not
+    reached, and ended: why, None where all were; blind: the model did not name the colour of a red picture.
     """
 
     reports: tuple[LabelOutcome, ...]
@@ -91,13 +91,7 @@ def label_with_vlm(
     write_block: VlmWriteBlock | None = None,
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmResult:
-    """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
-
-    progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: the block in
-    which all labels are written, in the end; None writes those of an asset as soon as all is said of it; execution: how
-    the pictures are drawn, while questions are asked from this process.
-    Raises MeshForgeError where nothing could be asked at all.
-    """
+    """Ask about all hulls without a label of a person or a file; see `LabelStore.label_with_vlm`."""
 
     config = prompt_config_of(settings, store.vocabulary)
     client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
@@ -167,7 +161,7 @@ class _Run:
         end = self._client.end
         failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
         if end and answers.failed and not answers.labels:
-            return  # it is told once that the asking ended, and which assets were not come to
+            return  # the result says once that asking ended, and which assets were not reached
         if answers.open:
             self._open[asset] = answers.open
         if answers.asked:
@@ -240,11 +234,7 @@ def forecast_vlm(
     vocabulary: Sequence[str] | None = None,
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmForecast:
-    """What `label_with_vlm` would send; questions that have to be asked again come on top of it.
-
-    progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's;
-    execution: how the pictures are drawn.
-    """
+    """What `label_with_vlm` would send; questions that have to be asked again come on top of it."""
 
     endpoint = endpoint_of(settings)
     config = prompt_config_of(settings, store.vocabulary if vocabulary is None else vocabulary)
