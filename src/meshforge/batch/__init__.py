@@ -78,7 +78,7 @@ from meshforge.batch.report.contents import (
     read_again,
     read_job,
 )
-from meshforge.batch.report.page import MOST_PICTURED, write_report
+from meshforge.batch.report.page import MOST_PICTURED, ReportHeader, ReportOptions, write_report
 from meshforge.batch.workers import (
     EXECUTION_DEFAULTS,
     IN_PROCESS,
@@ -126,6 +126,8 @@ __all__ = [
     "Preparation",
     "Replacement",
     "ReportAsset",
+    "ReportHeader",
+    "ReportOptions",
     "ReportStatus",
     "RuleEffect",
     "RunFigures",

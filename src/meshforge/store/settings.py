@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -16,11 +16,6 @@ from meshforge.common import MeshForgeError, ProjectError, write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.store.layout import invalid_file
 from meshforge.store.toml_edit import TomlValue, set_value, toml_value
-
-if TYPE_CHECKING:
-    from meshforge.labels import Endpoint, PromptConfig
-    from meshforge.project import Project
-
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -55,43 +50,6 @@ class VlmSettings(BaseModel):
     retries: Annotated[int, Field(ge=0, le=20)] = 5
     wait: Seconds = 1.0
     extra: Mapping[str, Any] = {}
-
-    def check(self, vocabulary: Sequence[str]) -> None:
-        """Raises UsageError for what is in the way of asking: no model, no key, no vocabulary."""
-        self.endpoint().key()
-        self.manner(vocabulary)
-
-    def endpoint(self) -> Endpoint:
-        """Where the model is asked. Raises UsageError: no address, or no model named."""
-        from meshforge.labels import Endpoint
-
-        return Endpoint(
-            base_url=self.base_url,
-            model=self.model,
-            key_env=self.key_env,
-            input_price=self.input_price,
-            output_price=self.output_price,
-            concurrency=self.concurrency,
-            timeout=self.timeout,
-            retries=self.retries,
-            wait=self.wait,
-            extra=self.extra,
-        )
-
-    def manner(self, vocabulary: Sequence[str]) -> PromptConfig:
-        """How it is asked. Raises UsageError: no vocabulary, or a description of what is no label."""
-        from meshforge.labels import PromptConfig
-
-        return PromptConfig(
-            vocabulary=tuple(vocabulary),
-            mode=self.mode,
-            descriptions=self.descriptions,
-            about=self.about,
-            names=self.names,
-            repeats=self.repeats,
-            room=self.room,
-            size=self.size,
-        )
 
 
 class Thresholds(BaseModel):
@@ -172,20 +130,6 @@ def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
     except ProjectError as error:
         raise error.at(str(path)) from None
     return text
-
-
-def set_vocabulary(project: Project, labels: Sequence[str]) -> None:
-    """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
-    Program(labels=tuple(labels))
-    with project.lock():
-        change_setting(project.folder, "vocabulary", tuple(labels))
-
-
-def set_orientation(project: Project, orient: Orient | str | None) -> None:
-    """Set the orientation directive. Raises ProjectError for a text that is none."""
-    directive = parse_orientation(orient) if isinstance(orient, str) else orient
-    with project.lock():
-        change_setting(project.folder, "orient", orientation_text(directive))
 
 
 def orientation(settings: Settings, folder: Path) -> Orient | None:

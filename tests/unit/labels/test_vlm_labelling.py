@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.labels import VlmResult
-from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm import label_by_vlm, prompt
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
@@ -248,7 +248,8 @@ def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path)
 _RUN = """
 import sys
 import time
-from meshforge.project import Project, VlmSettings
+from meshforge.project import Project
+from meshforge.store import VlmSettings
 Project.open(sys.argv[1]).label_with_vlm(VlmSettings.model_validate_json(sys.argv[2]))
 """
 
@@ -438,7 +439,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
             raise ZeroDivisionError("no room for the picture")
         return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(prompt, "build_questions", looks)
+    monkeypatch.setattr(label_by_vlm, "build_questions", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))

@@ -272,7 +272,7 @@ def test_carrying_over_that_is_killed_leaves_whole_labels_and_can_be_taken_back(
         if left == before:
             assert history.view.undoable == 1
             continue
-        assert history.view.undo == "labels carried over"
+        assert history.view.undo == "labels propagated"
         history.undo(project)
         assert {name: text for name, text in labels(project).items() if not name.endswith(".tmp")} == before
     assert _said(project) == said

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError, ProjectError
@@ -28,14 +27,12 @@ from meshforge.labels.merge import (
 )
 from meshforge.labels.names.label_by_names import name_patterns
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.store import Store
 from meshforge.symbolic import Label, match_labels, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 def label_from_files(
-    project: Project, source: Path | None, how: LabelFileOptions, spread: ExecutionOptions, report: OutcomeCallback
+    store: Store, source: Path | None, how: LabelFileOptions, spread: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
     """Take over what the file of each asset that has one says; a problem with one asset is told in its report.
 
@@ -44,12 +41,12 @@ def label_from_files(
     Raises ProjectError: no file at all; UsageError: a pattern that makes no sense, or one file for several assets;
     AssetError: a file that cannot be read, while a vocabulary is looked for.
     """
-    files = _require_files(project, source)
-    if not project.vocabulary:
-        project.set_vocabulary(_read_vocabulary(files, how))
-    patterns = name_patterns(project.folder, project.settings, project.vocabulary, how.meanings)
-    taker, reports = LabelWriter(project), list[LabelOutcome]()
-    for asset, says in read_label_files(project, files, how, taker.vocabulary, patterns, spread):
+    files = _require_files(store, source)
+    if not store.vocabulary:
+        store.set_vocabulary(_read_vocabulary(files, how))
+    patterns = name_patterns(store.folder, store.settings, store.vocabulary, how.meanings)
+    taker, reports = LabelWriter(store), list[LabelOutcome]()
+    for asset, says in read_label_files(store, files, how, taker.vocabulary, patterns, spread):
         reports.append(_write_asset(taker, asset, says))
         report(reports[-1])
     return tuple(reports)
@@ -63,7 +60,7 @@ def _write_asset(taker: LabelWriter, asset: str, says: LabelFileContent) -> Labe
 
 
 def propose_from_files(
-    project: Project,
+    store: Store,
     source: Path | None,
     how: LabelFileOptions,
     vocabulary: Sequence[str] | None,
@@ -72,13 +69,13 @@ def propose_from_files(
     """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when
     None.
     """
-    files = _require_files(project, source)
-    words = (project.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, how)
-    patterns = name_patterns(project.folder, project.settings, words, how.meanings)
+    files = _require_files(store, source)
+    words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, how)
+    patterns = name_patterns(store.folder, store.settings, words, how.meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, says in read_label_files(project, files, how, words, patterns, spread):
+    for asset, says in read_label_files(store, files, how, words, patterns, spread):
         try:
-            current = match_labels(project.labels(asset), says.hulls).labels
+            current = match_labels(store.labels(asset), says.hulls).labels
         except AssetError as error:
             problems.append(f"{asset}: {error.message}")
             continue
@@ -103,13 +100,13 @@ def _evidence_of_asset(
             yield LabelEvidence(asset, None, "nothing said", hull)
 
 
-def _require_files(project: Project, source: Path | None) -> dict[str, Path]:
+def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     """The file of each asset that has one. Raises ProjectError where no asset has one."""
-    files = find_label_files(project.found, source)
+    files = find_label_files(store.found, source)
     if not files:
         raise ProjectError(
             "there is no labels file for any asset",
-            where=str(project.folder),
+            where=str(store.folder),
             remedy="Put a labels file beside each asset, or name a folder of them that mirrors the assets.",
         )
     return files

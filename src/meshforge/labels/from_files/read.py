@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
@@ -18,12 +18,8 @@ from meshforge.labels.from_files.points import PointsOptions, label_by_points
 from meshforge.labels.names.hull_names import HullNames, NamePattern
 from meshforge.labels.names.label_by_names import PatternPairs, names_of_mesh
 from meshforge.labels.names.words import EXACT
-from meshforge.store import AssetFacts, hull_digests, iterate_survey
+from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
 from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 LabelFileKind = Literal["labels file", "points", "semantics"]
 _LINKS_SUFFIX = ".urdf"  # the format whose links semantics are about
@@ -164,7 +160,7 @@ class _Work:
 
 
 def read_label_files(
-    project: Project,
+    store: Store,
     files: Mapping[str, Path],
     how: LabelFileOptions,
     vocabulary: Sequence[str],
@@ -173,14 +169,14 @@ def read_label_files(
 ) -> Iterator[tuple[str, LabelFileContent]]:
     """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
     plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
-    layout, words, known = project.layout, tuple(vocabulary), tuple(patterns)
+    layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
     work = [
-        _Work(project.path(asset), layout.preparation(asset), file, how, words, known)
+        _Work(store.path(asset), layout.preparation(asset), file, how, words, known)
         for asset, file in files.items()
         if asset not in plain
     ]
     with (
-        closing(iterate_survey(project.found, layout, plain, spread=spread)) as facts,
+        closing(iterate_survey(store.found, layout, plain, spread=spread)) as facts,
         closing(execute(_read_by_mesh, work, spread)) as others,
     ):
         for asset, file in files.items():
@@ -190,7 +186,7 @@ def read_label_files(
                 says = next(others)
                 yield (
                     asset,
-                    LabelFileContent(error=f"{project.path(asset)}: {says.why}")
+                    LabelFileContent(error=f"{store.path(asset)}: {says.why}")
                     if isinstance(says, WorkerFailure)
                     else says,
                 )

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,9 @@ from meshforge.batch import (
 )
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
-from meshforge.store import AssetFacts
+from meshforge.labels.propagation.describe import MeshDescriber
+from meshforge.store import AssetFacts, Store
 from meshforge.symbolic import EPSILON, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
@@ -83,13 +80,13 @@ class _Work:
 class DescriptorCache:
     """Those of some assets of a project, as they are known; spread: how the work is done."""
 
-    def __init__(self, project: Project, facts: Mapping[str, AssetFacts], spread: ExecutionOptions) -> None:
-        contact = project.settings.thresholds.contact or EPSILON
-        layout, base = project.layout, project.found.base
+    def __init__(self, store: Store, facts: Mapping[str, AssetFacts], spread: ExecutionOptions) -> None:
+        contact = store.settings.thresholds.contact or EPSILON
+        layout, base = store.layout, store.found.base
         self._spread = spread
         self._work = {
             asset: _Work(
-                project.path(asset),
+                store.path(asset),
                 base,
                 own.files,
                 layout.preparation(asset),
@@ -146,8 +143,6 @@ def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None
 
 def _describe(work: _Work) -> str | None:
     """Describe an asset and keep that; why that cannot be done."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
         sketch = MeshDescriber(_read_mesh(work)).describe()
         arrays = {"rows": sketch.rows, "touching": sketch.touching, "sides": sketch.sides}
@@ -159,8 +154,6 @@ def _describe(work: _Work) -> str | None:
 
 def _describe_sides(work: _Work) -> list[Floats] | str:
     """The rows of an asset on some of its sides, which are kept, too; or why there are none."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
         known = {side: _read_kept(work, f"side{side}", "rows") for side in work.sides}
         sketcher = None if all(known.values()) else MeshDescriber(_read_mesh(work))

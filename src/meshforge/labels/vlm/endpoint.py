@@ -9,6 +9,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from meshforge.common import MeshForgeError, UsageError
+from meshforge.store import VlmSettings
 
 OPENAI = "https://api.openai.com/v1"
 _KEYS = {
@@ -118,6 +119,22 @@ class Endpoint:
     def price(self, usage: TokenCount) -> float:
         """What so many tokens cost, in dollars; a price that is not known counts as none."""
         return ((self.input_price or 0) * usage.input + (self.output_price or 0) * usage.output) / _MILLION
+
+
+def endpoint_of(settings: VlmSettings) -> Endpoint:
+    """The endpoint that the table [vlm] names. Raises UsageError: no address, or no model named."""
+    return Endpoint(
+        base_url=settings.base_url,
+        model=settings.model,
+        key_env=settings.key_env,
+        input_price=settings.input_price,
+        output_price=settings.output_price,
+        concurrency=settings.concurrency,
+        timeout=settings.timeout,
+        retries=settings.retries,
+        wait=settings.wait,
+        extra=settings.extra,
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,25 +7,20 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, field, replace
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
 from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
-from meshforge.store import AssetFiles, VlmSettings, asset_files_of, hull_digests
+from meshforge.labels.vlm.cache import write_page
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import TokenCount, endpoint_of
+from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
+from meshforge.labels.vlm.limits import Usage, estimate_tokens
+from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions, prompt_config_of
+from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
-if TYPE_CHECKING:
-    from meshforge.labels.vlm.answer import VlmAnswers
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
-    from meshforge.labels.vlm.limits import Usage
-    from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig
-    from meshforge.project import Project
-
-
-UsageCallback = Callable[["Usage"], None]
+UsageCallback = Callable[[Usage], None]
 VlmWriteBlock = Callable[[], AbstractContextManager[object]]
 
 
@@ -43,17 +38,17 @@ class AssetQuestions:
 
 
 def draw_assets(
-    project: Project, manner: PromptConfig, spread: ExecutionOptions
+    store: Store, manner: PromptConfig, spread: ExecutionOptions
 ) -> Generator[tuple[str, AssetQuestions], None, None]:
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
-    assets = project.assets()
-    items = list(zip(assets, asset_files_of(project, assets), strict=True))
+    assets = store.assets()
+    items = list(zip(assets, store.asset_files(assets), strict=True))
     work = execute(partial(_draw, manner), items, spread)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield (
                 asset,
-                AssetQuestions(error=f"{project.path(asset)}: {found.why}")
+                AssetQuestions(error=f"{store.path(asset)}: {found.why}")
                 if isinstance(found, WorkerFailure)
                 else found,
             )
@@ -62,7 +57,6 @@ def draw_assets(
 
 
 def _draw(manner: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
-    from meshforge.labels.vlm.prompt import build_questions
 
     asset, place = item
     try:
@@ -90,7 +84,7 @@ class VlmResult:
 
 
 def label_with_vlm(
-    project: Project,
+    store: Store,
     settings: VlmSettings,
     progress: UsageCallback | None = None,
     stop: Callable[[], bool] | None = None,
@@ -104,17 +98,15 @@ def label_with_vlm(
     the pictures are drawn, while questions are asked from this process.
     Raises MeshForgeError where nothing could be asked at all.
     """
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.labeller import Labeller
 
-    manner = settings.manner(project.vocabulary)
-    client = Client(settings.endpoint(), project.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
+    manner = prompt_config_of(settings, store.vocabulary)
+    client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
     with (
         closing(client),
-        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
-        closing(draw_assets(project, manner, spread)) as pictures,
+        closing(Labeller(client, manner, examples_of(store, settings))) as labeller,
+        closing(draw_assets(store, manner, spread)) as pictures,
     ):
-        run = _Run(project, client, labeller, keeping, progress)
+        run = _Run(store, client, labeller, keeping, progress)
         while not (client.end or (stop and stop())) and (found := next(pictures, None)):
             run.begin(*found)
         run.finish()
@@ -126,15 +118,15 @@ class _Run:
 
     def __init__(
         self,
-        project: Project,
+        store: Store,
         client: Client,
         labeller: Labeller,
         keeping: VlmWriteBlock | None,
         progress: UsageCallback | None,
     ) -> None:
-        self._project, self._client, self._labeller = project, client, labeller
+        self._store, self._client, self._labeller = store, client, labeller
         self._keeping, self._progress = keeping, progress
-        self._taker = LabelWriter(project)
+        self._taker = LabelWriter(store)
         self._pending: dict[str, tuple[Mapping[str, str], OpenAnswers]] = {}
         self._reports: dict[str, LabelOutcome] = {}
         self._open: dict[str, Mapping[str, str]] = {}
@@ -164,8 +156,8 @@ class _Run:
         end, bill = self._client.end, self._client.usage
         if end and not bill.answered + bill.cached:
             raise end
-        reports = tuple(self._reports[asset] for asset in self._project.assets() if asset in self._reports)
-        unasked = tuple(asset for asset in self._project.assets() if asset not in self._reports)
+        reports = tuple(self._reports[asset] for asset in self._store.assets() if asset in self._reports)
+        unasked = tuple(asset for asset in self._store.assets() if asset not in self._reports)
         ended = end.message if end else "stopped" if unasked else None
         return VlmResult(reports, bill, self._open, unasked, ended, self._client.is_blind)
 
@@ -179,7 +171,7 @@ class _Run:
         if said.open:
             self._open[asset] = said.open
         if said.asked:
-            _write_page(self._project.layout.vlm, asset, said)
+            write_page(self._store.layout.vlm, asset, said)
 
         def write() -> None:
             report = self._taker.write(asset, hulls, said.labels, can_replace_less_certain)
@@ -196,17 +188,17 @@ class _Run:
             self._progress(self._client.usage)
 
 
-def _write_page(folder: Path, asset: str, said: VlmAnswers) -> None:
-    from meshforge.labels.vlm.cache import write_page
+def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str]) -> None:
+    """Raises UsageError where nothing could be asked: no model, no key, or no vocabulary."""
+    endpoint_of(settings).key()
+    prompt_config_of(settings, vocabulary)
 
-    write_page(folder, asset, said)
 
-
-def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
+def examples_of(store: Store, settings: VlmSettings) -> list[SymbolicMesh]:
     """The labelled assets that are shown as examples, with labels that somebody gave."""
     meshes = []
     for asset in settings.examples:
-        mesh = project.mesh(asset)
+        mesh = store.mesh(asset)
         guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
         if len(guessed) == len(mesh.hulls):
             remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
@@ -241,7 +233,7 @@ class VlmForecast:
 
 
 def forecast_vlm(
-    project: Project,
+    store: Store,
     settings: VlmSettings,
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
@@ -253,19 +245,16 @@ def forecast_vlm(
     progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's;
     spread: how the pictures are drawn.
     """
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.endpoint import TokenCount
-    from meshforge.labels.vlm.labeller import Labeller
-    from meshforge.labels.vlm.limits import estimate_tokens
 
-    endpoint, manner = settings.endpoint(), settings.manner(project.vocabulary if vocabulary is None else vocabulary)
-    client = Client(endpoint, project.layout.vlm, max_cost=settings.max_cost)
+    endpoint = endpoint_of(settings)
+    manner = prompt_config_of(settings, store.vocabulary if vocabulary is None else vocabulary)
+    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
     assets = hulls = questions = known = pictures = 0
     usage, unreadable = TokenCount(), list[str]()
     with (
         closing(client),
-        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
-        closing(draw_assets(project, manner, spread)) as drawings,
+        closing(Labeller(client, manner, examples_of(store, settings))) as labeller,
+        closing(draw_assets(store, manner, spread)) as drawings,
     ):
         while not (stop and stop()) and (next_one := next(drawings, None)):
             asset, found = next_one

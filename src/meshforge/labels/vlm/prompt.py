@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from meshforge.common import UsageError
 from meshforge.labels.vlm.answer import clearness
 from meshforge.labels.vlm.request import Message, Part, VlmQuestion
+from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
@@ -105,6 +106,20 @@ class PromptConfig:
         """The labels; in repeats they are told in another order, since the order must not matter."""
         turn = repeat % len(self.vocabulary)
         return (*self.vocabulary[turn:], *self.vocabulary[:turn])
+
+
+def prompt_config_of(settings: VlmSettings, vocabulary: Sequence[str]) -> PromptConfig:
+    """What the table [vlm] says on asking. Raises UsageError: no vocabulary, or a description of what is no label."""
+    return PromptConfig(
+        vocabulary=tuple(vocabulary),
+        mode=settings.mode,
+        descriptions=settings.descriptions,
+        about=settings.about,
+        names=settings.names,
+        repeats=settings.repeats,
+        room=settings.room,
+        size=settings.size,
+    )
 
 
 def task_message(manner: PromptConfig, up: str, repeat: int = 0) -> Message:

@@ -131,20 +131,12 @@ class Session:
             self.announce((entry,), "edit", by)
         return Done(said=entry.title)
 
-    def undo(self, by: str | None = None) -> Done:
-        """Take back what was done last."""
-        return self._move("undo", by)
-
-    def redo(self, by: str | None = None) -> Done:
-        """Do again what was taken back last."""
-        return self._move("redo", by)
-
-    def _move(self, way: Literal["undo", "redo"], by: str | None) -> Done:
+    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> Done:
+        """Undo what was done last, or redo what was undone last."""
         with self._mutex:
             self.learning.pause()
             try:
-                move = self.history.undo if way == "undo" else self.history.redo
-                entries = move(self.project)
+                entries = self.history.undo(self.project) if way == "undo" else self.history.redo(self.project)
             finally:
                 self.learning.resume()
             if not entries:
