@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from meshforge.batch import ExecutionOptions
 from meshforge.cli.console import progress
 from meshforge.cli.options import (
     AssetTimeout,
@@ -85,12 +86,20 @@ def prepare(given: PrepareArguments) -> None:
 
 
 def decompose_assets(
-    project: Project, assets: Iterable[str], settings: DecomposeSettings, *, json: bool = False, **options: Any
+    project: Project,
+    assets: Iterable[str],
+    settings: DecomposeSettings,
+    *,
+    workers: int | None,
+    timeout: float,
+    json: bool = False,
+    **options: Any,
 ) -> int:
     """Decompose assets of a project and print what became of each; the exit code. options: of `Project.decompose`."""
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
-        return print_results(project.decompose(ids, settings, progress=advance, **options), json)
+        execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
+        return print_results(project.decompose(ids, settings, execution=execution, **options), json)
 
 
 def print_results(results: Iterable[PreparationResult], json: bool = False) -> int:

@@ -42,30 +42,30 @@ class LabelStore(Store):
     def label_from_files(
         self,
         source: Path | None = None,
-        how: LabelFileOptions | None = None,
+        options: LabelFileOptions | None = None,
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
     ) -> tuple[LabelOutcome, ...]:
         """Take over what files say: labels files, segmented points and meshes, and PartNet's semantics of links.
 
         source: a file for a single asset, a folder that mirrors the assets, or None for those beside them; how: the way
-        they are read. A project without a vocabulary takes that of the files. spread: over worker processes, where one
+        they are read. A project without a vocabulary takes that of the files. execution: over worker processes, where one
         asset that crashes or hangs costs no more than itself; unless said, the work is done in this process. report:
         called with what became of each asset, as soon as its labels are written, in the order of the assets.
         """
-        return label_from_files(self, source, how or LabelFileOptions(), spread, report)
+        return label_from_files(self, source, options or LabelFileOptions(), execution, report)
 
     def propose_from_files(
         self,
         source: Path | None = None,
-        how: LabelFileOptions | None = None,
+        options: LabelFileOptions | None = None,
         vocabulary: Sequence[str] | None = None,
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_files` would take, with nothing written; vocabulary: one to be tried."""
-        return propose_from_files(self, source, how or LabelFileOptions(), vocabulary, spread)
+        return propose_from_files(self, source, options or LabelFileOptions(), vocabulary, execution)
 
     def label_offers(self) -> LabelOffers:
         """What `label_from_files` and `label_from_names` would give; see `OfferCache` for asking often."""
@@ -75,26 +75,26 @@ class LabelStore(Store):
         self,
         meanings: PatternPairs = (),
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
     ) -> tuple[LabelOutcome, ...]:
         """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
 
         By patterns first: `meanings`, then those of the project's settings; then by the words of the vocabulary, and
-        words that are nearly those. spread, report: as of `label_from_files`.
+        words that are nearly those. execution, report: as of `label_from_files`.
         Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
         """
-        return label_from_names(self, meanings, spread, report)
+        return label_from_names(self, meanings, execution, report)
 
     def propose_from_names(
         self,
         meanings: PatternPairs = (),
         vocabulary: Sequence[str] | None = None,
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_names` would take, with nothing written; vocabulary: one to be tried."""
-        return propose_from_names(self, meanings, vocabulary, spread)
+        return propose_from_names(self, meanings, vocabulary, execution)
 
     def plan_labels(self) -> str:
         """What there is to be labelled, in words: how many assets of what, and how many have labels by now."""
@@ -116,30 +116,30 @@ class LabelStore(Store):
     def propagate_labels(
         self,
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
         stage: Stage = ignore_stage,
         report: OutcomeCallback = ignore_report,
-        keeping: WriteBlock = nullcontext,
+        write_block: WriteBlock = nullcontext,
     ) -> PropagationResult:
         """Carry the labels of a few assets to all others; what a person or a file says stays.
 
-        How the hulls of an asset look is kept in the project, so that another time is quick. spread, report: as of
+        How the hulls of an asset look is kept in the project, so that another time is quick. execution, report: as of
         `label_from_files`; stage: gives what is entered for each part of the work; keeping: the block in which all is
         written, given the asset that would help most.
         Raises ProjectError: no vocabulary, no label to begin with; StoppedError when it was told to stop, with nothing
         written.
         """
-        return propagate_labels(self, spread, stage, report, keeping)
+        return propagate_labels(self, execution, stage, report, write_block)
 
     def propose_propagated(
         self,
         vocabulary: Sequence[str] | None = None,
         *,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
         stage: Stage = ignore_stage,
     ) -> Proposals:
         """What `propagate_labels` would give, with nothing written; vocabulary: one to be tried."""
-        return propose_propagated(self, vocabulary, spread, stage)
+        return propose_propagated(self, vocabulary, execution, stage)
 
     def label_with_vlm(
         self,
@@ -147,17 +147,17 @@ class LabelStore(Store):
         *,
         progress: Callable[[Usage], None] | None = None,
         stop: Callable[[], bool] | None = None,
-        keeping: Callable[[], AbstractContextManager[object]] | None = None,
-        spread: ExecutionOptions = IN_PROCESS,
+        write_block: Callable[[], AbstractContextManager[object]] | None = None,
+        execution: ExecutionOptions = IN_PROCESS,
     ) -> VlmResult:
         """Ask a vision-language model for labels; what a person or a file says stays.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
         says when to ask no more; keeping: the block in which all labels are written, in the end; None writes those of
-        an asset as soon as all is said of it; spread: how pictures are drawn. Answers are kept, so that none is paid
+        an asset as soon as all is said of it; execution: how pictures are drawn. Answers are kept, so that none is paid
         for twice. Raises MeshForgeError where nothing could be asked at all.
         """
-        return label_with_vlm(self, settings or self.settings.vlm, progress, stop, keeping, spread)
+        return label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
 
     def forecast_vlm(
         self,
@@ -166,7 +166,7 @@ class LabelStore(Store):
         progress: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
         vocabulary: Sequence[str] | None = None,
-        spread: ExecutionOptions = IN_PROCESS,
+        execution: ExecutionOptions = IN_PROCESS,
     ) -> VlmForecast:
         """What `label_with_vlm` would send and cost, with nothing sent; the same options; vocabulary: another one."""
-        return forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, spread)
+        return forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, execution)

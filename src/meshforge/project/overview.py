@@ -34,8 +34,8 @@ def compute_status(
     for asset in only or ():
         store.path(asset)
     settings, ids, work, reviews = store.settings, store.found.ids, build_jobs(store, only), store.reviews()
-    spread = ExecutionOptions(workers=workers, stop=stop)
-    facts = survey(store.found, store.layout, only, spread=spread, progress=progress)
+    execution = ExecutionOptions(workers=workers, stop=stop)
+    facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
     program, what, problem = _read_program(store)
     assets = tuple(_asset_status(store, job, facts[job.id], what, reviews.get(job.id)) for job in work)
     stands = program_state_of(store, program)

@@ -151,47 +151,45 @@ def _exchange(store: Store, asset: str, after: Preparation) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
+class DecomposeOptions:
+    """What is decomposed, and how.
+
+    only: names of pieces and bodies, or patterns of them, none for all; again: also what is decomposed already;
+    hollow: shells of one sheet are not filled.
+    """
+
+    settings: DecomposeSettings
+    only: tuple[str, ...] = ()
+    again: bool = False
+    hollow: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class _DecomposeWork:
     """One asset to be decomposed; folder: of its preparation."""
 
     path: Path
     folder: Path
-    settings: DecomposeSettings
-    only: tuple[str, ...]
-    again: bool
-    hollow: bool
+    options: DecomposeOptions
 
 
 def decompose(
     store: Store,
     assets: Sequence[str],
-    settings: DecomposeSettings,
-    *,
-    only: Sequence[str],
-    again: bool,
-    hollow: bool,
-    workers: int | None,
-    timeout: float | None,
-    progress: Callable[[], None] | None,
-    stop: Callable[[], bool] | None,
-    keeping: Callable[[str], AbstractContextManager[object]],
+    options: DecomposeOptions,
+    execution: ExecutionOptions,
+    write_block: Callable[[str], AbstractContextManager[object]],
 ) -> Iterator[PreparationResult]:
     """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
-    layout = store.layout
-    work = [
-        _DecomposeWork(store.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow)
-        for asset in assets
-    ]
-    results = run_isolated(
-        _decompose_one, work, ExecutionOptions(workers=workers, timeout=timeout, progress=progress, stop=stop)
-    )
+    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), options) for asset in assets]
+    results = run_isolated(_decompose_one, work, execution)
     for asset, result in zip(assets, results, strict=True):
         if isinstance(result, WorkerFailure):
             yield PreparationResult(asset, problems=(result.why,))
         elif isinstance(result, str):
             yield PreparationResult(asset, problems=(result,))
         else:
-            with keeping(asset):
+            with write_block(asset):
                 kept = _write_result(store, asset, *result)
             yield kept
 
@@ -202,14 +200,9 @@ def _decompose_one(work: _DecomposeWork) -> tuple[DecompositionResult, str | Non
         seen = record_digest(work.folder)
         before = read_preparation(work.folder) or Preparation()
         asset = read(work.path)
+        options, cache = work.options, cache_folder()
         done = decompose_asset(
-            asset,
-            before,
-            work.settings,
-            only=work.only,
-            again=work.again,
-            hollow=work.hollow,
-            cache=cache_folder(),
+            asset, before, options.settings, only=options.only, again=options.again, hollow=options.hollow, cache=cache
         )
         return done, seen
     except Exception as error:  # one asset never stops the others

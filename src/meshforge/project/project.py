@@ -10,7 +10,6 @@ from pathlib import Path
 from meshforge.batch import (
     APPLY_DEFAULTS,
     EXECUTION_DEFAULTS,
-    TIMEOUT,
     ApplyOptions,
     AssetJob,
     AssetOutcome,
@@ -21,7 +20,6 @@ from meshforge.batch import (
 from meshforge.geometry import CoacdSettings, DecomposeSettings
 from meshforge.labels import LabelStore
 from meshforge.language import Action, Orient, Program, Template
-from meshforge.project import prepare
 from meshforge.project.accept import ProgramState, read_program_state
 from meshforge.project.answer import (
     add_answer,
@@ -34,7 +32,14 @@ from meshforge.project.answer import (
 from meshforge.project.demonstrate import delete_rule, demonstrate, move_rule
 from meshforge.project.learn import LearnOptions, learn_program
 from meshforge.project.overview import compute_status
-from meshforge.project.prepare import PreparationResult
+from meshforge.project.prepare import (
+    DecomposeOptions,
+    PreparationResult,
+    change_preparation,
+    decompose,
+    split,
+    unprepare,
+)
 from meshforge.project.rename_label import rename_label
 from meshforge.project.review import review_assets
 from meshforge.project.run import build_work, correct, mesh_before_rule
@@ -102,42 +107,25 @@ class Project(LabelStore):
         only: Sequence[str] = (),
         again: bool = False,
         hollow: bool = False,
-        workers: int | None = None,
-        timeout: float | None = TIMEOUT,
-        progress: Callable[[], None] | None = None,
-        stop: Callable[[], bool] | None = None,
-        keeping: Callable[[str], AbstractContextManager[object]] = nullcontext,
+        execution: ExecutionOptions = EXECUTION_DEFAULTS,
+        write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
     ) -> Iterator[PreparationResult]:
-        """Make hulls of what has none: opaque pieces, and what bodies without collision geometry show.
+        """Make hulls of what has none: non-convex pieces, and what bodies without collision geometry show.
 
         assets: all when None; settings: CoACD's defaults when None; only: names of pieces and bodies, or patterns;
-        again: anew, also where that is done; hollow: shells of one sheet are not filled. workers, timeout [s] for an
-        asset, progress, stop: as of `meshforge.batch.apply`; keeping: gives what is entered while an asset's files are
-        written. What is done stays done when the caller stops in the midst.
+        again: also what is decomposed already; hollow: shells of one sheet are not filled; write_block: the block in
+        which an asset's files are written. What is done stays done when the caller stops in the midst.
         """
-        ids, how = self.assets() if assets is None else tuple(dict.fromkeys(assets)), settings or CoacdSettings()
-        return prepare.decompose(
-            self,
-            ids,
-            how,
-            only=only,
-            again=again,
-            hollow=hollow,
-            workers=workers,
-            timeout=timeout,
-            progress=progress,
-            stop=stop,
-            keeping=keeping,
-        )
+        ids = self.assets() if assets is None else tuple(dict.fromkeys(assets))
+        options = DecomposeOptions(settings or CoacdSettings(), tuple(only), again, hollow)
+        return decompose(self, ids, options, execution, write_block)
 
     def cut(self, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> PreparationResult:
         """Cut a hull along the plane through `at` (3,) [m] across `across` (3,), in the frame that the asset comes in.
 
         Raises GeometryError: no such hull, or a plane that misses it.
         """
-        return prepare.change_preparation(
-            self, asset, lambda source, before: cut_hull(source, before, hull, at, across)
-        )
+        return change_preparation(self, asset, lambda source, before: cut_hull(source, before, hull, at, across))
 
     def split(
         self, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
@@ -146,14 +134,14 @@ class Project(LabelStore):
 
         Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
         """
-        return prepare.split(self, asset, hull, settings or CoacdSettings(), hollow)
+        return split(self, asset, hull, settings or CoacdSettings(), hollow)
 
     def unprepare(self, asset: str, *, everything: bool = False) -> PreparationResult:
         """Take back the last thing that was done to an asset before the program, or everything.
 
         Everything also of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
         """
-        return prepare.unprepare(self, asset, everything)
+        return unprepare(self, asset, everything)
 
     # Demonstrations
 

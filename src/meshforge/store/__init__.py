@@ -25,6 +25,8 @@ from meshforge.store.settings import (
     orientation,
     orientation_text,
     read_settings,
+    set_value,
+    toml_value,
 )
 from meshforge.store.steps import (
     CorrectionsFile,
@@ -38,7 +40,6 @@ from meshforge.store.steps import (
     to_step_lines,
 )
 from meshforge.store.store import Store
-from meshforge.store.toml_edit import set_value, toml_value
 
 __all__ = [
     "AnswerLine",

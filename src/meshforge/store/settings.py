@@ -5,22 +5,23 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import tomlkit
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from tomlkit.items import InlineTable
 
 from meshforge.batch import SETTINGS
 from meshforge.common import MeshForgeError, ProjectError, write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.store.layout import invalid_file
-from meshforge.store.toml_edit import TomlValue, set_value, toml_value
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-
 Fraction = Annotated[float, Field(gt=0, le=1)]
+TomlValue = str | float | Sequence[str]
 
 
 class VlmSettings(BaseModel):
@@ -130,6 +131,35 @@ def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
     except ProjectError as error:
         raise error.at(str(path)) from None
     return text
+
+
+def toml_value(value: TomlValue) -> str:
+    """A value as TOML writes it: a string, a number, or an array of strings."""
+    if isinstance(value, str | int | float):
+        return tomlkit.item(value).as_string()
+    return f"[{', '.join(map(toml_value, value))}]"
+
+
+def set_value(text: str, key: str, value: TomlValue | None, table: str | None = None) -> str:
+    """A TOML text with one key of the top level, or of a table (`a` or `a.b`), set, or removed by None.
+
+    Comments and layout stay as their author wrote them. Raises ProjectError for a key inside an inline table.
+    """
+    document = tomlkit.parse(text)
+    part: Any = document
+    # parsed from its text, as tomlkit takes seconds to make an array of thousands of paths from a list
+    item = None if value is None else tomlkit.value(toml_value(value))
+    for name in table.split(".") if table else ():
+        part = part.get(name)
+        if part is None:
+            return text if item is None else f"{text}\n[{table}]\n{tomlkit.dumps({key: item})}"
+        if isinstance(part, InlineTable):
+            raise ProjectError(f"the key {key!r} cannot be changed where it stands", remedy="Change it by hand.")
+    if item is not None:
+        part[key] = item
+    elif key in part:
+        del part[key]
+    return tomlkit.dumps(document)
 
 
 def orientation(settings: Settings, folder: Path) -> Orient | None:

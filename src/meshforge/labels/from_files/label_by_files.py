@@ -32,7 +32,7 @@ from meshforge.symbolic import Label, match_labels, read_labels
 
 
 def label_from_files(
-    store: Store, source: Path | None, how: LabelFileOptions, spread: ExecutionOptions, report: OutcomeCallback
+    store: Store, source: Path | None, options: LabelFileOptions, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
     """Take over what the file of each asset that has one says; a problem with one asset is told in its report.
 
@@ -43,59 +43,59 @@ def label_from_files(
     """
     files = _require_files(store, source)
     if not store.vocabulary:
-        store.set_vocabulary(_read_vocabulary(files, how))
-    patterns = name_patterns(store.folder, store.settings, store.vocabulary, how.meanings)
-    taker, reports = LabelWriter(store), list[LabelOutcome]()
-    for asset, says in read_label_files(store, files, how, taker.vocabulary, patterns, spread):
-        reports.append(_write_asset(taker, asset, says))
+        store.set_vocabulary(_read_vocabulary(files, options))
+    patterns = name_patterns(store.folder, store.settings, store.vocabulary, options.meanings)
+    writer, reports = LabelWriter(store), list[LabelOutcome]()
+    for asset, content in read_label_files(store, files, options, writer.vocabulary, patterns, execution):
+        reports.append(_write_asset(writer, asset, content))
         report(reports[-1])
     return tuple(reports)
 
 
-def _write_asset(taker: LabelWriter, asset: str, says: LabelFileContent) -> LabelOutcome:
-    if says.error:
-        return LabelOutcome(asset, problems=(says.error,))
-    report = taker.try_write(asset, says.hulls, says.given.labels, can_replace_any)
-    return replace(report, problems=(*report.problems, *says.given.problems))
+def _write_asset(writer: LabelWriter, asset: str, content: LabelFileContent) -> LabelOutcome:
+    if content.error:
+        return LabelOutcome(asset, problems=(content.error,))
+    report = writer.try_write(asset, content.hulls, content.given.labels, can_replace_any)
+    return replace(report, problems=(*report.problems, *content.given.problems))
 
 
 def propose_from_files(
     store: Store,
     source: Path | None,
-    how: LabelFileOptions,
+    options: LabelFileOptions,
     vocabulary: Sequence[str] | None,
-    spread: ExecutionOptions,
+    execution: ExecutionOptions,
 ) -> Proposals:
     """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when
     None.
     """
     files = _require_files(store, source)
-    words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, how)
-    patterns = name_patterns(store.folder, store.settings, words, how.meanings)
+    words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, options)
+    patterns = name_patterns(store.folder, store.settings, words, options.meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, says in read_label_files(store, files, how, words, patterns, spread):
+    for asset, content in read_label_files(store, files, options, words, patterns, execution):
         try:
-            current = match_labels(store.labels(asset), says.hulls).labels
+            current = match_labels(store.labels(asset), content.hulls).labels
         except AssetError as error:
             problems.append(f"{asset}: {error.message}")
             continue
-        _, report = merge_labels(asset, says.hulls, current, says.given.labels, words)
-        told = (says.error,) if says.error else (*report.problems, *says.given.problems)
-        problems += [f"{asset}: {problem}" for problem in told]
-        rows = list(_evidence_of_asset(asset, says, current, files[asset], words))
-        labelled += len(says.hulls) - len(rows)
+        _, report = merge_labels(asset, content.hulls, current, content.given.labels, words)
+        left_out = (content.error,) if content.error else (*report.problems, *content.given.problems)
+        problems += [f"{asset}: {problem}" for problem in left_out]
+        rows = list(_evidence_of_asset(asset, content, current, files[asset], words))
+        labelled += len(content.hulls) - len(rows)
         found += rows
     return group_evidence(found, words, labelled, problems)
 
 
 def _evidence_of_asset(
-    asset: str, says: LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
+    asset: str, content: LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
 ) -> Iterator[LabelEvidence]:
     """What becomes of the hulls whose label would change, or that have none."""
-    for hull in says.hulls:
-        label, now = says.given.labels.get(hull), current.get(hull)
+    for hull in content.hulls:
+        label, now = content.given.labels.get(hull), current.get(hull)
         if label and label.name in words and label != now and not is_protected(now, label):
-            yield LabelEvidence(asset, label, kind_of(file), says.given.names.get(hull) or file.name)
+            yield LabelEvidence(asset, label, kind_of(file), content.given.names.get(hull) or file.name)
         elif now is None:
             yield LabelEvidence(asset, None, "nothing said", hull)
 
@@ -112,16 +112,16 @@ def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     return files
 
 
-def _read_vocabulary(files: Mapping[str, Path], how: LabelFileOptions) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, how)))
+def _read_vocabulary(files: Mapping[str, Path], options: LabelFileOptions) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, options)))
 
 
-def _read_words(file: Path, how: LabelFileOptions) -> Iterable[str]:
+def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:
     """The labels that a file speaks of, in its order."""
     match kind_of(file):
         case "labels file":
-            said = read_labels(file)
-            return (*said.vocabulary, *(label.name for label in said.labels.values()))
+            labels_file = read_labels(file)
+            return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))
         case "points":
-            return class_names_in_file(file, how.reading.classes)
+            return class_names_in_file(file, options.reading.classes)
     return read_link_names(file)

@@ -41,7 +41,7 @@ def _check_pattern(text: str, label: str, vocabulary: Sequence[str]) -> NamePatt
 
 
 def label_from_names(
-    store: Store, meanings: PatternPairs, spread: ExecutionOptions, report: OutcomeCallback
+    store: Store, meanings: PatternPairs, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
     """Give the labels that names say to hulls that have none; a problem with one asset is told in its report.
 
@@ -49,9 +49,9 @@ def label_from_names(
     Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
     """
     patterns = require_patterns(store, store.vocabulary, meanings)
-    taker, reports = LabelWriter(store), list[LabelOutcome]()
-    for asset, facts in iterate_survey(store.found, store.layout, spread=spread):
-        reports.append(_label_asset(taker, asset, facts, patterns))
+    writer, reports = LabelWriter(store), list[LabelOutcome]()
+    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
+        reports.append(_label_asset(writer, asset, facts, patterns))
         report(reports[-1])
     return tuple(reports)
 
@@ -64,12 +64,12 @@ def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternP
     return name_patterns(store.folder, store.settings, vocabulary, meanings)
 
 
-def _label_asset(taker: LabelWriter, asset: str, facts: AssetFacts, patterns: Sequence[NamePattern]) -> LabelOutcome:
+def _label_asset(writer: LabelWriter, asset: str, facts: AssetFacts, patterns: Sequence[NamePattern]) -> LabelOutcome:
     if facts.error:
         return LabelOutcome(asset, problems=(facts.error,))
-    said = ((names.hull, match_names(names, taker.vocabulary, patterns)) for names in names_of_facts(facts))
-    given = {hull: label for hull, one in said if one and (label := to_label(one))}
-    return taker.try_write(asset, facts.hulls, given, can_fill_gap)
+    matches = ((names.hull, match_names(names, writer.vocabulary, patterns)) for names in names_of_facts(facts))
+    given = {hull: label for hull, one in matches if one and (label := to_label(one))}
+    return writer.try_write(asset, facts.hulls, given, can_fill_gap)
 
 
 def to_label(one: NameMatch) -> Label | None:
@@ -89,7 +89,7 @@ def names_of_facts(facts: AssetFacts) -> Iterator[HullNames]:
 
 
 def propose_from_names(
-    store: Store, meanings: PatternPairs, vocabulary: Sequence[str] | None, spread: ExecutionOptions
+    store: Store, meanings: PatternPairs, vocabulary: Sequence[str] | None, execution: ExecutionOptions
 ) -> Proposals:
     """What names would give, told from the survey; vocabulary: that to be tried, the project's when None.
 
@@ -98,7 +98,7 @@ def propose_from_names(
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
     patterns = require_patterns(store, words, meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, facts in iterate_survey(store.found, store.layout, spread=spread):
+    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
         try:
             present = match_labels(store.labels(asset), facts.hulls).labels
         except MeshForgeError as error:

@@ -51,7 +51,7 @@ class TransientError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """An OpenAI-compatible server and a model on it. Raises UsageError for what cannot be.
+    """An OpenAI-compatible server and a model on it. Raises UsageError for values that do not fit.
 
     key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
     input_price, output_price: in dollars a million tokens, None where they are not known.
@@ -139,7 +139,7 @@ def endpoint_of(settings: VlmSettings) -> Endpoint:
 
 @dataclass(frozen=True, slots=True)
 class TokenCount:
-    """Tokens that went in and came out; estimated: not told by the server."""
+    """Tokens that went in and came out; estimated: the server named no number."""
 
     input: int = 0
     output: int = 0

@@ -33,9 +33,8 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
         results = project.decompose(
             assets,
             settings,
-            progress=progress.advance,
-            stop=progress.is_stopped,
-            keeping=lambda asset: session.record_edit(Decompose(asset=asset), group),
+            execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
+            write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
         )
         for result in results:
             made += len(result.hulls)
@@ -67,7 +66,7 @@ def start_propagate(session: Session) -> Job:
 
     def work(progress: JobProgress) -> str:
         options = ExecutionOptions(stop=progress.is_stopped)
-        result = project.propagate_labels(spread=options, stage=progress.stage, keeping=record)
+        result = project.propagate_labels(execution=options, stage=progress.stage, write_block=record)
         for report in result.reports:
             progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
         if not any(report.taken for report in result.reports):
@@ -129,7 +128,7 @@ def start_ask(session: Session, request: AskJob) -> Job:
             settings,
             progress=lambda usage: progress.advance(),
             stop=progress.is_stopped,
-            keeping=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
+            write_block=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
         )
         for report in found.reports:
             bare = list(found.open.get(report.asset, {}))
