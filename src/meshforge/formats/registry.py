@@ -126,8 +126,8 @@ def _read_head(path: Path) -> bytes:
 
 
 def _unknown_format_error(path: Path) -> AssetError:
-    if told := _UNREAD.get(path.suffix.lower()):
-        return AssetError(told, where=str(path))
+    if reason := _UNREAD.get(path.suffix.lower()):
+        return AssetError(reason, where=str(path))
     guess = nearest_name(path.suffix.lower(), SUFFIXES)
     remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
     return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)

@@ -36,7 +36,7 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
     if len(points) == 0:
         raise GeometryError("a convex hull needs points, there are none", where=name)
     if not (np.abs(points) < _FARTHEST).all():
-        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     center, axes, extents = principal_extents(points)
     flat = extents <= _least_extent(points, extents)
     if thicken is not None and thicken > 0:

@@ -63,7 +63,7 @@ def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | Non
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise GeometryError("a face names a vertex that is not there", where=name)
     if not np.isfinite(vertices[faces]).all():
-        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
     soup = _Soup(vertices, faces, of_face)
     return list(_read_memoized(soup) if len(faces) <= _MOST_MEMOIZED else _read(soup))

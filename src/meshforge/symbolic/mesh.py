@@ -166,10 +166,7 @@ def mask_of(indices: Iterable[int]) -> int:
 
 
 def contact_graph(
-    shapes: Sequence[Shape],
-    reach: float,
-    known: ContactGraph | None = None,
-    kept: Mapping[int, int] | None = None,
+    shapes: Sequence[Shape], reach: float, known: ContactGraph | None = None, kept: Mapping[int, int] | None = None
 ) -> ContactGraph:
     """Distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
 

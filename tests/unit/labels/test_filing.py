@@ -83,7 +83,7 @@ def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path)
     project = partnet(tmp_path, semantics="link_9 hinge door\n")
     file = tmp_path / "assets/semantics.txt"
     assert project.label_from_files() == (
-        LabelOutcome(ASSET, problems=(f"{file}: it tells of no link of this asset",)),
+        LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),
     )
     file.write_text("link_0 slider\n")
     (report,) = project.label_from_files()

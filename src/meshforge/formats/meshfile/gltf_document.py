@@ -135,7 +135,7 @@ def number(owner: Json, key: str, default: float) -> float:
 def report_damage(where: str) -> Iterator[None]:
     """Makes one clear AssetError of all that reading a damaged file may raise."""
     try:
-        with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and told
+        with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and refused
             yield
     except _DAMAGE as error:
         problem = f"{error.args[0]!r} is missing in it" if isinstance(error, KeyError) and error.args else str(error)

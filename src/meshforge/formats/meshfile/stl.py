@@ -72,7 +72,7 @@ def parse_stl(data: bytes, where: str) -> StlText:
             raise AssetError(f"it says it has no triangle, yet {room} may follow", where=where, remedy=_AGAIN)
         return _parse_binary(data, count)
     if text:
-        return _parse_ascii(data, where)
+        return _plain_ascii(data) or _any_ascii(data, where)
     if count < 0 or _is_prose(data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
@@ -100,10 +100,6 @@ def facet_spans(data: bytes) -> Ints:
 def _blank_names(data: bytes) -> bytes:
     """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
     return _NAME.sub(lambda title: b" " * len(title[0]), data)
-
-
-def _parse_ascii(data: bytes, where: str) -> StlText:
-    return _plain_ascii(data) or _any_ascii(data, where)
 
 
 def _plain_ascii(data: bytes) -> StlText | None:

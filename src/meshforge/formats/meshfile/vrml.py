@@ -62,14 +62,14 @@ def _read_surface(node: VrmlNode, world: Floats, name: str | None, where: str) -
     if len(numbers) % 3:
         raise AssetError("its points are not all of three numbers", where=where)
     if not np.isfinite(numbers).all():
-        raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
+        raise AssetError("a coordinate is not a finite number", where=where, remedy="Fix or export it again.")
     points = np.array(numbers, dtype=np.float64).reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
     indices = node.numbers("coordIndex")
     if not all(x.is_integer() for x in indices):
         raise AssetError("a face names a vertex by a number that is not whole", where=where)
     if not all(-1 <= x < len(points) for x in indices):
         raise AssetError(f"a face names a vertex that is not there, there are {len(points)}", where=where)
-    faces = cut_fans(_split_polygons([int(x) for x in indices]))
+    _, faces = cut_fans(_split_polygons([int(x) for x in indices]))
     return [RawSurface(name, points, faces[:, ::-1] if node.word("ccw") == "FALSE" else faces)]
 
 

@@ -70,11 +70,9 @@ class ObjFormat(PlainFormat):
         return {name: shape for name, (shape, _) in meant.items()}, notes
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        return (
-            next_hull_names(parse_obj(document.data, ""), geoms)
-            if document.marked
-            else super().name_hulls(document, geoms)
-        )
+        if not document.marked:
+            return super().name_hulls(document, geoms)
+        return next_hull_names(parse_obj(document.data, ""), geoms)
 
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
         return edit_obj(parse_obj(edit.document.data, str(edit.path)), edit)

@@ -16,14 +16,14 @@ from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
 
 VISUAL_ONLY = ""
-"""Whose triangles are that are only seen; no piece has this name."""
+"""The owner of triangles that are only seen; no piece has this name."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlainDocument(Document):
     """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
 
-    groups: how many groups of the file have faces; marked: whether names mark its hulls, as of `Soup`; then -1 is the
+    groups: how many groups of the file have faces; marked: whether names mark its hulls (see `Soup`); then -1 is the
     owner of what is only seen.
     """
 
@@ -35,7 +35,7 @@ class PlainDocument(Document):
 
     @property
     def owners(self) -> list[str]:
-        """The name of the piece of each triangle, SEEN for what is only seen."""
+        """The name of the piece of each triangle, VISUAL_ONLY for what is only seen."""
         names = [*self.names, VISUAL_ONLY]  # -1 is the last
         return [names[k] for k in self.owner.tolist()]
 
@@ -61,7 +61,7 @@ class TargetTriangles:
 
 
 def owners_of(parts: Sequence[MeshPart]) -> list[str]:
-    """Whose each triangle of a file of these parts should be."""
+    """The owner that each triangle of a file of these parts should have."""
     return [part.name for part in parts for _ in part.surface.faces]
 
 

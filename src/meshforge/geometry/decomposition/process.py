@@ -54,7 +54,7 @@ def run_engine(
         if code != 0 or not target.exists():
             raise GeometryError(
                 f"{settings.engine} crashed ({_last_message(log, code)})",
-                remedy="Try other settings (preprocess_mode, threshold), the other engine, or mend the mesh.",
+                remedy="Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh.",
             )
         return unpack_pieces(target.read_bytes())
 

@@ -45,7 +45,7 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
     if triangles.min() < 0 or triangles.max() >= len(points):
         raise GeometryError(f"a triangle refers to a vertex that is not there (there are {len(points)})")
     if not np.isfinite(points[triangles]).all():
-        raise GeometryError("a coordinate is not a finite number", remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", remedy="Fix the file's vertices.")
     welded, index = np.unique(points[triangles].reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
     welded_faces = index.reshape(-1, 3)
     kept = np.diff(np.sort(welded_faces, axis=1), axis=1).min(axis=1) > 0

@@ -83,14 +83,4 @@ class Each(Action):
         return self.action.makes_hulls
 
 
-ACTIONS: Mapping[str, type[Action]] = {
-    kind.__name__: kind
-    for kind in (
-        Delete,
-        Replace,
-        Add,
-        Merge,
-        Scale,
-        Each,
-    )
-}
+ACTIONS: Mapping[str, type[Action]] = {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}

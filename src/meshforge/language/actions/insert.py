@@ -40,11 +40,7 @@ _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
     "capsule": aabb_capsule,
     "sphere": aabb_sphere,
 }
-_TIGHT_FITS = {
-    "box": tight_box,
-    "cylinder": tight_cylinder,
-    "capsule": tight_capsule,
-}
+_TIGHT_FITS = {"box": tight_box, "cylinder": tight_cylinder, "capsule": tight_capsule}
 
 
 @dataclass(frozen=True, slots=True)
