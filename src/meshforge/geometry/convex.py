@@ -186,7 +186,7 @@ def _bytes_of_rows(points: Floats) -> list[bytes]:
 
 def hull_by_qhull(points: Floats) -> HullIndices | None:
     """The hull by Qhull; None where it finds none."""
-    from scipy.spatial import ConvexHull, QhullError  # half of this room's import time, and hardly ever needed
+    from scipy.spatial import ConvexHull, QhullError  # lazy: half of the import time of geometry, hardly ever needed
 
     try:
         hull = ConvexHull(points)

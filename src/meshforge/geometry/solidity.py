@@ -44,8 +44,8 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
         return SolidityVerdict(None, "flat")
     result = _judge_fill(points, corners, hull)
     if result.shape is None:
-        mended = _judge_fill(points, _align_windings(corners), hull)
-        result = mended if mended.shape else result
+        aligned = _judge_fill(points, _align_windings(corners), hull)
+        result = aligned if aligned.shape else result
     if result.shape is None and _covers(points, corners, hull):
         return SolidityVerdict(hull, None, hull.volume, True)
     return result
@@ -155,7 +155,7 @@ def _align_windings(corners: Ints) -> Ints:
     rows = np.concatenate([one, one + n])
     columns = np.concatenate([other + n * (1 - agree), other + n * agree])
     side = component_roots(rows, columns, 2 * n)
-    turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to mend
+    turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to turn
     out = corners.copy()
     out[turned] = out[turned][:, ::-1]
     return out

@@ -10,7 +10,6 @@ from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.shape import Polytope
 
 _MOST_PAIRS_CHECKED = 50_000_000  # vertices times faces
-
 _MOST_PAIRS_AT_ONCE = 1_000_000  # points times planes; beyond, most are ruled out by the boxes of groups of points
 _GROUP = 128
 
@@ -101,7 +100,7 @@ def planes_of(vertices: Floats, faces: Ints) -> Planes:
     a, b, c = (around[faces[:, k]] for k in range(3))
     normals = cross(b - a, c - a)
     lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))
-    kept = np.flatnonzero(lengths > 1e-10 * float(np.ptp(vertices, axis=0).max()) ** 2)
+    kept = np.flatnonzero(lengths > 1e-10 * _size(vertices) ** 2)
     normals = normals[kept] / lengths[kept, None]
     return Planes(normals, np.einsum("ij,ij->i", normals, a[kept]), middle, kept)
 
@@ -117,8 +116,8 @@ def rises_above(points: Floats, vertices: Floats, faces: Ints, height: float) ->
 
 
 def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
-    """The same in groups of points that are near each other; the box of a group bounds what its points can reach."""
-    from scipy.spatial import cKDTree
+    """Whether any of many points rises above a plane: by groups that lie together, whose box bounds the reach."""
+    from scipy.spatial import cKDTree  # lazy: slow to import, only very large surfaces need it
 
     slopes = np.abs(normals)
     for group in np.array_split(points[cKDTree(points).indices], len(points) // _GROUP + 1):
@@ -132,8 +131,8 @@ def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
 
 def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
     """The number of vertices of each flat polygon of a hull."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    from scipy.sparse import coo_array  # lazy: slow to import, only engine limits and simplifying need it
+    from scipy.sparse.csgraph import connected_components  # lazy: as coo_array
 
     pairs = neighbour_faces(hull.faces)
     normals = normals_of(hull)

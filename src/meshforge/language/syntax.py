@@ -28,7 +28,6 @@ class _Selector:
 
     def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
         """Indices of the hulls selected in the mesh, in the frame it is in."""
-
         assert isinstance(self, All | Is | Attach | Geo | Union | Intersect | Diff)
         return select(self, mesh, extremity)
 

@@ -176,7 +176,7 @@ class LabelMatch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LabelTransfer:
-    """A mesh with the labels of a file; changed, renamed, gone: as of `LabelMatch`."""
+    """A mesh with the labels of a file; changed, renamed, gone: see `LabelMatch`."""
 
     mesh: SymbolicMesh
     changed: tuple[str, ...] = ()

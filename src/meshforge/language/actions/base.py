@@ -105,5 +105,4 @@ class ActionArgument(Argument):
         return None
 
     def fits(self, value: Any) -> bool:
-
         return isinstance(value, Action)
