@@ -49,11 +49,8 @@ def refuse_missing(uses: Iterable[MeshUse]) -> None:
             missing.append(use)
     if missing:
         first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
-        raise AssetError(
-            f"the mesh {_shorten(first.reference)!r} of collision {first.label!r} is not there{others}",
-            where=first.place,
-            remedy=first.resolver.advice(first.reference),
-        )
+        problem = f"the mesh {_shorten(first.reference)!r} of collision {first.label!r} is not there{others}"
+        raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
 
 
 class CollisionMeshes:
@@ -115,11 +112,8 @@ class SourceMeshes:
         """What is in a file. Raises AssetError where it has changed since the asset was read."""
         path = resolver.find(reference)
         if path is None or file_digest(path) != self._digests.get(path):
-            raise AssetError(
-                f"the mesh {reference!r} has changed since the asset was read",
-                where=self._where,
-                remedy="Read the asset again.",
-            )
+            problem = f"the mesh {reference!r} has changed since the asset was read"
+            raise AssetError(problem, where=self._where, remedy="Read the asset again.")
         if path not in self._surfaces:
             self._surfaces[path] = read_triangles(path)
         return self._surfaces[path]

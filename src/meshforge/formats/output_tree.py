@@ -112,11 +112,8 @@ def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
     """Raise AssetError where a reference that climbs out of the folder would put another kind of file there."""
     for target in plan:
         if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
-            raise AssetError(
-                "this is no mesh or texture, and lies outside of the output folder: not written",
-                where=str(target),
-                remedy="Correct the reference to it in the input.",
-            )
+            problem = "this is no mesh or texture, and lies outside of the output folder: not written"
+            raise AssetError(problem, where=str(target), remedy="Correct the reference to it in the input.")
 
 
 def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:

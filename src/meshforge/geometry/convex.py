@@ -44,11 +44,8 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
         if flat.any():
             points = _thicken(points, center, axes[flat], thicken)
     elif flat.any():
-        raise GeometryError(
-            f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)",
-            where=name,
-            remedy="Give the piece a thickness, or delete it.",
-        )
+        problem = f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)"
+        raise GeometryError(problem, where=name, remedy="Give the piece a thickness, or delete it.")
     made = _make_verified_hull(points, name)
     while len(made.vertices) < len(points):  # until nothing more goes: the hull of a hull is that hull
         points, made = made.vertices, _make_verified_hull(made.vertices, name)

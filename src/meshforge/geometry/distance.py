@@ -172,10 +172,8 @@ def split_for_coal(shape: Shape) -> list[Shape]:
     normal, hub = _find_halving_plane(shape, edges)
     halves = [half for half in cut(shape, hub, normal) if half is not None]
     if any(np.bincount(half.faces.ravel()).max() >= edges.max() for half in halves):
-        raise GeometryError(
-            f"a vertex of a hull has {edges.max()} edges, more than can be measured",
-            remedy="Give the hull fewer vertices.",
-        )
+        problem = f"a vertex of a hull has {edges.max()} edges, more than can be measured"
+        raise GeometryError(problem, remedy="Give the hull fewer vertices.")
     return [part for half in halves for part in split_for_coal(half)]
 
 

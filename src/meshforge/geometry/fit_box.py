@@ -24,22 +24,22 @@ _NO_BETTER = 1e-6  # a box that is smaller by less than this share is no better 
 _DIRECTIONS_TRIED = 24  # directions tried from each start in a round
 _ROUNDS = 120
 
-Fitted = TypeVar("Fitted", bound=Shape, covariant=True)
+AnyShape = TypeVar("AnyShape", bound=Shape, covariant=True)
 _MEMO_SIZE = 4096  # fits, a few hundred bytes each
 
 
-class FitFunction(Protocol[Fitted]):
+class FitFunction(Protocol[AnyShape]):
     """A function that fits a shape around points (n, 3); name: what messages call them."""
 
-    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> Fitted: ...
+    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape: ...
 
 
-def memoize_fit(fit: Callable[..., Fitted]) -> FitFunction[Fitted]:
+def memoize_fit(fit: Callable[..., AnyShape]) -> FitFunction[AnyShape]:
     """A fit that does the same points only once; failures are not remembered."""
-    known: OrderedDict[tuple[bytes, float | None], Fitted] = OrderedDict()
+    known: OrderedDict[tuple[bytes, float | None], AnyShape] = OrderedDict()
 
     @wraps(fit)
-    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> Fitted:
+    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape:
         key = blake2b(np.ascontiguousarray(points).data, digest_size=16).digest(), thicken
         fitted = known.pop(key, None) or fit(points, name=name, thicken=thicken)
         known[key] = fitted

@@ -1,8 +1,9 @@
 """The language of programs: extractors, actions, orientation; parsing, printing, evaluating and running them."""
 
-from meshforge.language.actions.arguments import (
+from meshforge.language.actions.base import (
     AXES,
     PRIMITIVES,
+    Action,
     Argument,
     FactorArgument,
     FileArgument,
@@ -10,7 +11,6 @@ from meshforge.language.actions.arguments import (
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.base import Action
 from meshforge.language.actions.basic import ACTIONS, Delete, Each, Merge, Scale
 from meshforge.language.actions.edit import Template
 from meshforge.language.actions.insert import Add, Replace

@@ -135,9 +135,9 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     values = [known[name] for hull in made.sources if (name := hull.parent or hull.name) in known]
     names = dict.fromkeys(name for each in values for name in each)
     differing = [name for name in names if len({each.get(name) for each in values}) > 1]
-    return (
-        f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another" if differing else None
-    )
+    if not differing:
+        return None
+    return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
 
 
 def ensure_valid(shape: Shape, name: str, thickness: float) -> Shape:

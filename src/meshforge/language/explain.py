@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from meshforge.language.actions.arguments import PRIMITIVES, show_number
-from meshforge.language.actions.base import Action
+from meshforge.language.actions.base import PRIMITIVES, Action, show_number
 from meshforge.language.actions.basic import Delete, Each, Merge, Scale
 from meshforge.language.actions.insert import Add, Replace
 from meshforge.language.print import WORD, Rule

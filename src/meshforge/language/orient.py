@@ -95,10 +95,8 @@ def _landmark_centre(mesh: SymbolicMesh, base: BaseExtractor) -> tuple[Floats, s
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
     hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh)))]
     if not hulls:
-        raise ProgramError(
-            f"orient: the landmark {show(base)} selects nothing",
-            remedy="Label the hulls that it should select, or orient by another landmark.",
-        )
+        problem = f"orient: the landmark {show(base)} selects nothing"
+        raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")
     volumes = np.array([hull.volume for hull in hulls])
     centroids = np.array([hull.shape.centroid for hull in hulls])
     return volumes @ centroids / volumes.sum(), join_names([hull.name for hull in hulls])

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import ProgramError
-from meshforge.language.actions.arguments import Argument, FileArgument, TokenKind, join_alternatives
-from meshforge.language.actions.base import Action, ActionArgument
+from meshforge.language.actions.base import Action, ActionArgument, Argument, FileArgument, TokenKind, join_alternatives
 from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.syntax import (

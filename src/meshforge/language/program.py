@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import assert_never
 
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language.actions.arguments import show_number
+from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
 from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
 from meshforge.language.parse import (

@@ -9,14 +9,13 @@ from typing import Literal, assert_never, get_args
 
 from meshforge.common import ProgramError, nearest_name
 from meshforge.geometry import Aabb
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 EXTREMITY = 0.05
 """delta: how near the boundary counts as extreme, as a share of the base selection's diagonal (paper)."""
-
 SLACK = 1e-9
 """Comparisons with a threshold forgive this share of the mesh's diagonal, against rounding."""
 
@@ -74,36 +73,29 @@ class Geo(_Selector):
 
 
 @dataclass(frozen=True, slots=True)
-class Union(_Selector):
+class _SetOperator(_Selector):
+    left: Extractor
+    right: Extractor
+
+    def __post_init__(self) -> None:
+        for operand in (self.left, self.right):
+            if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
+                raise ProgramError(f"{type(self).__name__} takes extractors, not {operand!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Union(_SetOperator):
     """The hulls of either."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Intersect(_Selector):
+class Intersect(_SetOperator):
     """The hulls of both."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Diff(_Selector):
+class Diff(_SetOperator):
     """The hulls of `left` that are not in `right`."""
-
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
 
 
 Extractor = All | Is | Attach | Geo | Union | Intersect | Diff
@@ -134,9 +126,8 @@ class Orient:
             raise ProgramError(f"orient takes one or two landmark pairs, not {len(self.pairs)}")
         axes = [pair.axis for pair in self.pairs]
         if len({axis[1] for axis in axes}) != len(axes):
-            raise ProgramError(
-                f"orient names the axis {axes[0][1]} twice", remedy="Give the second pair another axis than the first."
-            )
+            problem = f"orient names the axis {axes[0][1]} twice"
+            raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
 
 
 def check_label(label: str) -> None:
@@ -158,12 +149,6 @@ def _check_base(node: object, *operands: object) -> None:
                 f"{type(node).__name__} takes All or Is(label), not {operand!r}",
                 remedy="Combine selections with Union, Intersect and Diff instead of nesting them.",
             )
-
-
-def _check_extractors(node: object, *operands: object) -> None:
-    for operand in operands:
-        if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
-            raise ProgramError(f"{type(node).__name__} takes extractors, not {operand!r}")
 
 
 def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
@@ -194,20 +179,12 @@ def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXT
 
 def label_mask(mesh: SymbolicMesh, label: str) -> int:
     """The hulls with a label."""
-    mask = 0
-    for index, hull in enumerate(mesh.hulls):
-        if hull.label == label:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
 
 
 def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:
     """The hulls of `selected` in contact with at least one of `anchor`."""
-    mask = 0
-    for index in bits_of(selected):
-        if mesh.adjacency[index] & anchor:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index in bits_of(selected) if mesh.adjacency[index] & anchor)
 
 
 def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: float = EXTREMITY) -> int:
@@ -217,11 +194,7 @@ def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: flo
     boxes = {index: mesh.hulls[index].aabb for index in bits_of(base)}
     reach = {index: _reach_of(box, direction) for index, box in boxes.items()}
     nearest = max(reach.values()) - extremity * Aabb.union(boxes.values()).diagonal - SLACK * reference_length(mesh)
-    mask = 0
-    for index, value in reach.items():
-        if value >= nearest:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index, value in reach.items() if value >= nearest)
 
 
 def reference_length(mesh: SymbolicMesh) -> float:

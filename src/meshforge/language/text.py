@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from meshforge.common import ProgramError, nearest_name
-from meshforge.language.actions.arguments import join_alternatives
+from meshforge.language.actions.base import join_alternatives
 from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.print import RESERVED
 from meshforge.language.syntax import DIRECTIONS, OPERATORS, check_declared, check_label

@@ -42,13 +42,11 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
         raise AssetError("its nodes lie too deep in each other", where=where, remedy="Export it again.") from error
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
         reason = " ".join(str(error).split())
-        raise AssetError(
-            f"this Collada file cannot be read: {reason}", where=where, remedy="Export it again."
-        ) from error
+        problem = f"this Collada file cannot be read: {reason}"
+        raise AssetError(problem, where=where, remedy="Export it again.") from error
     if not found and geometries:
-        raise AssetError(
-            f"its scene shows no triangle of {pluralize(geometries, 'geometry', 'geometries')}", where=where
-        )
+        problem = f"its scene shows no triangle of {pluralize(geometries, 'geometry', 'geometries')}"
+        raise AssetError(problem, where=where)
     return check_surfaces(found, where)
 
 

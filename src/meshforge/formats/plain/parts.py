@@ -159,11 +159,8 @@ def find_renamed_hulls(
     for name in sorted(hulls, key=natural_key):
         held = back.get(name, set())
         if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
-            raise AssetError(
-                f"the hull {name} cannot be told apart from others in this file",
-                where=where,
-                remedy="Write an OBJ, which has groups, or a folder of files.",
-            )
+            problem = f"the hull {name} cannot be told apart from others in this file"
+            raise AssetError(problem, where=where, remedy="Write an OBJ, which has groups, or a folder of files.")
     read = {name: min(back[name]) for name in back if name in hulls}
     return {name: now for name, now in read.items() if now != name}
 

@@ -89,9 +89,8 @@ def read_semantics(path: Path) -> tuple[LinkSemantics, ...]:
             problem = f"this line has {len(words)} words, not three: {line.strip()[:60]!r}"
             raise AssetError(problem, where=f"{path}:{number}", remedy=_REMEDY)
         if words[0] in found:
-            raise AssetError(
-                f"the link {words[0]!r} is listed twice", where=f"{path}:{number}", remedy="Keep one line."
-            )
+            problem = f"the link {words[0]!r} is listed twice"
+            raise AssetError(problem, where=f"{path}:{number}", remedy="Keep one line.")
         found[words[0]] = LinkSemantics(*words)
     if not found:
         raise AssetError("it lists no link", where=str(path), remedy=_REMEDY)

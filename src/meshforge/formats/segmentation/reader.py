@@ -152,9 +152,8 @@ def _from_array(array: Array, where: str) -> Segmentation:
         ranks = [(rank, key) for key in array.dtype.names if (rank := label_rank_of(key)) is not None]
         if not ranks or not {"x", "y", "z"} <= set(array.dtype.names):
             holds = ", ".join(array.dtype.names)
-            raise AssetError(
-                f"it needs the fields x, y, z and label, it has {holds}", where=where, remedy=_ARRAY_REMEDY
-            )
+            problem = f"it needs the fields x, y, z and label, it has {holds}"
+            raise AssetError(problem, where=where, remedy=_ARRAY_REMEDY)
         points = np.column_stack([array[axis].reshape(-1) for axis in "xyz"])
         return Segmentation(to_whole_numbers(array[min(ranks)[1]], where), _to_points(points, where))
     if array.ndim == 2 and array.shape[1] == 4:

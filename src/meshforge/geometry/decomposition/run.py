@@ -88,10 +88,8 @@ def _check_openness(mesh: TriangleMesh, settings: DecomposeSettings, note: Calla
         return
     problem = f"the mesh is open ({mesh.open_edges} edges of one triangle only)"
     if isinstance(settings, CoacdSettings) and settings.preprocess_mode == "off":
-        raise GeometryError(
-            f"{problem}, and CoACD returns nonsense for open meshes without preprocessing",
-            remedy='Set preprocess_mode to "auto", or close the mesh.',
-        )
+        problem = f"{problem}, and CoACD returns nonsense for open meshes without preprocessing"
+        raise GeometryError(problem, remedy='Set preprocess_mode to "auto", or close the mesh.')
     note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
 
 

@@ -22,15 +22,15 @@ from meshforge.geometry import (
     tight_capsule,
     tight_cylinder,
 )
-from meshforge.language.actions.arguments import (
+from meshforge.language.actions.base import (
     DIRECTION,
     PRIMITIVES,
+    Action,
     FileArgument,
     FlagArgument,
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.syntax import Direction
 
