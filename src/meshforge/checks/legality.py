@@ -82,7 +82,7 @@ HULL_RULES = (
     ),
     HullRule("outward", "faces that look inwards", _REHULL, _is_inward),
 )
-"""In this order: of a hull that breaks several, the first is told, since the others follow from it."""
+"""In this order: of a hull that breaks several, only the first is reported, since the others follow from it."""
 
 
 def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
