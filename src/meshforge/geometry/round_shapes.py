@@ -11,14 +11,14 @@ import numpy as np
 from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.shape import Polytope, PosedShape, Shape, split_scaled_rotation
+from meshforge.geometry.shape import Polytope, PrimitiveShape, Shape, split_scaled_rotation
 
 _RING_POINTS = 8  # a multiple of four, so that a ring reaches +-X and +-Y
 _CYLINDER_SIDES = 32
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Sphere(PosedShape):
+class Sphere(PrimitiveShape):
     """A sphere about the origin of `pose`, whose rotation is kept only to be written back; radius [m]."""
 
     kind: ClassVar[str] = "sphere"
@@ -48,7 +48,7 @@ class Sphere(PosedShape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Ellipsoid(PosedShape):
+class Ellipsoid(PrimitiveShape):
     """An ellipsoid about the origin of `pose`; radii: (3,) semi-axes along the axes of `pose` [m]."""
 
     kind: ClassVar[str] = "ellipsoid"
@@ -86,7 +86,7 @@ class Ellipsoid(PosedShape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cylinder(PosedShape):
+class Cylinder(PrimitiveShape):
     """A cylinder about the Z axis of `pose`, centred; radius, half_length [m]."""
 
     kind: ClassVar[str] = "cylinder"
@@ -125,7 +125,7 @@ class Cylinder(PosedShape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Capsule(PosedShape):
+class Capsule(PrimitiveShape):
     """A capsule about the Z axis of `pose`, centred; radius and half_length of its straight part [m]."""
 
     kind: ClassVar[str] = "capsule"

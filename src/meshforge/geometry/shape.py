@@ -167,7 +167,7 @@ def volume_and_centroid(vertices: Floats, faces: Ints) -> tuple[float, Floats]:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class PosedShape(Shape):
+class PrimitiveShape(Shape):
     """A primitive about the origin of its pose, root_T_primitive."""
 
     pose: Pose
@@ -178,7 +178,7 @@ class PosedShape(Shape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Box(PosedShape):
+class Box(PrimitiveShape):
     """A box about its own centre; half: (3,) half sides along the axes of `pose` [m]."""
 
     kind: ClassVar[str] = "box"
