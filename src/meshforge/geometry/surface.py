@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.shape import Polytope
 
 _MOST_PAIRS_CHECKED = 50_000_000  # vertices times faces
@@ -42,7 +43,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
 
 def neighbour_faces(faces: Ints) -> Ints:
     """The pairs (k, 2) of faces (m, 3) that share an edge."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, _ = edges_of(faces)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
     owners = np.tile(np.arange(len(faces)), 3)[order]
     same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
