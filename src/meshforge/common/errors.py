@@ -69,9 +69,9 @@ def first_validation_error(error: ValidationError) -> str:
     """The complaint about the first field of a JSON file that does not fit, in one line."""
     first = error.errors(include_url=False)[0]
     field = ".".join(str(step) for step in first["loc"])
-    given = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
+    value = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
     at = f"the field {field}: " if field else ""
-    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + given
+    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + value
 
 
 class AssetError(MeshForgeError):

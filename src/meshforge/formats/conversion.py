@@ -63,10 +63,8 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
 
 
 def _loss_of(feature: Feature, target: Format) -> Loss:
-    what = feature.kind
-    return Loss(
-        what, feature.names, feature.reason or _explain_loss(what, target), target.instead.get(what), feature.unnamed
-    )
+    what, why = feature.kind, feature.reason or _explain_loss(feature.kind, target)
+    return Loss(what, feature.names, why, target.instead.get(what), feature.unnamed)
 
 
 def _explain_loss(what: FeatureKind, target: Format) -> str:
@@ -88,10 +86,8 @@ def _find_renamed(output: Output, target: Format) -> list[Loss]:
 
 def _visual_features(asset: Asset) -> Iterator[Feature]:
     """Visuals and their colours."""
-    if not isinstance(asset.visuals, VisualSurfaces):
-        shown: Sequence[Surface | Visual] = asset.visuals
-    else:
-        shown = asset.visuals.visuals
+    visuals = asset.visuals
+    shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     yield _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown])
     yield _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None])
 

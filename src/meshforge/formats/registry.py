@@ -91,11 +91,8 @@ def format_for(path: Path, own: str) -> Format:
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
     found = _formats_of_suffix(path)
-    for known in found:
-        if known.name == own:
-            return known
     if found:
-        return found[0]
+        return next((known for known in found if known.name == own), found[0])
     if own == FOLDER.name or path.is_dir() or not path.suffix:
         return FOLDER
     raise _unknown_format_error(path)

@@ -58,8 +58,8 @@ def _cross_edges(whole: Polytope, heights: Floats) -> Floats:
     through = (heights[start] < 0) & (heights[end] > 0)  # each edge has both senses, in its two faces
     start, end = start[through], end[through]
     share = (heights[start] / (heights[start] - heights[end]))[:, None]
-    met = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
-    return np.concatenate([met, whole.vertices[heights == 0]])
+    crossings = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
+    return np.concatenate([crossings, whole.vertices[heights == 0]])
 
 
 def _hull_of_part(side: Floats, crossing: Floats) -> Polytope | None:

@@ -205,9 +205,9 @@ class _PlaneSearch:
         lengths = np.linalg.norm(slopes, axis=1)
         inner = self.old.mean(axis=0) / self.extents
         rows = np.column_stack([slopes / lengths[:, None], -self.offsets / lengths - growth])
-        met = HalfspaceIntersection(rows, inner).intersections
-        _, first = np.unique(np.round(met / _SAME), axis=0, return_index=True)
-        return np.asarray(met[np.sort(first)] * self.extents)
+        corners = HalfspaceIntersection(rows, inner).intersections
+        _, first = np.unique(np.round(corners / _SAME), axis=0, return_index=True)
+        return np.asarray(corners[np.sort(first)] * self.extents)
 
     def _nearest_below(self, corners: Floats) -> Floats:
         """The nearest point (n, 3) of the hull to each corner."""

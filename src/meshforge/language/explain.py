@@ -17,8 +17,8 @@ def explain(node: Rule | Orient | Extractor) -> str:
     """A sentence for a rule or an orientation, a noun phrase for an extractor."""
     match node:
         case Rule(extractor, action, label):
-            given = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
-            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{given}."
+            relabel = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
+            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{relabel}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
             return _explain_orient(node)

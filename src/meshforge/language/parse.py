@@ -165,9 +165,9 @@ def build_extractor(text: TreeReader, tree: Node) -> Extractor:
 
 def build_orient(text: TreeReader, tree: Node) -> Orient:
     """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
-    given = subtrees_of(tree)
-    pairs = tuple(_build_pair(text, node) for node in given)
-    wrong = given[min(2, len(given) - 1)]
+    nodes = subtrees_of(tree)
+    pairs = tuple(_build_pair(text, node) for node in nodes)
+    wrong = nodes[min(2, len(nodes) - 1)]
     return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
 
 
@@ -224,16 +224,16 @@ def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
 def build_action(text: TreeReader, tree: Node) -> Action:
     """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
     (name,) = tokens_of(tree)[:1]
-    given = [part for part in tree.children[1:] if part is not None]
+    parts = [part for part in tree.children[1:] if part is not None]
     kind = ACTIONS.get(name)
     if kind is None:
         raise _unknown_action(text, name)
     takes = list(kind.arguments().values())
-    if len(given) > len(takes):
-        raise text.error_at(given[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
-    if len(given) < kind.min_arguments():
+    if len(parts) > len(takes):
+        raise text.error_at(parts[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
+    if len(parts) < kind.min_arguments():
         raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
-    values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, given, strict=False)]
+    values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, parts, strict=False)]
     return text.locate_errors(tree, lambda: kind(*values))
 
 

@@ -101,8 +101,8 @@ class Program:
     @property
     def labels_in_use(self) -> tuple[str, ...]:
         """The labels asked for, then those that rules give to what they make."""
-        given = [rule.label for rule in self.rules if rule.label is not None]
-        return tuple(dict.fromkeys([*self.labels_asked, *given]))
+        made = [rule.label for rule in self.rules if rule.label is not None]
+        return tuple(dict.fromkeys([*self.labels_asked, *made]))
 
     @property
     def templates(self) -> tuple[str, ...]:

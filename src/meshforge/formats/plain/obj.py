@@ -65,9 +65,9 @@ class ObjFormat(PlainFormat):
         shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
-        meant = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
-        notes = (MARKED_NOTE, *(note for _, note in meant.values() if note))
-        return {name: shape for name, (shape, _) in meant.items()}, notes
+        readings = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
+        notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
+        return {name: shape for name, (shape, _) in readings.items()}, notes
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
         if not document.marked:
