@@ -26,7 +26,7 @@ from meshforge.language.explain import explain
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import Comments, Rule, show, show_label
-from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_orient, rename_in_program
+from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
 from meshforge.language.syntax import (
     DIRECTIONS,
     EXTREMITY,
@@ -49,6 +49,7 @@ from meshforge.language.syntax import (
     geo_mask,
     labels_of,
     reference_length,
+    rename_in_orient,
     select,
     select_mask,
     size_of,

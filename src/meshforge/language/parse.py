@@ -44,14 +44,9 @@ from meshforge.language.text import (
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
-_SET_OPERATORS: dict[str, type[Union] | type[Intersect] | type[Diff]] = {
-    "union": Union,
-    "intersect": Intersect,
-    "diff": Diff,
-}
 
+_SET_OPERATORS: dict[str, type[Union | Intersect | Diff]] = {"union": Union, "intersect": Intersect, "diff": Diff}
 _TOKEN_KINDS: dict[str, TokenKind] = {"NAME": "word", "STRING": "text", "NUMBER": "number", "DIRECTION": "direction"}
-
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 

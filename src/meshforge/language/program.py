@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import assert_never
 
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language.actions.base import show_number
@@ -23,20 +22,14 @@ from meshforge.language.parse import (
 )
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
 from meshforge.language.syntax import (
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
     Extractor,
-    Geo,
-    Intersect,
-    Is,
     Orient,
-    Union,
     check_declared,
     check_label,
     check_threshold,
     labels_of,
+    rename_in_extractor,
+    rename_in_orient,
 )
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
@@ -169,7 +162,7 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     rules = (
         replace(
             rule,
-            extractor=_rename_in_extractor(rule.extractor, old, new),
+            extractor=rename_in_extractor(rule.extractor, old, new),
             label=new if rule.label == old else rule.label,
         )
         for rule in program.rules
@@ -177,34 +170,6 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     labels = dict.fromkeys(new if label == old else label for label in program.labels)
     orient = rename_in_orient(program.orient, old, new) if program.orient else None
     return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
-
-
-def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
-    """The orientation with a label by another name."""
-    pairs = (
-        replace(pair, start=_rename_in_base(pair.start, old, new), end=_rename_in_base(pair.end, old, new))
-        for pair in orient.pairs
-    )
-    return replace(orient, pairs=tuple(pairs))
-
-
-def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
-    return Is(new) if base == Is(old) else base
-
-
-def _rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
-    """An extractor that asks for the label `new` wherever it asked for `old`."""
-    match node:
-        case All() | Is():
-            return _rename_in_base(node, old, new)
-        case Geo(base, direction):
-            return Geo(_rename_in_base(base, old, new), direction)
-        case Attach(selected, anchor):
-            return Attach(_rename_in_base(selected, old, new), _rename_in_base(anchor, old, new))
-        case Union(left, right) | Intersect(left, right) | Diff(left, right):
-            return type(node)(_rename_in_extractor(left, old, new), _rename_in_extractor(right, old, new))
-        case _:
-            assert_never(node)
 
 
 def _program_lines(program: Program) -> Iterator[str]:

@@ -4,7 +4,7 @@ of a mesh (paper, figures of the DSL and of its semantics)."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, assert_never, get_args
 
 from meshforge.common import ProgramError, nearest_name
@@ -197,6 +197,12 @@ def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: flo
     return mask_of(index for index, value in reach.items() if value >= nearest)
 
 
+def _reach_of(box: Aabb, direction: Direction) -> float:
+    """How far a box reaches along a direction [m]."""
+    axis = "XYZ".index(direction[1])
+    return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
+
+
 def reference_length(mesh: SymbolicMesh) -> float:
     """L, the length [m] that relative thresholds refer to: fixed in a run, else the diagonal."""
     return mesh.diagonal if mesh.scale is None else mesh.scale
@@ -232,10 +238,32 @@ def labels_of(extractor: Extractor) -> tuple[str, ...]:
             assert_never(extractor)
 
 
-def _reach_of(box: Aabb, direction: Direction) -> float:
-    """How far a box reaches along a direction [m]."""
-    axis = "XYZ".index(direction[1])
-    return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
+def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
+    """The orientation with a label by another name."""
+    pairs = (
+        replace(pair, start=_rename_in_base(pair.start, old, new), end=_rename_in_base(pair.end, old, new))
+        for pair in orient.pairs
+    )
+    return replace(orient, pairs=tuple(pairs))
+
+
+def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
+    return Is(new) if base == Is(old) else base
+
+
+def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
+    """An extractor that asks for the label `new` wherever it asked for `old`."""
+    match node:
+        case All() | Is():
+            return _rename_in_base(node, old, new)
+        case Geo(base, direction):
+            return Geo(_rename_in_base(base, old, new), direction)
+        case Attach(selected, anchor):
+            return Attach(_rename_in_base(selected, old, new), _rename_in_base(anchor, old, new))
+        case Union(left, right) | Intersect(left, right) | Diff(left, right):
+            return type(node)(rename_in_extractor(left, old, new), rename_in_extractor(right, old, new))
+        case _:
+            assert_never(node)
 
 
 def check_declared(label: str, declared: tuple[str, ...]) -> None:
