@@ -43,9 +43,9 @@ ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
-"""Those of plain mesh files, which may be pieces of a folder."""
+"""The suffixes of plain mesh files, which may be pieces of a folder."""
 DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
-"""Those of files that name mesh files as their parts."""
+"""The suffixes of files that name mesh files as their parts."""
 
 
 def resolve_asset_path(path: Path) -> Path:

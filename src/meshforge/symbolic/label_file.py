@@ -59,7 +59,7 @@ def _format_row(name: str, label: Label, geometry: str | None) -> str:
 
 
 def read_labels(path: Path) -> LabelFile:
-    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, as of source `file`.
+    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, its labels have the source `file`.
 
     Raises AssetError naming file and hull: unreadable, no JSON, or not of that form.
     """

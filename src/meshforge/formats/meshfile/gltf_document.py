@@ -61,7 +61,7 @@ class Container:
         return next((content for kind, content in self.chunks if kind == _BIN), None)
 
     def with_text(self, text: bytes, binary: bytes | None) -> Container:
-        """The same with another JSON, and another binary chunk where one is given."""
+        """The container with another JSON, and another binary chunk where one is given."""
         chunks = list(self.chunks)
         if binary is not None:
             at = next((k for k, (kind, _) in enumerate(chunks) if kind == _BIN), None)

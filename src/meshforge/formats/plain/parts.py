@@ -126,7 +126,7 @@ def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
 
 
 def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
-    """The hulls and the opaque surfaces of an asset. Raises AssetError where there are none."""
+    """The hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
     seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
     parts = to_parts(asset.geoms)[0] + seen
     if not parts:

@@ -169,7 +169,7 @@ def _renumber_bytes(row: bytes, properties: Sequence[PlyProperty], order: str, n
 
 
 def find_misfits(kind: PlyProperty, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Those of new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
+    """The new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
     if kind.type[0] == "f" and not kind.count:
         return values[:0]
     with np.errstate(invalid="ignore"):

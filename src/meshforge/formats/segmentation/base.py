@@ -21,7 +21,7 @@ LABELS = (
 _LARGEST = 2**31
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
-"""Those of segmented points and meshes."""
+"""The suffixes of segmented points and meshes."""
 _MARK = ".points"
 
 
