@@ -127,7 +127,7 @@ def _moment_of_rod(radius: float, half: float) -> Floats:
 
 
 def _moment_of_capsule(radius: float, half: float) -> Floats:
-    """The moments of a cylinder and the halves of a ball on its ends, whose centroids are 3/8 of their radius above these."""
+    """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
     along = half**2 + 3 / 4 * half * radius + radius**2 / 5
     ends = np.array([radius**2 / 5, radius**2 / 5, along])
     share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
