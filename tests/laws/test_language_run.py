@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull
 
 from meshforge.geometry import Shape
 from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
-from meshforge.language.actions.arguments import Axis
+from meshforge.language.actions.base import Axis
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.examples import examples
 from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules, seeds, shape_of

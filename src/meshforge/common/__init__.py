@@ -1,4 +1,4 @@
-"""TODO"""
+"""What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
 from meshforge.common.errors import (
     AssetError,
@@ -15,6 +15,7 @@ from meshforge.common.errors import (
 from meshforge.common.files import (
     FileStates,
     expand_glob,
+    file_digest,
     file_state,
     file_states,
     is_file,
@@ -38,6 +39,7 @@ __all__ = [
     "UsageError",
     "describe_error",
     "expand_glob",
+    "file_digest",
     "file_state",
     "file_states",
     "first_validation_error",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pydantic import ValidationError
+    from pydantic import ValidationError  # only its name: pydantic is slow to import
 
 
 class MeshForgeError(Exception):
@@ -28,7 +28,7 @@ class MeshForgeError(Exception):
 
     @property
     def sentence(self) -> str:
-        """The same in running text: `where: problem. remedy` in one line."""
+        """The full text in one line: `where: problem. remedy`."""
         head = " ".join(self._head.split())
         return f"{head.rstrip('.')}. {self.remedy}" if self.remedy else head
 
@@ -37,7 +37,7 @@ class MeshForgeError(Exception):
         return f"{self.where}: {self.problem}" if self.where else self.problem
 
     def at(self, where: str) -> MeshForgeError:
-        """The same error, about `where`, when it did not say yet what it is about."""
+        """The error, about `where` when it did not say yet what it is about."""
         return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -69,9 +69,9 @@ def first_validation_error(error: ValidationError) -> str:
     """The complaint about the first field of a JSON file that does not fit, in one line."""
     first = error.errors(include_url=False)[0]
     field = ".".join(str(step) for step in first["loc"])
-    given = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
+    value = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
     at = f"the field {field}: " if field else ""
-    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + given
+    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + value
 
 
 class AssetError(MeshForgeError):

@@ -4,6 +4,7 @@ notices when they change."""
 from __future__ import annotations
 
 import glob
+import hashlib
 import os
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -52,6 +53,12 @@ def file_state(path: Path) -> tuple[int, int] | None:
 def file_states(paths: Iterable[Path]) -> FileStates:
     """When files were changed last, with their sizes."""
     return {path: file_state(path) for path in paths}
+
+
+def file_digest(path: Path) -> str:
+    """A digest of a file's bytes: 32 hexadecimal digits. Raises OSError where it cannot be read."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
 
 
 def is_file(path: Path) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from meshforge.common import join_names, pluralize
+from meshforge.common import AssetError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _PATHS = (
@@ -128,8 +128,6 @@ class Format(ABC):
         raise self._creation_error(asset)
 
     def _creation_error(self, asset: Asset) -> Exception:
-        from meshforge.common import AssetError
-
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
 
     def features(self, asset: Asset) -> Iterable[Feature]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, MeshForgeError
+from meshforge.common import AssetError, MeshForgeError, file_digest
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.references import Resolver
@@ -23,7 +22,7 @@ SurfaceSelector = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[Raw
 class MeshUse:
     """A collision element that refers to a mesh file; label: its name in messages; place: `file:line`.
 
-    part: what of the file it uses, which `CollisionMeshes` was told how to find; empty for all of it.
+    part: what of the file it uses, which the `select` of `CollisionMeshes` finds; empty for all of it.
     """
 
     label: str
@@ -42,30 +41,23 @@ class MeshUse:
 
 def refuse_missing(uses: Iterable[MeshUse]) -> None:
     """Raise AssetError where files are not there: the first, and how many more."""
-    lost: list[MeshUse] = []
+    missing: list[MeshUse] = []
     for use in uses:
         if not use.reference:
             raise AssetError(f"collision {use.label!r} names no mesh file", where=use.place)
         if use.resolver.find(use.reference) is None:
-            lost.append(use)
-    if lost:
-        others = f" (and {len(lost) - 1} more like it)" if len(lost) > 1 else ""
-        raise AssetError(
-            f"the mesh {_shorten(lost[0].reference)!r} of collision {lost[0].label!r} is not there{others}",
-            where=lost[0].place,
-            remedy=lost[0].resolver.advice(lost[0].reference),
-        )
-
-
-def _select_all(surfaces: Sequence[RawSurface], _: tuple[str, ...]) -> Sequence[RawSurface]:
-    return surfaces
+            missing.append(use)
+    if missing:
+        first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
+        problem = f"the mesh {_shorten(first.reference)!r} of collision {first.label!r} is not there{others}"
+        raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
 
 
 class CollisionMeshes:
-    """The mesh files of one asset; chosen: what elements use of them."""
+    """The mesh files of one asset; select: what elements use of them."""
 
-    def __init__(self, chosen: SurfaceSelector = _select_all) -> None:
-        self._chosen = chosen
+    def __init__(self, select: SurfaceSelector = lambda surfaces, _: surfaces) -> None:
+        self._select = select
         self._files: dict[Path, Sequence[RawSurface]] = {}
         self._surfaces: dict[tuple[Path, tuple[str, ...]], Sequence[RawSurface]] = {}
         self._pieces: dict[tuple[Path, tuple[str, ...]], list[Piece]] = {}
@@ -80,13 +72,13 @@ class CollisionMeshes:
             try:
                 if use.path not in self._files:
                     self._files[use.path] = read_triangles(use.path)
-                self._surfaces[key] = self._chosen(self._files[use.path], use.part)
+                self._surfaces[key] = self._select(self._files[use.path], use.part)
             except MeshForgeError as error:
                 raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
         return self._surfaces[key]
 
     def pieces(self, use: MeshUse) -> list[Piece]:
-        """The pieces of the same, in the unit of the file. Raises AssetError as `surfaces`."""
+        """The pieces of what an element uses, in the unit of the file. Raises AssetError as `surfaces` does."""
         key = use.path, use.part
         if key not in self._pieces:
             surfaces = self.surfaces(use)
@@ -106,7 +98,7 @@ class CollisionMeshes:
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""
         several = dict.fromkeys(path for (path, _), pieces in self._pieces.items() if len(pieces) > 1)
-        return tuple((path, digest_of(path)) for path in several)
+        return tuple((path, file_digest(path)) for path in several)
 
 
 class SourceMeshes:
@@ -119,20 +111,12 @@ class SourceMeshes:
     def surfaces(self, reference: str, resolver: Resolver) -> Sequence[RawSurface]:
         """What is in a file. Raises AssetError where it has changed since the asset was read."""
         path = resolver.find(reference)
-        if path is None or digest_of(path) != self._digests.get(path):
-            raise AssetError(
-                f"the mesh {reference!r} has changed since the asset was read",
-                where=self._where,
-                remedy="Read the asset again.",
-            )
+        if path is None or file_digest(path) != self._digests.get(path):
+            problem = f"the mesh {reference!r} has changed since the asset was read"
+            raise AssetError(problem, where=self._where, remedy="Read the asset again.")
         if path not in self._surfaces:
             self._surfaces[path] = read_triangles(path)
         return self._surfaces[path]
-
-
-def digest_of(path: Path) -> str:
-    """A digest of a file's bytes."""
-    return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
 
 
 def _shorten(reference: str) -> str:

@@ -1,5 +1,5 @@
 """Pieces of collision geometry as a reader finds them: convex shapes or surfaces in the root frame, the names that
-files have for them, and the hulls and opaque pieces of an asset that they become."""
+files have for them, and the hulls and non-convex pieces of an asset that they become."""
 
 from __future__ import annotations
 
@@ -11,9 +11,6 @@ import numpy as np
 
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, principal_extents
 from meshforge.symbolic import Geom, Mentions, Opaque, Surface
-
-ElementMentions = Sequence[Sequence[Mentions]]
-"""What else is said of each of them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -27,6 +24,20 @@ class CollisionPiece:
     reason: str = ""
     surface: Surface | None = None
     plane: Pose | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CollisionElement:
+    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and others."""
+
+    link: str
+    names: tuple[str, ...]
+
+
+ElementPieces = Sequence[Sequence[CollisionPiece]]
+"""The pieces of each element, in order."""
+ElementMentions = Sequence[Sequence[Mentions]]
+"""What else the file calls each of them."""
 
 
 def place_pieces(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[CollisionPiece]:
@@ -61,30 +72,28 @@ def turn_z_to(normal: Floats) -> Pose:
     return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
 
 
-ElementPieces = Sequence[Sequence[CollisionPiece]]
-"""The pieces of each element, in order."""
-
-
-def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, told: ElementMentions) -> tuple[Geom, ...]:
+def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
-    pieces = _iterate_pieces(authored, parts, told)
-    return tuple(Geom(name, body, part.shape, mentions=said) for name, body, part, said in pieces if part.shape)
+    pieces = _iterate_pieces(authored, parts, mentions)
+    return tuple(Geom(name, body, part.shape, mentions=own) for name, body, part, own in pieces if part.shape)
 
 
-def opaque_of(authored: Sequence[CollisionElement], parts: ElementPieces, told: ElementMentions) -> tuple[Opaque, ...]:
-    """The pieces that are none."""
+def opaque_of(
+    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
+) -> tuple[Opaque, ...]:
+    """The pieces that are no hulls."""
     return tuple(
-        Opaque(name, body, part.reason, part.surface, part.plane, said)
-        for name, body, part, said in _iterate_pieces(authored, parts, told)
+        Opaque(name, body, part.reason, part.surface, part.plane, own)
+        for name, body, part, own in _iterate_pieces(authored, parts, mentions)
         if part.shape is None
     )
 
 
 def _iterate_pieces(
-    authored: Sequence[CollisionElement], parts: ElementPieces, told: ElementMentions
+    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
 ) -> Iterator[tuple[str, str, CollisionPiece, Mentions]]:
-    """Name, body, piece and what is said of it."""
-    for element, own, words in zip(authored, parts, told, strict=True):
+    """Name, body and mentions of each piece."""
+    for element, own, words in zip(authored, parts, mentions, strict=True):
         for name, part, said in zip(element.names, own, words, strict=True):
             yield name, element.link, part, said
 
@@ -103,7 +112,7 @@ class ShapeNames:
 
 
 def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterable[tuple[str, str]] = ()) -> Mentions:
-    """What is said of a shape that collides; shown: what its body shows; more: what else its file says of it.
+    """What a file calls a shape that collides; shown: what its body shows; more: further mentions.
 
     A visual of the same shape is the shape itself to look at. What else the body shows counts where that is one thing.
     """
@@ -117,7 +126,7 @@ def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterabl
 
 
 def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
-    """The mentions that say something, each name once."""
+    """The mentions without empty ones, each name once."""
     names: dict[str, str] = {}
     for kind, name in found:
         if name and name.strip():
@@ -128,11 +137,3 @@ def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
 def stem_of(reference: str) -> str:
     """The name of a file that is referred to, without folder and suffix."""
     return posixpath.splitext(posixpath.basename(reference.replace("\\", "/").strip()))[0]
-
-
-@dataclass(frozen=True, slots=True)
-class CollisionElement:
-    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and opaque ones."""
-
-    link: str
-    names: tuple[str, ...]

@@ -43,19 +43,19 @@ def report_conversion(
 ) -> ConversionReport:
     """The report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
     own = [*output.lost, *_find_renamed(output, target), *_find_faded_materials(asset, target)]
-    told = [_subtract_losses(feature, own) for feature in (*features_of(asset), *_visual_features(asset))]
-    # a creator sees the asset, not the document: what only that tells is never carried over
+    features = [_subtract_losses(feature, own) for feature in (*features_of(asset), *_visual_features(asset))]
+    # a creator sees the asset, not the document: what only that holds is never converted
     beyond = [f for f in (source.features(asset) if source else ()) if f.count]
-    lost = [f for f in told if f.count and f.kind not in target.holds]
+    lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
-        held=tuple(f for f in told if f.count and f.kind in target.holds),
+        held=tuple(f for f in features if f.count and f.kind in target.holds),
         lost=(*(_loss_of(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
     )
 
 
 def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
-    """A feature without the things that losses tell about."""
+    """A feature without the things that losses are about."""
     like = [loss for loss in losses if loss.kind is feature.kind]
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
@@ -63,17 +63,15 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
 
 
 def _loss_of(feature: Feature, target: Format) -> Loss:
-    what = feature.kind
-    return Loss(
-        what, feature.names, feature.reason or _explain_loss(what, target), target.instead.get(what), feature.unnamed
-    )
+    what, why = feature.kind, feature.reason or _explain_loss(feature.kind, target)
+    return Loss(what, feature.names, why, target.instead.get(what), feature.unnamed)
 
 
 def _explain_loss(what: FeatureKind, target: Format) -> str:
     if what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
-        return f"MeshForge carries their plain colours alone over to {target.title}"
+        return f"MeshForge converts only their plain colours to {target.title}"
     if what in target.could | target.holds:
-        return f"MeshForge does not carry {what.many} over to {target.title}"
+        return f"MeshForge does not convert {what.many} to {target.title}"
     return _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
 
 
@@ -88,10 +86,8 @@ def _find_renamed(output: Output, target: Format) -> list[Loss]:
 
 def _visual_features(asset: Asset) -> Iterator[Feature]:
     """Visuals and their colours."""
-    if not isinstance(asset.visuals, VisualSurfaces):
-        shown: Sequence[Surface | Visual] = asset.visuals
-    else:
-        shown = asset.visuals.visuals
+    visuals = asset.visuals
+    shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     yield _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown])
     yield _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None])
 
@@ -128,7 +124,7 @@ def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
 
 
 def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[Asset, tuple[str, ...]]:
-    """The asset as it stands upright in the target format, and what is to be said about that.
+    """The asset as it stands upright in the target format, and remarks on that for the user.
 
     A format that does not say what is up takes coordinates as they are.
     """
@@ -140,8 +136,8 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
     if wanted is None:
         return asset, (f"coordinates are as they were, {up}-up: {target.title} does not say what is up",)
     turn = _Z_FROM_Y if up == "y" else _Z_FROM_Y.inverse()
-    said = f"the asset is turned about X to stand upright: {source.title} is {up}-up, {target.title} {wanted}-up"
-    return turn_asset(asset, turn), (said,)
+    remark = f"the asset is turned about X to stand upright: {source.title} is {up}-up, {target.title} {wanted}-up"
+    return turn_asset(asset, turn), (remark,)
 
 
 def turn_asset(asset: Asset, turn: Pose) -> Asset:

@@ -13,7 +13,6 @@ from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, FeatureKind, Joint, JointKind, unique_names
 
 _NEAR = 1e-12  # [m] from a link's origin, within which a joint's axis counts as going through it
-
 _ROUNDING = 1e-14  # as a share of the largest number; a few products of rotations make less
 
 
@@ -153,19 +152,10 @@ class _ChainBuilder:
                 f"{below[0]!r} moves freely: it is the root link, which a URDF leaves to its loader to fix or not; "
                 "MuJoCo fixes it, PyBullet does with useFixedBase"
             )
+            name, why = joints[0].name, "the root link of a URDF has none"
+            self.chain.lost.append(Loss(FeatureKind.JOINTS, (name,) if name else (), why, unnamed=int(not name)))
         elif any(joint.kind != "fixed" for joint in joints):
             return None
-        self.chain.lost += [
-            Loss(
-                FeatureKind.JOINTS,
-                (joint.name,) * bool(joint.name),
-                "the root link of a URDF has none",
-                None,
-                not joint.name,
-            )
-            for joint in joints
-            if joint.kind == "floating"
-        ]
         return roots[0]
 
     def _add_root(self) -> str:
@@ -237,8 +227,8 @@ def _link_origin_of(joint: Joint, pose: Pose) -> Floats:
 def perpendicular_to(axis: Floats) -> Floats:
     """A unit vector (3,) across an axis."""
     side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    length: Floats = side / np.linalg.norm(side)
-    return length
+    unit: Floats = side / np.linalg.norm(side)
+    return unit
 
 
 def _is_identity(pose: Pose) -> bool:

@@ -29,15 +29,8 @@ def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     path = resolve_asset_path(Path(path))
     asset = format_of(path).read(path, options or ReadOptions.from_environment())
     refuse_far(asset)
-    found = [note for note in (_note_if_empty(asset), note_if_odd_size(asset)) if note]
-    return replace(asset, notes=(*asset.notes, *found)) if found else asset
-
-
-def _note_if_empty(asset: Asset) -> str | None:
-    """A note on an asset that holds nothing to reason about."""
-    if asset.geoms or asset.opaque:
-        return None
-    return NO_GEOMETRY
+    note = note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY
+    return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
 def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:
@@ -87,11 +80,11 @@ def refuse_far(asset: Asset) -> None:
     for name, points in (corners | surfaces).items():
         if not (np.abs(points) <= FARTHEST).all():  # true of NaN as well
             problem = f"{name} reaches beyond all numbers that are read, {FARTHEST:g} m"
-            raise AssetError(problem, where=str(asset.path), remedy="Mend its place, its size or its scale.")
+            raise AssetError(problem, where=str(asset.path), remedy="Fix its place, its size or its scale.")
 
 
 def note_if_odd_size(asset: Asset) -> str | None:
-    """What to tell about the size of an asset, None where that is usual."""
+    """A note on the size of an asset, None where that is usual."""
     points = [corner for geom in asset.geoms for box in [geom.shape.aabb] for corner in (box.min, box.max)]
     surfaces = [o.surface.vertices[np.unique(o.surface.faces)] for o in asset.opaque if o.surface]
     corners = np.concatenate([*(p[None] for p in points), *surfaces]) if points or surfaces else np.zeros((0, 3))

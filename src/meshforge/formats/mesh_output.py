@@ -15,7 +15,7 @@ from meshforge.common import MeshForgeError
 from meshforge.formats.companions import find_companions
 from meshforge.formats.kinematic_tree import drop_rounding
 from meshforge.formats.mesh_reader import read_triangles
-from meshforge.formats.meshfile.surface import join_surfaces
+from meshforge.formats.meshfile.surface import join_surfaces, stack_triangles
 from meshforge.formats.plain.obj_text import format_obj_rows
 from meshforge.formats.references import Resolver, placement
 from meshforge.formats.visuals import Rgba, Visual
@@ -59,7 +59,7 @@ class HullFiles:
             stem, number = f"{safe}_{number}", number + 1
         self.taken.add(stem.lower())
         reference = f"{folder}{stem}.obj"
-        self.made[self._placement_of(reference) or f"{stem}.obj"] = format_hull(vertices, faces)
+        self.made[self._placement_of(reference) or f"{stem}.obj"] = format_obj_rows(vertices, faces)
         return reference
 
     def folder_of(self, reference: str | None) -> str:
@@ -75,11 +75,6 @@ class HullFiles:
 
     def _placement_of(self, reference: str) -> str | None:
         return self.resolver.place(reference) if self.resolver else placement(reference)
-
-
-def format_hull(vertices: Floats, faces: Ints) -> bytes:
-    """An OBJ of vertices (n, 3) in full precision and triangles (m, 3)."""
-    return format_obj_rows(vertices, faces)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -162,9 +157,7 @@ class VisualFiles:
         if not surfaces:
             self.refused.append(body)
             return None
-        starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
-        faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
-        reference = self._make_obj(f"{body}-visual", np.concatenate([s.vertices for s in surfaces]), faces)
+        reference = self._make_obj(f"{body}-visual", *stack_triangles((s.vertices, s.faces) for s in surfaces))
         return LinkVisual(reference, Pose.identity(), np.ones(3), visual.rgba)
 
     def _make_obj(self, name: str, vertices: Floats, faces: Ints) -> str:

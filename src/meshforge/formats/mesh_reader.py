@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import AssetError
+from meshforge.formats.meshfile.dae import parse_dae
+from meshforge.formats.meshfile.gltf_scene import parse_gltf
+from meshforge.formats.meshfile.obj import parse_obj
+from meshforge.formats.meshfile.ply import parse_ply
+from meshforge.formats.meshfile.stl import parse_stl
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
+from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.geometry import Piece, split_pieces
 
 READABLE_MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
@@ -33,80 +39,9 @@ _ROOTS = {
     "x3d": ("an X3D file", ""),
     "error": ("the error of a web server", ""),
 }
-_MESHES = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
-"""The suffixes of files that never are XML."""
+_NEVER_XML = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
 
 Mismatch = tuple[str, str | None]
-
-
-def read_triangles(path: Path) -> list[RawSurface]:
-    """The surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
-
-    Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
-    """
-    if path.suffix.lower() not in READABLE_MESH_SUFFIXES:
-        raise _unknown_kind_error(path)
-    return parse_surfaces(read_content(path), path)
-
-
-def read_content(path: Path) -> bytes:
-    """The bytes of a file.
-
-    Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
-    """
-    try:
-        if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
-            raise AssetError("cannot be read: it is a folder, a pipe or a device", where=str(path))
-        data = path.read_bytes()
-    except OSError as error:
-        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
-    refuse_lookalike(data, path)
-    return data
-
-
-def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
-    """The surfaces in the bytes of the mesh file at a path. Raises AssetError."""
-    where = str(path)
-    match path.suffix.lower():
-        case ".obj":
-            from meshforge.formats.meshfile.obj import parse_obj
-
-            return parse_obj(data, where).surfaces(where)
-        case ".stl":
-            from meshforge.formats.meshfile.stl import parse_stl
-
-            return parse_stl(data, where).surfaces(where)
-        case ".ply":
-            from meshforge.formats.meshfile.ply import parse_ply
-
-            return parse_ply(data, where).surfaces(where)
-        case ".dae":
-            from meshforge.formats.meshfile.dae import parse_dae
-
-            return parse_dae(data, where)
-        case ".glb" | ".gltf":
-            from meshforge.formats.meshfile.gltf_scene import parse_gltf
-
-            return parse_gltf(data, path)
-        case ".wrl":
-            from meshforge.formats.meshfile.vrml import parse_vrml
-
-            return parse_vrml(data, where)
-    raise _unknown_kind_error(path)
-
-
-def split_into_pieces(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
-    """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
-    if not surfaces:
-        return []
-    soup = join_surfaces(surfaces)
-    return split_pieces(soup.vertices, soup.faces, name=name, groups=soup.group)
-
-
-def _unknown_kind_error(path: Path) -> AssetError:
-    kind = path.suffix or "a file without suffix"
-    remedy = f"It reads {', '.join(READABLE_MESH_SUFFIXES)}."
-    return AssetError(f"{kind} is no mesh file that MeshForge reads", where=str(path), remedy=remedy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +83,64 @@ _SIGNATURES = (
 )
 
 
+def read_triangles(path: Path) -> list[RawSurface]:
+    """The surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
+
+    Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
+    """
+    if path.suffix.lower() not in READABLE_MESH_SUFFIXES:
+        raise _unknown_kind_error(path)
+    return parse_surfaces(read_content(path), path)
+
+
+def read_content(path: Path) -> bytes:
+    """The bytes of a file.
+
+    Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
+    """
+    try:
+        if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
+            raise AssetError("cannot be read: it is a folder, a pipe or a device", where=str(path))
+        data = path.read_bytes()
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    refuse_lookalike(data, path)
+    return data
+
+
+def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
+    """The surfaces in the bytes of the mesh file at a path. Raises AssetError."""
+    where = str(path)
+    match path.suffix.lower():
+        case ".obj":
+            return parse_obj(data, where).surfaces(where)
+        case ".stl":
+            return parse_stl(data, where).surfaces(where)
+        case ".ply":
+            return parse_ply(data, where).surfaces(where)
+        case ".dae":
+            return parse_dae(data, where)
+        case ".glb" | ".gltf":
+            return parse_gltf(data, path)
+        case ".wrl":
+            return parse_vrml(data, where)
+    raise _unknown_kind_error(path)
+
+
+def split_into_pieces(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
+    """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
+    if not surfaces:
+        return []
+    soup = join_surfaces(surfaces)
+    return split_pieces(soup.vertices, soup.faces, name=name, groups=soup.group)
+
+
+def _unknown_kind_error(path: Path) -> AssetError:
+    kind = path.suffix or "a file without suffix"
+    remedy = f"It reads {', '.join(READABLE_MESH_SUFFIXES)}."
+    return AssetError(f"{kind} is no mesh file that MeshForge reads", where=str(path), remedy=remedy)
+
+
 def refuse_lookalike(data: bytes, path: Path) -> None:
     """Raise AssetError where the bytes of a file plainly are something else than its suffix says."""
     suffix = path.suffix.lower()
@@ -173,45 +166,43 @@ def _check_empty(data: bytes) -> Mismatch | None:
 
 
 def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
-    binary = is_binary_stl(data)
-    if binary:
+    if is_binary_stl(data):
         return None if suffix == ".stl" else _wrong_suffix("a binary STL file", ".stl")
-    checks: tuple[Callable[[bytes, str], Mismatch | None], ...] = (
-        _check_utf16,
-        _check_signature,
-        _check_markup,
-        _check_merge_conflict,
+    return (
+        _check_utf16(data, suffix)
+        or _check_signature(data, suffix)
+        or _check_markup(data, suffix)
+        or _check_merge_conflict(data)
     )
-    return next((found for check in checks if (found := check(data, suffix))), None)
 
 
 def _check_utf16(data: bytes, suffix: str) -> Mismatch | None:
     """Text in UTF-16, which XML files may be."""
-    if suffix in _MESHES and data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return "this is text in UTF-16", "Save it as plain text (ASCII or UTF-8)."
     return None
 
 
 def _check_signature(data: bytes, suffix: str) -> Mismatch | None:
-    for look in _SIGNATURES:
-        if look.begins.match(data[:_HEAD]):
-            if suffix in look.suffixes:
+    for known in _SIGNATURES:
+        if known.begins.match(data[:_HEAD]):
+            if suffix in known.suffixes:
                 return None
-            if look.remedy or not look.suffixes:
-                return f"this is {look.name}", look.remedy
-            return _wrong_suffix(look.name, look.suffixes[0])
+            if known.remedy or not known.suffixes:
+                return f"this is {known.name}", known.remedy
+            return _wrong_suffix(known.name, known.suffixes[0])
     return None
 
 
 def _check_markup(data: bytes, suffix: str) -> Mismatch | None:
-    if suffix not in _MESHES or not (root := _XML.match(data[:_HEAD].removeprefix(_MARK))):
+    if suffix not in _NEVER_XML or not (root := _XML.match(data[:_HEAD].removeprefix(_MARK))):
         return None
     tag = root[1].decode("ascii", "replace")
     name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
     return _wrong_suffix(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
 
 
-def _check_merge_conflict(data: bytes, suffix: str) -> Mismatch | None:
+def _check_merge_conflict(data: bytes) -> Mismatch | None:
     if b"<<<<<<< " in data and _CONFLICT.search(data):
         return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
     return None

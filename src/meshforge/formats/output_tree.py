@@ -66,7 +66,7 @@ def save(
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
     known = format_with_names(known, names) if names else known
-    output, told = _make_output(asset, known, out.name, mass)
+    output, report = _make_output(asset, known, out.name, mass)
     plan = _plan_files(output, out, known.is_folder)
     _refuse_outside(plan, out if known.is_folder else out.parent)
     _refuse_overwrite(plan, asset, overwrite)
@@ -76,18 +76,18 @@ def save(
             _put_file(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
         path.unlink()
-    return SaveResult(out, tuple(plan), told.sentences, output.names, told)
+    return SaveResult(out, tuple(plan), report.sentences, output.names, report)
 
 
 def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, ConversionReport]:
-    """The files of an asset in its own format or another, and what there is to say about them."""
+    """The files of an asset in its own format or another, and the report on them."""
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
         return output, ConversionReport(remarks=output.notes)
     source = next((own for own in FORMATS if own.name == asset.format), None)
-    standing, said = turn_upright(asset, source, known)
-    output = known.create(standing, name)
-    return output, report_conversion(standing, source, known, output, said)
+    upright, remarks = turn_upright(asset, source, known)
+    output = known.create(upright, name)
+    return output, report_conversion(upright, source, known, output, remarks)
 
 
 def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
@@ -112,11 +112,8 @@ def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
     """Raise AssetError where a reference that climbs out of the folder would put another kind of file there."""
     for target in plan:
         if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
-            raise AssetError(
-                "this is no mesh or texture, and lies outside of the output folder: not written",
-                where=str(target),
-                remedy="Correct the reference to it in the input.",
-            )
+            problem = "this is no mesh or texture, and lies outside of the output folder: not written"
+            raise AssetError(problem, where=str(target), remedy="Correct the reference to it in the input.")
 
 
 def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:

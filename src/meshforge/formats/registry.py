@@ -43,9 +43,9 @@ ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
-"""Those of plain mesh files, which may be pieces of a folder."""
+"""The suffixes of plain mesh files, which may be pieces of a folder."""
 DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
-"""Those of files that name mesh files as their parts."""
+"""The suffixes of files that name mesh files as their parts."""
 
 
 def resolve_asset_path(path: Path) -> Path:
@@ -91,11 +91,8 @@ def format_for(path: Path, own: str) -> Format:
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
     found = _formats_of_suffix(path)
-    for known in found:
-        if known.name == own:
-            return known
     if found:
-        return found[0]
+        return next((known for known in found if known.name == own), found[0])
     if own == FOLDER.name or path.is_dir() or not path.suffix:
         return FOLDER
     raise _unknown_format_error(path)
@@ -126,8 +123,8 @@ def _read_head(path: Path) -> bytes:
 
 
 def _unknown_format_error(path: Path) -> AssetError:
-    if told := _UNREAD.get(path.suffix.lower()):
-        return AssetError(told, where=str(path))
+    if reason := _UNREAD.get(path.suffix.lower()):
+        return AssetError(reason, where=str(path))
     guess = nearest_name(path.suffix.lower(), SUFFIXES)
     remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
     return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)

@@ -155,7 +155,7 @@ class XmlText:
 
 
 def blank_markup(data: bytes) -> bytes:
-    """The same bytes with spaces for comments, raw text, processing instructions and a plain document type.
+    """The bytes of a text with spaces for comments, raw text, processing instructions and a plain document type.
 
     Engines read past an XML declaration of version 0.0 or after blank lines, and past `--` in comments; a strict
     parser does not. Offsets and lines stay. A document type with declarations of its own stays too, to be refused.

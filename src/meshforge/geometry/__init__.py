@@ -4,11 +4,9 @@ from meshforge.geometry.aabb import Aabb, bounds
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints, nearest_on_triangles
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
 from meshforge.geometry.cut import cut, intersect, partition
-from meshforge.geometry.decomposition.cache import cache_folder
-from meshforge.geometry.decomposition.run import decompose
+from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.geometry.decomposition.sheet import is_line, is_sheet, sheet_hulls
-from meshforge.geometry.decomposition.triangles import volume_inside
+from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit_box import tight_box

@@ -51,6 +51,10 @@ class Aabb:
         """Length of the spatial diagonal [m]."""
         return dist(self.min.tolist(), self.max.tolist())
 
+    def intersects(self, other: Aabb) -> bool:
+        """Whether two boxes have more in common than a side, an edge or a corner."""
+        return bool((np.maximum(self.min, other.min) < np.minimum(self.max, other.max)).all())
+
     @property
     def corners(self) -> Floats:
         """The eight corners (8, 3)."""

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
+Bools = npt.NDArray[np.bool_]
+Number = TypeVar("Number", np.float64, np.int64)
 
 _TINY = 1e-300
-
-Bools = npt.NDArray[np.bool_]
 
 
 def freeze_floats(values: Any, shape: tuple[int, ...]) -> Floats:
@@ -20,20 +20,19 @@ def freeze_floats(values: Any, shape: tuple[int, ...]) -> Floats:
 
     Raises: ValueError where the shape does not fit.
     """
-    array = np.array(values, dtype=np.float64, order="C")
-    if array.size == 0 and -1 in shape:
-        array = array.reshape([0 if n == -1 else n for n in shape])
-    _check_shape(array.shape, shape)
-    array.setflags(write=False)
-    return array
+    return _freeze(np.array(values, dtype=np.float64, order="C"), shape)
 
 
 def freeze_ints(values: Any, shape: tuple[int, ...]) -> Ints:
-    """A write-protected int64 copy of `values`; -1 in `shape` stands for any length."""
-    array = np.array(values, dtype=np.int64, order="C")
+    """A write-protected int64 copy of `values`, as `freeze_floats` makes one."""
+    return _freeze(np.array(values, dtype=np.int64, order="C"), shape)
+
+
+def _freeze(array: npt.NDArray[Number], shape: tuple[int, ...]) -> npt.NDArray[Number]:
     if array.size == 0 and -1 in shape:
         array = array.reshape([0 if n == -1 else n for n in shape])
-    _check_shape(array.shape, shape)
+    if len(array.shape) != len(shape) or not all(w in (-1, a) for a, w in zip(array.shape, shape, strict=True)):
+        raise ValueError(f"an array of shape {shape} was expected, not {array.shape}")
     array.setflags(write=False)
     return array
 
@@ -44,12 +43,6 @@ def cross(a: Floats, b: Floats) -> Floats:
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         out[:, k] = a[:, i] * b[:, j] - a[:, j] * b[:, i]
     return out
-
-
-def _check_shape(actual: tuple[int, ...], wanted: tuple[int, ...]) -> None:
-    fits = len(actual) == len(wanted) and all(w in (-1, a) for a, w in zip(actual, wanted, strict=True))
-    if not fits:
-        raise ValueError(f"an array of shape {wanted} was expected, not {actual}")
 
 
 def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
@@ -73,7 +66,7 @@ def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
 
 
 def _nearest_on_edges(points: Floats, corners: Floats) -> Floats:
-    """The same for the outlines of the triangles."""
+    """The nearest point (n, 3) on the outline of each triangle."""
     start, along = corners, corners[:, [1, 2, 0]] - corners
     ahead = np.einsum("ikj,ikj->ik", points[:, None] - start, along)
     length = np.einsum("ikj,ikj->ik", along, along)

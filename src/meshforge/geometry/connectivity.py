@@ -31,7 +31,7 @@ def weld_nearly(points: Floats, corners: Ints, reach: float) -> Ints | None:
 
     Only points that are corners take part; None where no two are that near.
     """
-    from scipy.spatial import cKDTree  # a third of the time that all imports take, and seldom needed
+    from scipy.spatial import cKDTree  # lazy: a third of the time that all imports take, and seldom needed
 
     used = np.unique(corners)
     pairs = cKDTree(points[used]).query_pairs(reach, output_type="ndarray")
@@ -94,7 +94,7 @@ def component_roots(a: Ints, b: Ints, count: int) -> Ints:
 
 
 def number_by_occurrence(labels: Ints) -> Ints:
-    """The same partition, numbered by first occurrence."""
+    """Labels (n,) of a partition, numbered by their first occurrence."""
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
     rank: Ints = np.argsort(np.argsort(first))
     return rank[inverse.reshape(-1)]

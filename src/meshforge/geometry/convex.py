@@ -36,7 +36,7 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
     if len(points) == 0:
         raise GeometryError("a convex hull needs points, there are none", where=name)
     if not (np.abs(points) < _FARTHEST).all():
-        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     center, axes, extents = principal_extents(points)
     flat = extents <= _least_extent(points, extents)
     if thicken is not None and thicken > 0:
@@ -44,11 +44,8 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
         if flat.any():
             points = _thicken(points, center, axes[flat], thicken)
     elif flat.any():
-        raise GeometryError(
-            f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)",
-            where=name,
-            remedy="Give the piece a thickness, or delete it.",
-        )
+        problem = f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)"
+        raise GeometryError(problem, where=name, remedy="Give the piece a thickness, or delete it.")
     made = _make_verified_hull(points, name)
     while len(made.vertices) < len(points):  # until nothing more goes: the hull of a hull is that hull
         points, made = made.vertices, _make_verified_hull(made.vertices, name)
@@ -186,7 +183,7 @@ def _bytes_of_rows(points: Floats) -> list[bytes]:
 
 def hull_by_qhull(points: Floats) -> HullIndices | None:
     """The hull by Qhull; None where it finds none."""
-    from scipy.spatial import ConvexHull, QhullError  # half of this room's import time, and hardly ever needed
+    from scipy.spatial import ConvexHull, QhullError  # lazy: half of the import time of geometry, hardly ever needed
 
     try:
         hull = ConvexHull(points)

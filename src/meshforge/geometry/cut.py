@@ -58,8 +58,8 @@ def _cross_edges(whole: Polytope, heights: Floats) -> Floats:
     through = (heights[start] < 0) & (heights[end] > 0)  # each edge has both senses, in its two faces
     start, end = start[through], end[through]
     share = (heights[start] / (heights[start] - heights[end]))[:, None]
-    met = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
-    return np.concatenate([met, whole.vertices[heights == 0]])
+    crossings = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
+    return np.concatenate([crossings, whole.vertices[heights == 0]])
 
 
 def _hull_of_part(side: Floats, crossing: Floats) -> Polytope | None:
@@ -84,12 +84,11 @@ def intersect(a: Shape, b: Shape) -> Polytope | None:
 
     Round primitives count as their tessellations.
     """
-    low, high = np.maximum(a.aabb.min, b.aabb.min), np.minimum(a.aabb.max, b.aabb.max)
-    if not (low < high).all():
+    if not a.aabb.intersects(b.aabb):
         return None
     bounds = Aabb.union([a.aabb, b.aabb])
-    met = to_manifold(a.tessellate(), bounds) ^ to_manifold(b.tessellate(), bounds)
-    corners = np.asarray(met.to_mesh64().vert_properties, dtype=np.float64)[:, :3] * bounds.diagonal + bounds.center
+    common = to_manifold(a.tessellate(), bounds) ^ to_manifold(b.tessellate(), bounds)
+    corners = np.asarray(common.to_mesh64().vert_properties, dtype=np.float64)[:, :3] * bounds.diagonal + bounds.center
     return convex_hull(corners, name="the common part") if len(corners) > 3 and spans_volume(corners) else None
 
 

@@ -32,19 +32,9 @@ _ITERATIONS = 512  # thin shapes need more than the default, 128
 CoalObject = tuple[Any, Any]
 """coal's geometry, and its transform."""
 
-_POOLED_SIZES = (
-    8,
-    16,
-    24,
-    32,
-    48,
-    64,
-    96,
-    128,
-    192,
-)  # of vessels; on more vertices climbing is worth the price of edges
+_POOLED_SIZES = (8, 16, 24, 32, 48, 64, 96, 128, 192)  # vertices; of more, climbing is worth the price of edges
 _MOST_WITHOUT_EDGES = 32  # coal looks at every vertex of a polytope that has no more, and needs no edges
-_POOL_SIZE = 64  # vessels of a size that are kept
+_POOL_SIZE = 64  # pooled polytopes of a size that are kept
 _TURNS = 32  # of a plane, to find the best one
 _MOST_EDGES = 254  # at a vertex; coal counts them in a byte
 _IDENTITY = coal.Transform3s()
@@ -129,9 +119,9 @@ class CoalFrame:
         try:
             yield self._place_all(shapes, filled)
         finally:
-            for vessel in filled:
-                if len(idle := _pool[vessel.size]) < _POOL_SIZE:
-                    idle.append(vessel)
+            for pooled in filled:
+                if len(idle := _pool[pooled.size]) < _POOL_SIZE:
+                    idle.append(pooled)
 
     def _place_all(self, shapes: Sequence[Shape], filled: list[_PoolPolytope]) -> list[CoalObject]:
         polytopes = [shape.vertices for shape in shapes if isinstance(shape, Polytope)]
@@ -147,9 +137,9 @@ class CoalFrame:
             if stop - start > _POOLED_SIZES[-1]:
                 placed.append((_polytope_of_arrays(points[start:stop], shape.faces), _IDENTITY))
                 continue
-            vessel = _take_from_pool(points[start:stop])
-            filled.append(vessel)
-            placed.append((vessel.shape, _IDENTITY))
+            pooled = _take_from_pool(points[start:stop])
+            filled.append(pooled)
+            placed.append((pooled.shape, _IDENTITY))
         return placed
 
     def _place_primitive(self, shape: Shape) -> CoalObject:
@@ -182,10 +172,8 @@ def split_for_coal(shape: Shape) -> list[Shape]:
     normal, hub = _find_halving_plane(shape, edges)
     halves = [half for half in cut(shape, hub, normal) if half is not None]
     if any(np.bincount(half.faces.ravel()).max() >= edges.max() for half in halves):
-        raise GeometryError(
-            f"a vertex of a hull has {edges.max()} edges, more than can be measured",
-            remedy="Give the hull fewer vertices.",
-        )
+        problem = f"a vertex of a hull has {edges.max()} edges, more than can be measured"
+        raise GeometryError(problem, remedy="Give the hull fewer vertices.")
     return [part for half in halves for part in split_for_coal(half)]
 
 
@@ -213,17 +201,17 @@ class _PoolPolytope(NamedTuple):
 
 
 def _take_from_pool(points: Floats) -> _PoolPolytope:
-    """A vessel that holds points (n, 3), n at most the largest size; what it has too many is the first of them."""
+    """A pooled polytope of points (n, 3), n at most the largest size; what it has too many is the first of them."""
     count = len(points)
     size = _POOLED_SIZES[bisect_left(_POOLED_SIZES, count)]
     try:
-        vessel = _pool[size].pop()
+        pooled = _pool[size].pop()
     except IndexError:
-        vessel = _make_pool_polytope(size)
-    vessel.points[:count] = points
+        pooled = _make_pool_polytope(size)
+    pooled.points[:count] = points
     if count < size:
-        vessel.points[count:] = points[0]
-    return vessel
+        pooled.points[count:] = points[0]
+    return pooled
 
 
 def _make_pool_polytope(size: int) -> _PoolPolytope:

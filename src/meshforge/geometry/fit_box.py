@@ -16,27 +16,30 @@ from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.pose import Pose, quaternions_of_rotations, rotations_of_quaternions
 from meshforge.geometry.shape import Box, Polytope, Shape
 
-_MOST_SIDES, _LEAST_SIDES, _SIDE_WORK = (
-    48,
-    12,
-    5000,
-)  # faces and edges, the largest first, that a box is laid against; fewer of many
+_MOST_SIDES, _LEAST_SIDES = 48, 12  # faces and edges, the largest first, that a box is laid against
+_SIDE_WORK = 5000  # these times the vertices; of more vertices, fewer sides
 _STARTS = 24
 _NO_BETTER = 1e-6  # a box that is smaller by less than this share is no better than an upright one
 
 _DIRECTIONS_TRIED = 24  # directions tried from each start in a round
 _ROUNDS = 120
 
-Fitted = TypeVar("Fitted", bound=Shape, covariant=True)
+AnyShape = TypeVar("AnyShape", bound=Shape, covariant=True)
 _MEMO_SIZE = 4096  # fits, a few hundred bytes each
 
 
-def memoize_fit(fit: Callable[..., Fitted]) -> FitFunction[Fitted]:
-    """The same function, which does the same points only once; failures are not remembered."""
-    known: OrderedDict[tuple[bytes, float | None], Fitted] = OrderedDict()
+class FitFunction(Protocol[AnyShape]):
+    """A function that fits a shape around points (n, 3); name: what messages call them."""
+
+    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape: ...
+
+
+def memoize_fit(fit: Callable[..., AnyShape]) -> FitFunction[AnyShape]:
+    """A fit that does the same points only once; failures are not remembered."""
+    known: OrderedDict[tuple[bytes, float | None], AnyShape] = OrderedDict()
 
     @wraps(fit)
-    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> Fitted:
+    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape:
         key = blake2b(np.ascontiguousarray(points).data, digest_size=16).digest(), thicken
         fitted = known.pop(key, None) or fit(points, name=name, thicken=thicken)
         known[key] = fitted
@@ -108,7 +111,7 @@ def _box_volumes(corners: Floats, rotations: Floats) -> Floats:
 
 
 def _turn_least(rotation: Floats) -> Floats:
-    """The same box's axes in the order and the senses that turn least."""
+    """The axes (3, 3) of a box in the order and the senses that turn least."""
     orders = [rotation[list(order)] * np.array(signs)[:, None] for order in itertools.permutations(range(3))
               for signs in itertools.product((1.0, -1.0), repeat=3)]  # fmt: skip
     proper = [axes for axes in orders if np.linalg.det(axes) > 0]
@@ -137,9 +140,3 @@ def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) 
         steps = steps * np.where(better, 1.6, 0.6)
     lowest: Floats = points[int(np.argmin(values))]
     return lowest
-
-
-class FitFunction(Protocol[Fitted]):
-    """A function that fits a shape around points (n, 3); name: what messages call them."""
-
-    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> Fitted: ...

@@ -23,8 +23,7 @@ def overlap_volume(a: Shape, b: Shape) -> float:
     Polytopes and boxes: to 1e-9 of the smaller volume. Round primitives are finely tessellated to their exact volume,
     which leaves an error of about 0.1% of the smaller volume.
     """
-    low, high = np.maximum(a.aabb.min, b.aabb.min), np.minimum(a.aabb.max, b.aabb.max)
-    if not (low < high).all():
+    if not a.aabb.intersects(b.aabb):
         return 0.0
     bounds = Aabb.union([a.aabb, b.aabb])
     common = to_manifold(a, bounds) ^ to_manifold(b, bounds)
@@ -75,12 +74,12 @@ def _tessellate(shape: Sphere | Ellipsoid | Cylinder | Capsule) -> Any:
             length = 2 * shape.half_length
             return manifold3d.Manifold.cylinder(length, shape.radius, shape.radius, _SEGMENTS, center=True)
         case Capsule():
-            return _tessellate_capsule(shape.radius, shape.half_length)
+            return _revolve_capsule(shape.radius, shape.half_length)
         case _:
             assert_never(shape)
 
 
-def _tessellate_capsule(radius: float, half_length: float) -> Any:
+def _revolve_capsule(radius: float, half_length: float) -> Any:
     """A fine mesh of a capsule about Z, turned from its outline."""
     angle = np.linspace(0.0, np.pi / 2, _SEGMENTS // 4 + 1)
     dome = np.column_stack([radius * np.cos(angle), radius * np.sin(angle) + half_length])
@@ -128,7 +127,7 @@ def _moment_of_rod(radius: float, half: float) -> Floats:
 
 
 def _moment_of_capsule(radius: float, half: float) -> Floats:
-    """That of a cylinder and the halves of a ball on its ends, whose centroids are 3/8 of their radius above these."""
+    """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
     along = half**2 + 3 / 4 * half * radius + radius**2 / 5
     ends = np.array([radius**2 / 5, radius**2 / 5, along])
     share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
@@ -136,7 +135,7 @@ def _moment_of_capsule(radius: float, half: float) -> Floats:
 
 
 def _moment_of_polytope(polytope: Polytope, middle: Floats) -> Floats:
-    """The same by signed tetrahedra about the centroid."""
+    """The second moment (3, 3) of a polytope, by signed tetrahedra about its centroid [m^2]."""
     corners = (polytope.vertices - middle)[polytope.faces]
     volumes = np.linalg.det(corners)
     sums = corners.sum(axis=1)

@@ -63,7 +63,7 @@ def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | Non
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise GeometryError("a face names a vertex that is not there", where=name)
     if not np.isfinite(vertices[faces]).all():
-        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
     soup = _Soup(vertices, faces, of_face)
     return list(_read_memoized(soup) if len(faces) <= _MOST_MEMOIZED else _read(soup))
@@ -99,12 +99,10 @@ def _read(soup: _Soup) -> tuple[Piece, ...]:
 
 def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) -> Piece:
     used, local = np.unique(faces[part.faces], return_inverse=True)
-    first = int(part.faces[0])
-    found = part.verdict
     arrays = (vertices[used], local.reshape(-1, 3), part.faces)
     for array in arrays:
         array.setflags(write=False)
-    return Piece(found.shape, found.reason, *arrays, int(group[first]))
+    return Piece(part.verdict.shape, part.verdict.reason, *arrays, int(group[part.faces[0]]))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -147,15 +145,12 @@ class PieceReader:
 
     def _join_near(self, found: list[PieceFaces]) -> list[PieceFaces]:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
-        opaque = [part for part in found if part.verdict.shape is None]
-        faces = np.sort(np.concatenate([part.faces for part in opaque]))
+        faces = np.sort(np.concatenate([part.faces for part in found if part.verdict.shape is None]))
         near = weld_nearly(self.points, self.placed[faces], _NEAR * self._extent())
         if near is None:
             return found
-        mended = [
-            self._judge(part, near) for part in _subdivide(faces, components_by_vertices(near[self.placed[faces]]))
-        ]
-        hulls = [part for part in mended if part.verdict.shape]
+        welded = _subdivide(faces, components_by_vertices(near[self.placed[faces]]))
+        hulls = [part for part in (self._judge(faces, near) for faces in welded) if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
 

@@ -11,18 +11,17 @@ import numpy as np
 from meshforge.geometry.aabb import Aabb
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.shape import Polytope, Shape, split_scaled_rotation
+from meshforge.geometry.shape import Polytope, PrimitiveShape, Shape, split_scaled_rotation
 
 _RING_POINTS = 8  # a multiple of four, so that a ring reaches +-X and +-Y
 _CYLINDER_SIDES = 32
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Sphere(Shape):
+class Sphere(PrimitiveShape):
     """A sphere about the origin of `pose`, whose rotation is kept only to be written back; radius [m]."""
 
     kind: ClassVar[str] = "sphere"
-    pose: Pose
     radius: float
 
     @property
@@ -32,10 +31,6 @@ class Sphere(Shape):
     @property
     def volume(self) -> float:
         return 4.0 / 3.0 * np.pi * self.radius**3
-
-    @property
-    def centroid(self) -> Floats:
-        return self.pose.translation
 
     def support(self, direction: Floats) -> Floats:
         return self.pose.translation + direction * (self.radius / float(np.linalg.norm(direction)))
@@ -53,11 +48,10 @@ class Sphere(Shape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Ellipsoid(Shape):
+class Ellipsoid(PrimitiveShape):
     """An ellipsoid about the origin of `pose`; radii: (3,) semi-axes along the axes of `pose` [m]."""
 
     kind: ClassVar[str] = "ellipsoid"
-    pose: Pose
     radii: Floats
 
     def __post_init__(self) -> None:
@@ -71,10 +65,6 @@ class Ellipsoid(Shape):
     @property
     def volume(self) -> float:
         return float(4.0 / 3.0 * np.pi * np.prod(self.radii))
-
-    @property
-    def centroid(self) -> Floats:
-        return self.pose.translation
 
     def support(self, direction: Floats) -> Floats:
         pull = self.radii * (self.pose.rotation.T @ direction)
@@ -96,11 +86,10 @@ class Ellipsoid(Shape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cylinder(Shape):
+class Cylinder(PrimitiveShape):
     """A cylinder about the Z axis of `pose`, centred; radius, half_length [m]."""
 
     kind: ClassVar[str] = "cylinder"
-    pose: Pose
     radius: float
     half_length: float
 
@@ -113,10 +102,6 @@ class Cylinder(Shape):
     @property
     def volume(self) -> float:
         return 2.0 * np.pi * self.radius**2 * self.half_length
-
-    @property
-    def centroid(self) -> Floats:
-        return self.pose.translation
 
     def support(self, direction: Floats) -> Floats:
         x, y, z = self.pose.rotation.T @ direction
@@ -140,11 +125,10 @@ class Cylinder(Shape):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Capsule(Shape):
+class Capsule(PrimitiveShape):
     """A capsule about the Z axis of `pose`, centred; radius and half_length of its straight part [m]."""
 
     kind: ClassVar[str] = "capsule"
-    pose: Pose
     radius: float
     half_length: float
 
@@ -156,10 +140,6 @@ class Capsule(Shape):
     @property
     def volume(self) -> float:
         return np.pi * self.radius**2 * (2.0 * self.half_length + 4.0 / 3.0 * self.radius)
-
-    @property
-    def centroid(self) -> Floats:
-        return self.pose.translation
 
     def support(self, direction: Floats) -> Floats:
         axis = self.pose.rotation[:, 2]

@@ -167,11 +167,21 @@ def volume_and_centroid(vertices: Floats, faces: Ints) -> tuple[float, Floats]:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Box(Shape):
+class PrimitiveShape(Shape):
+    """A primitive about the origin of its pose, root_T_primitive."""
+
+    pose: Pose
+
+    @property
+    def centroid(self) -> Floats:
+        return self.pose.translation
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Box(PrimitiveShape):
     """A box about its own centre; half: (3,) half sides along the axes of `pose` [m]."""
 
     kind: ClassVar[str] = "box"
-    pose: Pose
     half: Floats
 
     def __post_init__(self) -> None:
@@ -190,10 +200,6 @@ class Box(Shape):
     @property
     def volume(self) -> float:
         return float(8.0 * np.prod(self.half))
-
-    @property
-    def centroid(self) -> Floats:
-        return self.pose.translation
 
     def support(self, direction: Floats) -> Floats:
         side = np.where(self.pose.rotation.T @ direction >= 0, 1.0, -1.0)

@@ -52,7 +52,7 @@ def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
 
 def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """From a box around the hull, the farthest corner is cut off again and again by the plane that supports the hull
-    below it, as long as the budget holds (a sandwich algorithm, as of Kamenev, 1992): the error falls about as one
+    below it, as long as the budget holds (a sandwich algorithm, see Kamenev, 1992): the error falls about as one
     over the number of planes, which no other placement beats by more than a factor.
     """
     if budget.vertices < 8 or budget.polygons < 6 or budget.polygon_vertices < 4:
@@ -199,15 +199,15 @@ class _PlaneSearch:
 
     def corners(self, growth: float = 0.0) -> Floats:
         """The corners (n, 3) of what all planes enclose, these moved outwards by a share of the hull's extent."""
-        from scipy.spatial import HalfspaceIntersection
+        from scipy.spatial import HalfspaceIntersection  # lazy: slow to import, only simplifying needs it
 
         slopes = self.normals * self.extents
         lengths = np.linalg.norm(slopes, axis=1)
         inner = self.old.mean(axis=0) / self.extents
         rows = np.column_stack([slopes / lengths[:, None], -self.offsets / lengths - growth])
-        met = HalfspaceIntersection(rows, inner).intersections
-        _, first = np.unique(np.round(met / _SAME), axis=0, return_index=True)
-        return np.asarray(met[np.sort(first)] * self.extents)
+        corners = HalfspaceIntersection(rows, inner).intersections
+        _, first = np.unique(np.round(corners / _SAME), axis=0, return_index=True)
+        return np.asarray(corners[np.sort(first)] * self.extents)
 
     def _nearest_below(self, corners: Floats) -> Floats:
         """The nearest point (n, 3) of the hull to each corner."""
@@ -222,10 +222,10 @@ def contract_edges(vertices: Floats, goal: Floats, are_few: Callable[[Floats], b
     """Few points (m, 3) whose hull holds that of vertices (n, 3); None where they never become few enough.
 
     Again and again one edge becomes one point outside of all faces that meet it, where that adds the least volume
-    (progressive hulls, as of Sander et al., 2000); of the edges that which leads away least from the triangles of
+    (progressive hulls, see Sander et al., 2000); of the edges that which leads away least from the triangles of
     `goal` (k, 3, 3).
     """
-    from scipy.spatial import ConvexHull, QhullError
+    from scipy.spatial import ConvexHull, QhullError  # lazy: slow to import, only simplifying needs it
 
     points = vertices
     try:
@@ -235,7 +235,7 @@ def contract_edges(vertices: Floats, goal: Floats, are_few: Callable[[Floats], b
             if are_few(points[kept]):
                 return points[kept]
             places = _find_contractions(points, np.asarray(hull.simplices), hull.equations)
-            found = [(_distance_to(place, goal), edge, place) for edge, place in places]
+            found = [(float(_distances_to_surface(place[None], goal)[0]), edge, place) for edge, place in places]
             if not found:
                 return None
             _, edge, place = min(found, key=lambda one: one[0])
@@ -246,7 +246,7 @@ def contract_edges(vertices: Floats, goal: Floats, are_few: Callable[[Floats], b
 
 def _find_contractions(points: Floats, faces: Ints, planes: Floats) -> Iterator[tuple[Ints, Floats]]:
     """Some edges, with the point that each may become. planes: (m, 4), a face's outward normal and minus its offset."""
-    from scipy.optimize import linprog
+    from scipy.optimize import linprog  # lazy: slow to import, only simplifying needs it
 
     edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
     corners = points[faces]
@@ -272,8 +272,3 @@ def _depths(points: Floats, faces: Ints, planes: Floats, edges: Ints) -> Floats:
         below = -(points[np.repeat(end, counts)] * planes[near, :3]).sum(axis=1) - planes[near, 3]
         found.append(np.maximum.reduceat(below, firsts))
     return np.minimum(*found)
-
-
-def _distance_to(point: Floats, triangles: Floats) -> float:
-    places = nearest_on_triangles(np.broadcast_to(point, (len(triangles), 3)), triangles)
-    return float(np.linalg.norm(places - point, axis=1).min())

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, cross
-from meshforge.geometry.connectivity import component_roots, row_ids
+from meshforge.geometry.connectivity import component_roots, edges_of, row_ids
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.shape import Polytope
 
@@ -44,8 +44,8 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
         return SolidityVerdict(None, "flat")
     result = _judge_fill(points, corners, hull)
     if result.shape is None:
-        mended = _judge_fill(points, _align_windings(corners), hull)
-        result = mended if mended.shape else result
+        aligned = _judge_fill(points, _align_windings(corners), hull)
+        result = aligned if aligned.shape else result
     if result.shape is None and _covers(points, corners, hull):
         return SolidityVerdict(hull, None, hull.volume, True)
     return result
@@ -111,11 +111,10 @@ def _judge_fill(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdic
 
 def _find_rim(corners: Ints) -> tuple[Ints, Ints]:
     """The edges (k, 2) that triangles leave open, as the triangles run along them, and how many times each."""
-    directed = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
-    edges = np.sort(directed, axis=1)
+    edges, forward = edges_of(corners)
     ids, first = row_ids(*edges.T)
     net = np.zeros(len(first), dtype=np.int64)
-    np.add.at(net, ids, np.where(directed[:, 0] < directed[:, 1], 1, -1))
+    np.add.at(net, ids, np.where(forward, 1, -1))
     left = np.flatnonzero(net)
     rim = edges[first[left]]
     back = net[left] < 0
@@ -144,18 +143,18 @@ def _volume_of_caps(points: Floats, rim: Ints, weight: Ints, origin: Floats, lev
 
 def _align_windings(corners: Ints) -> Ints:
     """The triangles wound as their neighbours are, as far as edges of two triangles tell."""
-    directed = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    edges, forward = edges_of(corners)
     face = np.tile(np.arange(len(corners)), 3)
-    ids, _ = row_ids(*np.sort(directed, axis=1).T)
+    ids, _ = row_ids(*edges.T)
     shared = np.flatnonzero(np.bincount(ids)[ids] == 2)
     pairs = shared[np.argsort(ids[shared], kind="stable")].reshape(-1, 2)
     one, other = face[pairs[:, 0]], face[pairs[:, 1]]
-    agree = (directed[pairs[:, 0], 0] != directed[pairs[:, 1], 0]).astype(np.int64)
+    agree = (forward[pairs[:, 0]] != forward[pairs[:, 1]]).astype(np.int64)
     n = len(corners)  # node k is triangle k as it is wound, node n + k is it turned over
     rows = np.concatenate([one, one + n])
     columns = np.concatenate([other + n * (1 - agree), other + n * agree])
     side = component_roots(rows, columns, 2 * n)
-    turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to mend
+    turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to turn
     out = corners.copy()
     out[turned] = out[turned][:, ::-1]
     return out

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.shape import Polytope
 
 _MOST_PAIRS_CHECKED = 50_000_000  # vertices times faces
-
 _MOST_PAIRS_AT_ONCE = 1_000_000  # points times planes; beyond, most are ruled out by the boxes of groups of points
 _GROUP = 128
 
@@ -43,7 +43,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
 
 def neighbour_faces(faces: Ints) -> Ints:
     """The pairs (k, 2) of faces (m, 3) that share an edge."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, _ = edges_of(faces)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
     owners = np.tile(np.arange(len(faces)), 3)[order]
     same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
@@ -101,7 +101,7 @@ def planes_of(vertices: Floats, faces: Ints) -> Planes:
     a, b, c = (around[faces[:, k]] for k in range(3))
     normals = cross(b - a, c - a)
     lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))
-    kept = np.flatnonzero(lengths > 1e-10 * float(np.ptp(vertices, axis=0).max()) ** 2)
+    kept = np.flatnonzero(lengths > 1e-10 * _size(vertices) ** 2)
     normals = normals[kept] / lengths[kept, None]
     return Planes(normals, np.einsum("ij,ij->i", normals, a[kept]), middle, kept)
 
@@ -117,8 +117,8 @@ def rises_above(points: Floats, vertices: Floats, faces: Ints, height: float) ->
 
 
 def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
-    """The same in groups of points that are near each other; the box of a group bounds what its points can reach."""
-    from scipy.spatial import cKDTree
+    """Whether any of many points rises above a plane: by groups that lie together, whose box bounds the reach."""
+    from scipy.spatial import cKDTree  # lazy: slow to import, only very large surfaces need it
 
     slopes = np.abs(normals)
     for group in np.array_split(points[cKDTree(points).indices], len(points) // _GROUP + 1):
@@ -132,8 +132,8 @@ def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
 
 def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
     """The number of vertices of each flat polygon of a hull."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    from scipy.sparse import coo_array  # lazy: slow to import, only engine limits and simplifying need it
+    from scipy.sparse.csgraph import connected_components  # lazy: as coo_array
 
     pairs = neighbour_faces(hull.faces)
     normals = normals_of(hull)

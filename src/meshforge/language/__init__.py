@@ -1,8 +1,9 @@
 """The language of programs: extractors, actions, orientation; parsing, printing, evaluating and running them."""
 
-from meshforge.language.actions.arguments import (
+from meshforge.language.actions.base import (
     AXES,
     PRIMITIVES,
+    Action,
     Argument,
     FactorArgument,
     FileArgument,
@@ -10,17 +11,22 @@ from meshforge.language.actions.arguments import (
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.base import Action
 from meshforge.language.actions.basic import ACTIONS, Delete, Each, Merge, Scale
 from meshforge.language.actions.edit import Template
 from meshforge.language.actions.insert import Add, Replace
-from meshforge.language.apply import ActionResult, apply_action
+from meshforge.language.apply import (
+    ActionResult,
+    RuleTrace,
+    apply_action,
+    apply_rule,
+    from_canonical_frame,
+    to_canonical_frame,
+)
 from meshforge.language.explain import explain
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import Comments, Rule, show, show_label
-from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_orient, rename_in_program
-from meshforge.language.run import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
 from meshforge.language.syntax import (
     DIRECTIONS,
     EXTREMITY,
@@ -43,6 +49,7 @@ from meshforge.language.syntax import (
     geo_mask,
     labels_of,
     reference_length,
+    rename_in_orient,
     select,
     select_mask,
     size_of,

@@ -1,22 +1,35 @@
-"""One action on one selection: the edited mesh, what was made of what, every new shape verified."""
+"""One action on one selection, every new shape verified; one rule on one mesh in the canonical frame; and the way into
+that frame and back."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from meshforge.common import join_names
-from meshforge.geometry import FLATNESS, Polytope, Shape, convex_hull, is_closed, is_convex, is_outward, spans_volume
+from meshforge.geometry import (
+    FLATNESS,
+    Polytope,
+    Pose,
+    Shape,
+    convex_hull,
+    is_closed,
+    is_convex,
+    is_outward,
+    spans_volume,
+)
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
-from meshforge.language.syntax import reference_length
+from meshforge.language.orient import orient_mesh
+from meshforge.language.print import Rule
+from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
-
 _CONVEXITY = 1e-7  # relative to the size
 
 
@@ -45,8 +58,8 @@ def apply_action(
 ) -> ActionResult:
     """Does an action to the hulls of a bit set, in the frame the mesh is in.
 
-    label: for what is made, None takes over that of the largest hull; used: as of the `ActionResult` before, in a run
-    of several. Kept hulls stay the same objects, made ones follow after them.
+    label: for what is made, None takes over that of the largest hull; used: in a run of several actions, the names
+    that the result before has. Kept hulls stay the same objects, made ones follow after them.
     Raises ProgramError for a missing template, GeometryError where no sound shape can be made.
     """
     templates = templates or {}
@@ -122,9 +135,9 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     values = [known[name] for hull in made.sources if (name := hull.parent or hull.name) in known]
     names = dict.fromkeys(name for each in values for name in each)
     differing = [name for name in names if len({each.get(name) for each in values}) > 1]
-    return (
-        f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another" if differing else None
-    )
+    if not differing:
+        return None
+    return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
 
 
 def ensure_valid(shape: Shape, name: str, thickness: float) -> Shape:
@@ -147,3 +160,73 @@ def is_valid(shape: Shape) -> bool:
 def _is_valid_polytope(shape: Polytope) -> bool:
     vertices, faces = shape.vertices, shape.faces
     return is_closed(faces) and is_outward(vertices, faces) and is_convex(vertices, faces, _CONVEXITY)
+
+
+@dataclass(frozen=True, slots=True)
+class RuleTrace:
+    """What one rule did on a mesh; rule: its number from 1; selected, made: names of hulls.
+
+    sources: for each made hull, the names of the hulls it was made from; note: what a user should know.
+    """
+
+    rule: int
+    selected: tuple[str, ...]
+    made: tuple[str, ...] = ()
+    note: str | None = None
+    sources: tuple[tuple[str, ...], ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """The trace as JSON-able data: rule, selected, made, note, and sources by made name."""
+        return {
+            "rule": self.rule,
+            "selected": list(self.selected),
+            "made": list(self.made),
+            "note": self.note,
+            "sources": {name: list(names) for name, names in zip(self.made, self.sources, strict=True)},
+        }
+
+
+def to_canonical_frame(
+    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None
+) -> tuple[SymbolicMesh, Pose]:
+    """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
+
+    contact: the program's epsilon, None keeps the mesh's.
+    """
+    oriented, pose = orient_mesh(mesh, orient)
+    staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
+    if oriented.known_graph is not None and staged.contact_distance == oriented.contact_distance:
+        staged.set_known_graph(oriented.known_graph)  # the same shapes and reach
+    return staged, pose
+
+
+def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
+    back = pose.inverse()
+    turned = not np.array_equal(pose.rotation, np.eye(3))
+    hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)
+    same = incoming.scale is None and len(hulls) == len(incoming.hulls)
+    if same and all(a is b for a, b in zip(hulls, incoming.hulls, strict=True)):
+        return incoming
+    return replace(incoming, hulls=hulls, scale=None)
+
+
+def apply_rule(
+    mesh: SymbolicMesh,
+    rule: Rule,
+    templates: Mapping[str, Template] | None = None,
+    extremity: float | None = None,
+    used: frozenset[str] = frozenset(),
+) -> tuple[tuple[str, ...], ActionResult]:
+    """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
+    mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
+    selected = tuple(mesh.hulls[index].name for index in sorted(bits_of(mask)))
+    return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
+
+
+def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
+    """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
+    if hull.name in incoming.index:
+        original = incoming.hull_of(hull.name)
+        return original if original.annotation == hull.annotation else original.with_label(hull.annotation)
+    return hull.move(back) if back else hull

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from meshforge.language.actions.arguments import PRIMITIVES, show_number
-from meshforge.language.actions.base import Action
+from meshforge.language.actions.base import PRIMITIVES, Action, show_number
 from meshforge.language.actions.basic import Delete, Each, Merge, Scale
 from meshforge.language.actions.insert import Add, Replace
 from meshforge.language.print import WORD, Rule
@@ -18,8 +17,8 @@ def explain(node: Rule | Orient | Extractor) -> str:
     """A sentence for a rule or an orientation, a noun phrase for an extractor."""
     match node:
         case Rule(extractor, action, label):
-            given = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
-            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{given}."
+            relabel = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
+            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{relabel}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
             return _explain_orient(node)

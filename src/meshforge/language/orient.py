@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from meshforge.common import ProgramError, join_names
 from meshforge.geometry import (
@@ -40,15 +39,15 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
 
 
 def _find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
-    asked = [_landmark_direction(mesh, pair) for pair in orient.pairs]
+    directions = [_landmark_direction(mesh, pair) for pair in orient.pairs]
     axes = [_axis_vector(pair.axis) for pair in orient.pairs]
-    if len(asked) == 2:
-        frame = _frame_of(asked[0], _perpendicular_part(asked, orient))
+    if len(directions) == 2:
+        frame = _frame_of(directions[0], _perpendicular_part(directions, orient))
         rotation: Floats = _frame_of(axes[0], axes[1]).T @ frame
         return nearest_aligned_rotation(rotation) if orient.snap else rotation
     if orient.snap:
-        return nearest_aligned_rotation_between(asked[0], axes[0])
-    return _square_up(mesh, smallest_rotation(asked[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
+        return nearest_aligned_rotation_between(directions[0], axes[0])
+    return _square_up(mesh, smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
 def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
@@ -64,9 +63,9 @@ def _frame_of(first: Floats, second: Floats) -> Floats:
     return np.stack([first, second, np.cross(first, second)])
 
 
-def _perpendicular_part(asked: list[Floats], orient: Orient) -> Floats:
+def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     """The part of the second direction that is perpendicular to the first, at unit length."""
-    first, second = asked
+    first, second = directions
     part = second - (second @ first) * first
     norm = float(np.linalg.norm(part))
     if norm < _PARALLEL:
@@ -96,10 +95,8 @@ def _landmark_centre(mesh: SymbolicMesh, base: BaseExtractor) -> tuple[Floats, s
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
     hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh)))]
     if not hulls:
-        raise ProgramError(
-            f"orient: the landmark {show(base)} selects nothing",
-            remedy="Label the hulls that it should select, or orient by another landmark.",
-        )
+        problem = f"orient: the landmark {show(base)} selects nothing"
+        raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")
     volumes = np.array([hull.volume for hull in hulls])
     centroids = np.array([hull.shape.centroid for hull in hulls])
     return volumes @ centroids / volumes.sum(), join_names([hull.name for hull in hulls])
@@ -117,6 +114,8 @@ def square_up_angle(footprint: Floats) -> float:
     Of the four quarter turns that do, it is the one nearest to the incoming frame (of two, the positive one).
     A smallest rectangle has a side along an edge of the convex hull, so the edges are all that is tried.
     """
+    from scipy.spatial import ConvexHull  # lazy: slow to import, only a single landmark pair needs it
+
     outline = footprint[ConvexHull(footprint).vertices]
     edges = np.roll(outline, -1, axis=0) - outline
     turns = _fold_angles(-np.arctan2(edges[:, 1], edges[:, 0]))

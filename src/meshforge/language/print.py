@@ -60,7 +60,6 @@ class Rule:
             raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
 
     def __str__(self) -> str:
-
         return show(self)
 
 

@@ -6,37 +6,33 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, assert_never
 
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language.actions.arguments import show_number
+from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
-from meshforge.language.build import build_labels, build_orient, build_rule, build_threshold, collect_headers
-from meshforge.language.parse import attach_comments, parse_tree
+from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.language.parse import (
+    attach_comments,
+    build_labels,
+    build_orient,
+    build_rule,
+    build_threshold,
+    collect_headers,
+    parse_tree,
+)
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
-from meshforge.language.run import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
 from meshforge.language.syntax import (
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
     Extractor,
-    Geo,
-    Intersect,
-    Is,
     Orient,
-    Union,
     check_declared,
     check_label,
     check_threshold,
     labels_of,
+    rename_in_extractor,
+    rename_in_orient,
 )
-from meshforge.language.text import ProgramText, TreeReader, subtrees_of
+from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.language.text import Node
-
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
@@ -50,6 +46,14 @@ class HeaderComments:
     extremity: Comments = field(default=Comments())
     orient: Comments = field(default=Comments())
     end: CommentLines = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RunResult:
+    """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
+
+    mesh: SymbolicMesh
+    trace: tuple[RuleTrace, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +94,8 @@ class Program:
     @property
     def labels_in_use(self) -> tuple[str, ...]:
         """The labels asked for, then those that rules give to what they make."""
-        given = [rule.label for rule in self.rules if rule.label is not None]
-        return tuple(dict.fromkeys([*self.labels_asked, *given]))
+        made = [rule.label for rule in self.rules if rule.label is not None]
+        return tuple(dict.fromkeys([*self.labels_asked, *made]))
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -101,22 +105,55 @@ class Program:
     @staticmethod
     def parse(text: str, name: str = "program") -> Program:
         """The program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
-
-        return parse_program(text, name)
+        source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
+        try:
+            return _build_program(source, parse_tree(source, "program"))
+        except RecursionError:
+            raise ProgramError("its extractors are nested too deep", where=name) from None
 
     @staticmethod
     def read(path: Path | str) -> Program:
         """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
-
-        return read_program(Path(path))
+        path = Path(path)
+        try:
+            return Program.parse(path.read_text(encoding="utf-8"), str(path))
+        except OSError as error:
+            raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
+        except UnicodeDecodeError:
+            raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
 
     def run(self, mesh: SymbolicMesh, templates: Mapping[str, Template] | None = None) -> RunResult:
-        """The program's edit of a mesh, with a trace. Raises ProgramError where it cannot run on this mesh."""
+        """The program's edit of a mesh, with a trace.
 
-        return run_program(self, mesh, templates or {})
+        Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
+        has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
+        cannot be made.
+        """
+        templates = templates or {}
+        try:
+            check_templates(self.templates, templates)
+            self._check_has_labels(mesh)
+            return self._run_rules(mesh, templates)
+        except MeshForgeError as error:
+            raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
+
+    def _check_has_labels(self, mesh: SymbolicMesh) -> None:
+        if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
+            raise ProgramError(
+                "no labels: the program asks for labels, and no hull has one",
+                remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
+            )
+
+    def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
+        current, pose = to_canonical_frame(mesh, self.orient, self.contact)
+        trace, used = [], frozenset[str]()
+        for number, rule in enumerate(self.rules, 1):
+            selected, result = apply_rule(current, rule, templates, self.extremity, used)
+            current, used = result.mesh, result.used
+            trace.append(RuleTrace(number, selected, result.made, result.note, result.sources))
+        return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))
 
     def __str__(self) -> str:
-
         return "".join(f"{line}\n" for line in _program_lines(self))
 
 
@@ -133,34 +170,6 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     labels = dict.fromkeys(new if label == old else label for label in program.labels)
     orient = rename_in_orient(program.orient, old, new) if program.orient else None
     return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
-
-
-def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
-    """The orientation with a label by another name."""
-    pairs = (
-        replace(pair, start=_rename_in_base(pair.start, old, new), end=_rename_in_base(pair.end, old, new))
-        for pair in orient.pairs
-    )
-    return replace(orient, pairs=tuple(pairs))
-
-
-def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
-    return Is(new) if base == Is(old) else base
-
-
-def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
-    """An extractor that asks for the label `new` wherever it asked for `old`."""
-    match node:
-        case All() | Is():
-            return _rename_in_base(node, old, new)
-        case Geo(base, direction):
-            return Geo(_rename_in_base(base, old, new), direction)
-        case Attach(selected, anchor):
-            return Attach(_rename_in_base(selected, old, new), _rename_in_base(anchor, old, new))
-        case Union(left, right) | Intersect(left, right) | Diff(left, right):
-            return type(node)(rename_in_extractor(left, old, new), rename_in_extractor(right, old, new))
-        case _:
-            assert_never(node)
 
 
 def _program_lines(program: Program) -> Iterator[str]:
@@ -199,26 +208,7 @@ def _comment_lines(lines: CommentLines) -> list[str]:
     return ["" if line is None else f"#{line}" for line in lines]
 
 
-def parse_program(text: str, name: str = "program") -> Program:
-    """The program in a text. Raises ProgramError at `name:line:column`."""
-    source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
-    try:
-        return build_program(source, parse_tree(source, "program"))
-    except RecursionError:
-        raise ProgramError("its extractors are nested too deep", where=name) from None
-
-
-def read_program(path: Path) -> Program:
-    """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
-    try:
-        return parse_program(path.read_text(encoding="utf-8"), str(path))
-    except OSError as error:
-        raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
-    except UnicodeDecodeError:
-        raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
-
-
-def build_program(source: ProgramText, tree: Node) -> Program:
+def _build_program(source: ProgramText, tree: Node) -> Program:
     """The program of a `program` node."""
     statements = subtrees_of(tree)
     text = TreeReader(source)
@@ -235,44 +225,3 @@ def build_program(source: ProgramText, tree: Node) -> Program:
         build_threshold(text, headers.get("extremity")),
         HeaderComments(**{name: of[id(node)] for name, node in headers.items()}, end=end),
     )
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class RunResult:
-    """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
-
-    mesh: SymbolicMesh
-    trace: tuple[RuleTrace, ...]
-
-
-def run_program(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
-    """The program's edit of a mesh.
-
-    Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
-    has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
-    cannot be made.
-    """
-    try:
-        check_templates(program.templates, templates)
-        _check_has_labels(program, mesh)
-        return _run_rules(program, mesh, templates)
-    except MeshForgeError as error:
-        raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
-
-
-def _run_rules(program: Program, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
-    current, pose = to_canonical_frame(mesh, program.orient, program.contact)
-    trace, used = [], frozenset[str]()
-    for number, rule in enumerate(program.rules, 1):
-        selected, applied = apply_rule(current, rule, templates, program.extremity, used)
-        current, used = applied.mesh, applied.used
-        trace.append(RuleTrace(number, selected, applied.made, applied.note, applied.sources))
-    return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))
-
-
-def _check_has_labels(program: Program, mesh: SymbolicMesh) -> None:
-    if program.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
-        raise ProgramError(
-            "no labels: the program asks for labels, and no hull has one",
-            remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
-        )

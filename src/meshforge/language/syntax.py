@@ -4,19 +4,18 @@ of a mesh (paper, figures of the DSL and of its semantics)."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, assert_never, get_args
 
 from meshforge.common import ProgramError, nearest_name
 from meshforge.geometry import Aabb
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 EXTREMITY = 0.05
 """delta: how near the boundary counts as extreme, as a share of the base selection's diagonal (paper)."""
-
 SLACK = 1e-9
 """Comparisons with a threshold forgive this share of the mesh's diagonal, against rounding."""
 
@@ -28,7 +27,6 @@ class _Selector:
 
     def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
         """Indices of the hulls selected in the mesh, in the frame it is in."""
-
         assert isinstance(self, All | Is | Attach | Geo | Union | Intersect | Diff)
         return select(self, mesh, extremity)
 
@@ -75,36 +73,29 @@ class Geo(_Selector):
 
 
 @dataclass(frozen=True, slots=True)
-class Union(_Selector):
+class _SetOperator(_Selector):
+    left: Extractor
+    right: Extractor
+
+    def __post_init__(self) -> None:
+        for operand in (self.left, self.right):
+            if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
+                raise ProgramError(f"{type(self).__name__} takes extractors, not {operand!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Union(_SetOperator):
     """The hulls of either."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Intersect(_Selector):
+class Intersect(_SetOperator):
     """The hulls of both."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Diff(_Selector):
+class Diff(_SetOperator):
     """The hulls of `left` that are not in `right`."""
-
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
 
 
 Extractor = All | Is | Attach | Geo | Union | Intersect | Diff
@@ -135,9 +126,8 @@ class Orient:
             raise ProgramError(f"orient takes one or two landmark pairs, not {len(self.pairs)}")
         axes = [pair.axis for pair in self.pairs]
         if len({axis[1] for axis in axes}) != len(axes):
-            raise ProgramError(
-                f"orient names the axis {axes[0][1]} twice", remedy="Give the second pair another axis than the first."
-            )
+            problem = f"orient names the axis {axes[0][1]} twice"
+            raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
 
 
 def check_label(label: str) -> None:
@@ -159,12 +149,6 @@ def _check_base(node: object, *operands: object) -> None:
                 f"{type(node).__name__} takes All or Is(label), not {operand!r}",
                 remedy="Combine selections with Union, Intersect and Diff instead of nesting them.",
             )
-
-
-def _check_extractors(node: object, *operands: object) -> None:
-    for operand in operands:
-        if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
-            raise ProgramError(f"{type(node).__name__} takes extractors, not {operand!r}")
 
 
 def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
@@ -195,20 +179,12 @@ def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXT
 
 def label_mask(mesh: SymbolicMesh, label: str) -> int:
     """The hulls with a label."""
-    mask = 0
-    for index, hull in enumerate(mesh.hulls):
-        if hull.label == label:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
 
 
 def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:
     """The hulls of `selected` in contact with at least one of `anchor`."""
-    mask = 0
-    for index in bits_of(selected):
-        if mesh.adjacency[index] & anchor:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index in bits_of(selected) if mesh.adjacency[index] & anchor)
 
 
 def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: float = EXTREMITY) -> int:
@@ -218,11 +194,13 @@ def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: flo
     boxes = {index: mesh.hulls[index].aabb for index in bits_of(base)}
     reach = {index: _reach_of(box, direction) for index, box in boxes.items()}
     nearest = max(reach.values()) - extremity * Aabb.union(boxes.values()).diagonal - SLACK * reference_length(mesh)
-    mask = 0
-    for index, value in reach.items():
-        if value >= nearest:
-            mask |= 1 << index
-    return mask
+    return mask_of(index for index, value in reach.items() if value >= nearest)
+
+
+def _reach_of(box: Aabb, direction: Direction) -> float:
+    """How far a box reaches along a direction [m]."""
+    axis = "XYZ".index(direction[1])
+    return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
 
 
 def reference_length(mesh: SymbolicMesh) -> float:
@@ -260,10 +238,32 @@ def labels_of(extractor: Extractor) -> tuple[str, ...]:
             assert_never(extractor)
 
 
-def _reach_of(box: Aabb, direction: Direction) -> float:
-    """How far a box reaches along a direction [m]."""
-    axis = "XYZ".index(direction[1])
-    return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
+def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
+    """The orientation with a label by another name."""
+    pairs = (
+        replace(pair, start=_rename_in_base(pair.start, old, new), end=_rename_in_base(pair.end, old, new))
+        for pair in orient.pairs
+    )
+    return replace(orient, pairs=tuple(pairs))
+
+
+def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
+    return Is(new) if base == Is(old) else base
+
+
+def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
+    """An extractor that asks for the label `new` wherever it asked for `old`."""
+    match node:
+        case All() | Is():
+            return _rename_in_base(node, old, new)
+        case Geo(base, direction):
+            return Geo(_rename_in_base(base, old, new), direction)
+        case Attach(selected, anchor):
+            return Attach(_rename_in_base(selected, old, new), _rename_in_base(anchor, old, new))
+        case Union(left, right) | Intersect(left, right) | Diff(left, right):
+            return type(node)(rename_in_extractor(left, old, new), rename_in_extractor(right, old, new))
+        case _:
+            assert_never(node)
 
 
 def check_declared(label: str, declared: tuple[str, ...]) -> None:

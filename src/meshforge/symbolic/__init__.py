@@ -1,6 +1,20 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
-from meshforge.symbolic.asset import Asset, Body, Document, Geom, Mentions, Opaque, Surface, unique_names
+from meshforge.symbolic.asset import (
+    Asset,
+    Body,
+    Document,
+    Geom,
+    Inertial,
+    Joint,
+    JointKind,
+    Mechanism,
+    Mentions,
+    Opaque,
+    Surface,
+    unique_names,
+    unit_vector,
+)
 from meshforge.symbolic.descriptor import DESCRIPTOR_NAMES, descriptors
 from meshforge.symbolic.features import PRIMITIVE_FEATURES, Feature, FeatureKind, features_of
 from meshforge.symbolic.hull import GIVEN_SOURCES, HUMAN_SOURCES, LABEL_SOURCES, Hull, Label, LabelSource
@@ -13,7 +27,6 @@ from meshforge.symbolic.label_file import (
     transfer_labels,
     write_labels,
 )
-from meshforge.symbolic.mechanism import Inertial, Joint, JointKind, Mechanism, unit_vector
 from meshforge.symbolic.mesh import EPSILON, NEAR_MISS, SymbolicMesh, bits_of, mask_of, split_by_body, split_by_contact
 
 __all__ = [

@@ -1,4 +1,5 @@
-"""What every file becomes: bodies with poses, convex geoms, pieces that are no hulls, and the source document."""
+"""What every file becomes: bodies with poses, convex geoms, pieces that are no hulls, joints and masses in one form for
+all formats, and the source document."""
 
 from __future__ import annotations
 
@@ -7,9 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
-from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
-from meshforge.symbolic.mechanism import Mechanism
+import numpy as np
 
+from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape, freeze_floats
+
+JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
 Mentions = tuple[tuple[str, str], ...]
 """What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
 
@@ -48,8 +51,8 @@ class Geom:
 class Surface:
     """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
 
-    body: the one that shows it, None where that is not told; rgba: its colour, four shares of 1, None where it has no
-    single one.
+    body: the one that shows it, None where the file does not say; rgba: its colour, four shares of 1, None where it
+    has no single one.
     """
 
     vertices: Floats
@@ -62,7 +65,7 @@ class Surface:
 class Opaque:
     """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
 
-    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions: as of `Geom`.
+    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions: see `Geom`.
     """
 
     name: str
@@ -71,6 +74,76 @@ class Opaque:
     surface: Surface | None = None
     plane: Pose | None = None
     mentions: Mentions = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Joint:
+    """How a body moves against another, described where all joints are at zero.
+
+    name: empty where the file gives none; parent, child: the bodies it joins.
+    anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
+    joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
+    damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
+    where it has none. Several joints of one child act one after another, the first one nearest to the parent.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    anchor: Floats
+    axis: Floats
+    limits: tuple[float, float] | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    effort: float | None = None
+    velocity: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "anchor", freeze_floats(self.anchor, (3,)))
+        object.__setattr__(self, "axis", freeze_floats(self.axis, (3,)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Inertial:
+    """What a body weighs: mass [kg], centre (3,) of mass [m], inertia (3, 3) about it [kg m^2], in the root frame."""
+
+    body: str
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", freeze_floats(self.centre, (3,)))
+        object.__setattr__(self, "inertia", freeze_floats(self.inertia, (3, 3)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Mechanism:
+    """The joints of an asset, which make its bodies one or more trees, and the masses that the file has.
+
+    apart: pairs of bodies that the file keeps from colliding; paired: pairs of geoms that it has collide all the same,
+    whatever their bodies and contact attributes.
+    """
+
+    joints: tuple[Joint, ...] = ()
+    inertials: tuple[Inertial, ...] = field(default=())
+    apart: tuple[tuple[str, str], ...] = ()
+    paired: tuple[tuple[str, str], ...] = ()
+
+    def move(self, pose: Pose) -> Mechanism:
+        """The mechanism in another root frame; pose: new_T_old."""
+        turn = pose.rotation
+        return replace(
+            self,
+            joints=tuple(
+                replace(j, anchor=turn @ j.anchor + pose.translation, axis=turn @ j.axis) for j in self.joints
+            ),
+            inertials=tuple(
+                Inertial(i.body, i.mass, turn @ i.centre + pose.translation, turn @ i.inertia @ turn.T)
+                for i in self.inertials
+            ),
+        )
 
 
 class Document:
@@ -132,3 +205,9 @@ def unique_names(names: Iterable[str]) -> list[str]:
         taken.add(unique)
         out.append(unique)
     return out
+
+
+def unit_vector(axis: Floats) -> Floats | None:
+    """An axis (3,) in unit length; None where it has no direction."""
+    length = float(np.linalg.norm(axis))
+    return axis / length if length > 0 else None

@@ -27,7 +27,7 @@ class Label:
 class Hull:
     """One node of the symbolic mesh (paper, definition of the symbolic collision mesh).
 
-    shape: in the mesh's frame; parent: as of `Geom`, None for a hull of the file.
+    shape: in the mesh's frame; parent: see `Geom`, None for a hull of the file.
     """
 
     name: str

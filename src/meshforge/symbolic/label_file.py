@@ -59,7 +59,7 @@ def _format_row(name: str, label: Label, geometry: str | None) -> str:
 
 
 def read_labels(path: Path) -> LabelFile:
-    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, as of source `file`.
+    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, its labels have the source `file`.
 
     Raises AssetError naming file and hull: unreadable, no JSON, or not of that form.
     """
@@ -176,7 +176,7 @@ class LabelMatch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LabelTransfer:
-    """A mesh with the labels of a file; changed, renamed, gone: as of `LabelMatch`."""
+    """A mesh with the labels of a file; changed, renamed, gone: see `LabelMatch`."""
 
     mesh: SymbolicMesh
     changed: tuple[str, ...] = ()

@@ -77,6 +77,15 @@ class SymbolicMesh:
         """Distances of all pairs within three times the contact distance."""
         return contact_graph([h.shape for h in self.hulls], self.contact_distance * NEAR_MISS)
 
+    @property
+    def known_graph(self) -> ContactGraph | None:
+        """The contact graph, None where it is not measured yet."""
+        return self.__dict__.get("graph")
+
+    def set_known_graph(self, graph: ContactGraph) -> None:
+        """Spare the measuring of distances that are known from another mesh with the same shapes."""
+        self.__dict__["graph"] = graph
+
     @cached_property
     def contacts(self) -> frozenset[tuple[int, int]]:
         """The pairs (i, j), i < j, of hulls in contact."""
@@ -129,12 +138,11 @@ class SymbolicMesh:
     def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
         """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
-        if "graph" in self.__dict__ and edited.contact_distance == self.contact_distance:
+        if self.known_graph is not None and edited.contact_distance == self.contact_distance:
             known, now = _positions_by_shape(self.hulls), _positions_by_shape(edited.hulls)
             kept = {now[shape]: known[shape] for shape in now if shape in known}
             reach = self.contact_distance * NEAR_MISS
-            graph = contact_graph([h.shape for h in edited.hulls], reach, known=self.graph, kept=kept)
-            edited.__dict__["graph"] = graph
+            edited.set_known_graph(contact_graph([h.shape for h in edited.hulls], reach, self.known_graph, kept))
         return edited
 
     def to_asset(self) -> Asset:
@@ -170,10 +178,7 @@ def mask_of(indices: Iterable[int]) -> int:
 
 
 def contact_graph(
-    shapes: Sequence[Shape],
-    reach: float,
-    known: ContactGraph | None = None,
-    kept: Mapping[int, int] | None = None,
+    shapes: Sequence[Shape], reach: float, known: ContactGraph | None = None, kept: Mapping[int, int] | None = None
 ) -> ContactGraph:
     """Distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
 

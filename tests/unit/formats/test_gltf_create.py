@@ -115,7 +115,7 @@ def test_masses_go_along_and_joints_are_told_as_lost(tmp_path: Path) -> None:
     motions = [node["extensions"][KHR]["motion"] for node in tree_of(saved.path.read_bytes())["nodes"][:2]]
     assert motions[0] == {"isKinematic": True} and "isKinematic" not in motions[1]
     assert [str(loss) for loss in saved.report.lost] == [
-        "1 joint (hinge) is left out: MeshForge does not carry joints over to glTF"
+        "1 joint (hinge) is left out: MeshForge does not convert joints to glTF"
     ]
 
 

@@ -9,8 +9,7 @@ import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import read, save
-from meshforge.formats.meshfile.ply import parse_ply
-from meshforge.formats.meshfile.ply_header import TYPES
+from meshforge.formats.meshfile.ply import TYPES, parse_ply
 from meshforge.geometry import convex_hull
 from meshforge.symbolic import Asset, Geom
 from tests.soups import Soup, box, together

@@ -174,7 +174,7 @@ REFUSED: dict[str, tuple[Make, str]] = {
     ),
     "a point that is infinite": (
         lambda d: arrays(d, points=np.where(POINTS == 1, np.inf, POINTS), labels=[0] * 4),
-        "a coordinate is not a finite number\n  Mend or export it again.",
+        "a coordinate is not a finite number\n  Fix or export it again.",
     ),
     "wrong lengths": (
         lambda d: arrays(d, points=POINTS, labels=[0, 1]),
@@ -328,8 +328,8 @@ def test_semantics_tell_what_links_are(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("link_0 hinge\n", r"semantics.txt:1: this line has 2 words, not three: 'link_0 hinge'"),
-        ("a b c\na b d\n", r"semantics.txt:2: the link 'a' is told twice"),
-        ("\n", r"semantics.txt: it tells of no link"),
+        ("a b c\na b d\n", r"semantics.txt:2: the link 'a' is listed twice"),
+        ("\n", r"semantics.txt: it lists no link"),
     ],
 )
 def test_semantics_that_make_no_sense(tmp_path: Path, text: str, message: str) -> None:

@@ -11,9 +11,8 @@ import pytest
 from meshforge.common import GeometryError, UsageError
 from meshforge.geometry import Floats, Ints, is_convex
 from meshforge.geometry.decomposition import process
-from meshforge.geometry.decomposition.cache import cache_folder, cache_key, read_entry, write_entry
-from meshforge.geometry.decomposition.process import DecompositionCancelledError
-from meshforge.geometry.decomposition.run import decompose
+from meshforge.geometry.decomposition.process import DecompositionCancelledError, EngineControl
+from meshforge.geometry.decomposition.run import cache_folder, cache_key, decompose, read_entry, write_entry
 from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decomposition.triangles import clean_triangles
 
@@ -107,7 +106,7 @@ def test_coordinates_of_unused_vertices_do_not_matter() -> None:
 
 def test_progress_tells_each_round() -> None:
     told: list[str] = []
-    decompose(*L_SHAPE, QUICK, progress=told.append)
+    decompose(*L_SHAPE, QUICK, control=EngineControl(told.append))
     assert told[0] == "round 1: 1 parts still to be split" and len(told) > 1
 
 
@@ -139,14 +138,14 @@ def test_cancelling_ends_the_engine(monkeypatch: pytest.MonkeyPatch, tmp_path: P
         return (tmp_path / "pid").exists() and (tmp_path / "pid").read_text() != ""
 
     with pytest.raises(DecompositionCancelledError):
-        decompose(*CUBE, QUICK, cancel=cancel)
+        decompose(*CUBE, QUICK, control=EngineControl(cancel=cancel))
     assert_ended(int((tmp_path / "pid").read_text()))
 
 
 def test_an_engine_that_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     fake_engine(monkeypatch, tmp_path, hanging_engine(tmp_path))
     with pytest.raises(GeometryError, match=r"no decomposition within 0\.6 s"):
-        decompose(*CUBE, QUICK, timeout=0.6)
+        decompose(*CUBE, QUICK, control=EngineControl(timeout=0.6))
     if (tmp_path / "pid").exists():
         assert_ended(int((tmp_path / "pid").read_text()))
 

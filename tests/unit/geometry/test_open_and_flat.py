@@ -9,8 +9,7 @@ from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Ints, is_closed, principal_extents
 from meshforge.geometry.decomposition.run import decompose
 from meshforge.geometry.decomposition.settings import CoacdSettings, VhacdSettings
-from meshforge.geometry.decomposition.sheet import is_sheet, sheet_hulls
-from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, volume_inside
+from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, is_sheet, sheet_hulls, volume_inside
 from tests.unit.geometry.test_decompose import CUBE, L_SHAPE, QUICK
 
 CORNER = L_SHAPE[0][:6], np.array([[0, 1, 3], [1, 2, 3], [0, 3, 5], [3, 4, 5]])

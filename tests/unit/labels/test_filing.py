@@ -82,9 +82,7 @@ def test_links_that_are_not_there_are_told(tmp_path: Path) -> None:
 def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path) -> None:
     project = partnet(tmp_path, semantics="link_9 hinge door\n")
     file = tmp_path / "assets/semantics.txt"
-    assert project.label_from_files() == (
-        LabelOutcome(ASSET, problems=(f"{file}: it tells of no link of this asset",)),
-    )
+    assert project.label_from_files() == (LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),)
     file.write_text("link_0 slider\n")
     (report,) = project.label_from_files()
     assert "this line has 2 words, not three" in report.problems[0]

@@ -74,7 +74,7 @@ def test_labels_can_be_set_and_taken_away_without_measuring_again() -> None:
     labelled = mesh.with_labels({"a": Label("leg", 0.5, "vlm"), "b": Label("top")})
     assert labelled.labels == {"a": Label("leg", 0.5, "vlm"), "b": Label("top")}
     assert labelled.with_labels({"a": None}).labels == {"b": Label("top")}
-    assert labelled.__dict__["graph"] == graph
+    assert labelled.known_graph == graph
     assert mesh.labels == {}
 
 

@@ -24,7 +24,7 @@ _NUMBER = re.compile(r"[0-9\x00-\x20_.]+\Z")  # what Godot passes over at the en
 class CollisionNames(ABC):
     """The names of one engine.
 
-    title: the engine's name for people; holds: what a scene tells by them; shows: whether collision counts only where
+    title: the engine's name for people; holds: what a scene says by them; shows: whether collision counts only where
     its body has a mesh to be seen; takes_opaque: whether a mesh that is no hull can collide as it is; centred: whether
     the mesh of a hull may lie about its own middle, and its node in place.
     """
@@ -65,7 +65,7 @@ def clean_name(name: str, not_taken: str) -> str:
 
 
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
-    """How a scene has what names do not tell."""
+    """How a scene has what names do not say."""
     triangles = {what: "written as triangles" for what in PRIMITIVE_FEATURES.values() if what not in names.holds}
     return {**triangles, FeatureKind.BODIES: "written as nodes"}
 

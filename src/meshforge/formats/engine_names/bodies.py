@@ -6,11 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
-
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Loss
 from meshforge.formats.engine_names.base import CollisionNames
+from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.formats.visuals import read_visual_surfaces
 from meshforge.symbolic import Asset, Body, FeatureKind, Geom, Opaque, Surface
 
@@ -30,7 +29,7 @@ class EngineBody:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EngineBodies:
-    """All bodies of an asset that have anything; lost, notes: as of `Output`."""
+    """All bodies of an asset that have anything; lost: what the names cannot hold; notes: for the user."""
 
     each: tuple[EngineBody, ...]
     lost: tuple[Loss, ...]
@@ -120,6 +119,4 @@ def _merge_surfaces(geoms: Sequence[Geom], opaque: Sequence[Opaque]) -> tuple[Su
     hulls = [geom.shape.tessellate() for geom in geoms]
     parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
     parts += [piece.surface for piece in opaque if piece.surface is not None]
-    starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
-    faces = np.concatenate([part.faces + start for part, start in zip(parts, starts, strict=False)])
-    return (Surface(np.concatenate([part.vertices for part in parts]), faces),)
+    return (Surface(*stack_triangles((part.vertices, part.faces) for part in parts)),)

@@ -22,7 +22,7 @@ NATIVE_SHAPES = tuple(_PREFIXES)
 """The kinds of shapes, besides hulls, that Unreal makes of a mesh."""
 
 _NEAR = 0.01  # share of its size by which a mesh may differ from the primitive
-_EXACT = 1e-5  # the same for a ball, so that a short capsule is none
+_EXACT = 1e-5  # that share for a ball, so that a short capsule is none
 _ROUND = 0.5  # share of a ball or capsule that its inscribed mesh fills at least; a cube in a ball fills 0.37
 
 _WORDS: dict[str | None, str] = {"UBX": "box", "USP": "sphere", "UCP": "capsule"}

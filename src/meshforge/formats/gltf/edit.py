@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from meshforge.common import AssetError, pluralize
+from meshforge.common import AssetError, file_digest, pluralize
 from meshforge.formats.base import Output, note_renames
-from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord, name_hulls
@@ -110,7 +109,7 @@ def _note_hulls(style: EditStyle, made: Sequence[Geom]) -> list[str]:
 
 def _refuse_changed(document: GltfDocument, asset: Asset) -> None:
     for path, digest in document.digests:
-        if not path.is_file() or digest_of(path) != digest:
+        if not path.is_file() or file_digest(path) != digest:
             raise AssetError(
                 f"the buffer {path.name} has changed since the asset was read",
                 where=str(asset.path),

@@ -8,8 +8,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from meshforge.common import AssetError, pluralize
-from meshforge.formats.collision_meshes import digest_of
+from meshforge.common import AssetError, file_digest, pluralize
 from meshforge.formats.collision_pieces import drop_repeats
 from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision
@@ -55,7 +54,7 @@ def read_gltf(path: Path) -> Asset:
         said = [mentions_of_node(scene, source) for source in sources]
         geoms = tuple(_build_geoms(authored, sources, said))
         masses = tuple(_read_masses(scene, bodies, geoms))
-        digests = tuple((file, digest_of(file)) for file in scene.buffers.files() if file.is_file())
+        digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
     files, missing = _find_files(scene, path)

@@ -48,7 +48,7 @@ class Buffers:
         return values
 
     def geometry(self, index: Any) -> npt.NDArray[Any]:
-        """The same of an accessor that must have values of its own: geometry of all zeros is lost, never meant."""
+        """The values of an accessor that must have its own: geometry of all zeros is lost, never meant."""
         if not {"bufferView", "sparse"} & entry(self.tree, "accessors", index).keys():
             raise ValueError(f"the values of accessor {index}, geometry of a mesh, are not in it")
         return self.accessor(index)

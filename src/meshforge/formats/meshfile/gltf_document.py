@@ -61,7 +61,7 @@ class Container:
         return next((content for kind, content in self.chunks if kind == _BIN), None)
 
     def with_text(self, text: bytes, binary: bytes | None) -> Container:
-        """The same with another JSON, and another binary chunk where one is given."""
+        """The container with another JSON, and another binary chunk where one is given."""
         chunks = list(self.chunks)
         if binary is not None:
             at = next((k for k, (kind, _) in enumerate(chunks) if kind == _BIN), None)
@@ -135,7 +135,7 @@ def number(owner: Json, key: str, default: float) -> float:
 def report_damage(where: str) -> Iterator[None]:
     """Makes one clear AssetError of all that reading a damaged file may raise."""
     try:
-        with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and told
+        with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and refused
             yield
     except _DAMAGE as error:
         problem = f"{error.args[0]!r} is missing in it" if isinstance(error, KeyError) and error.args else str(error)

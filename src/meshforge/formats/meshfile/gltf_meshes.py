@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from meshforge.formats.meshfile.gltf_buffers import Buffers
 from meshforge.formats.meshfile.gltf_document import Json, entries, extension
+from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.geometry import Floats, Ints
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
@@ -47,14 +48,7 @@ def read_mesh(mesh: Json, buffers: Buffers) -> GltfMesh:
     """The triangles of a mesh; points and lines are passed over. Raises ValueError: damaged."""
     found = [_read_primitive(k, part, buffers) for k, part in enumerate(entries(mesh, "primitives"))]
     patches = tuple(patch for patch in found if patch is not None)
-    starts = np.cumsum([0, *(len(patch.points) for patch in patches)])
-    return GltfMesh(
-        np.concatenate([np.empty((0, 3)), *(patch.points for patch in patches)]),
-        np.concatenate(
-            [np.empty((0, 3), np.int64), *(p.faces + start for p, start in zip(patches, starts, strict=False))]
-        ),
-        patches,
-    )
+    return GltfMesh(*stack_triangles((patch.points, patch.faces) for patch in patches), patches)
 
 
 def _read_primitive(index: int, part: Json, buffers: Buffers) -> GltfPrimitive | None:
@@ -109,7 +103,7 @@ def decode_draco(data: bytes, names: Json) -> DracoMesh:
 
     Raises ValueError: they are damaged, hold no triangles, or not all of the attributes.
     """
-    import DracoPy
+    import DracoPy  # lazy: few files are compressed
 
     try:
         mesh = DracoPy.decode(data)

@@ -4,7 +4,6 @@ statements are read many at once, ten times as fast as the rest, which goes one 
 from __future__ import annotations
 
 import codecs
-import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, Soup, check_surfaces, is_number, remedy_for, text_of
+from meshforge.formats.meshfile.surface import (
+    RawSurface,
+    Soup,
+    check_surfaces,
+    cut_fans,
+    is_number,
+    remedy_for,
+    text_of,
+)
 from meshforge.geometry import Floats, Ints
 
 ObjGroup = tuple[str, str]
@@ -47,8 +54,8 @@ class ObjText:
         check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
         named = tuple(group_names(self.groups))
         within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
-        spoken = ("group", self.face_group, within), ("material", *self._materials())
-        return Soup(self.vertices, self.faces, self.face_group, named, spoken)
+        mentions = ("group", self.face_group, within), ("material", *self._materials())
+        return Soup(self.vertices, self.faces, self.face_group, named, mentions)
 
     def _materials(self) -> tuple[Ints, tuple[str, ...]]:
         """The material (m,) of each triangle, and the names of all; the first has none."""
@@ -157,8 +164,7 @@ def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, w
     plain = plain_faces([statements[k] for k in rows.tolist()], ahead, len(vertex_at))
     if plain is not None:
         return rows[plain[0]], plain[1]
-    at: list[int] = []
-    triangles: list[tuple[int, int, int]] = []
+    polygons: list[list[int]] = []
     for k, before in zip(rows.tolist(), ahead.tolist(), strict=True):
         try:
             if b"_" in statements[k]:
@@ -173,10 +179,9 @@ def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, w
                 there = f"the file has {len(vertex_at)}" if corner >= 0 else f"{before} lie ahead of it"
                 problem = f"a face names vertex {corner}, {there}"
                 raise _error_at(problem, statements, k, where)
-        for second, third in itertools.pairwise(indices[1:]):
-            at.append(k)
-            triangles.append((indices[0], second, third))
-    return np.array(at, dtype=np.int64), np.array(triangles, dtype=np.int64).reshape(-1, 3)
+        polygons.append(indices)
+    at, triangles = cut_fans(polygons)
+    return rows[at], triangles
 
 
 def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tuple[list[ObjGroup], Ints]:
@@ -194,8 +199,7 @@ def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tupl
 
 def group_name_of(statement: bytes) -> str:
     """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
-    rest = statement.strip()[1:].strip()
-    return text_of(rest)
+    return text_of(statement.strip()[1:].strip())
 
 
 def _quote(statement: bytes) -> str:
@@ -260,7 +264,7 @@ def plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, 
     corners = np.where(corners > 0, corners - 1, np.where(corners < 0, corners + np.repeat(before, counts), -1))
     if corners.min(initial=0) < 0 or corners.max(initial=-1) >= total:
         return None
-    return _cut_fans(corners, counts)
+    return _cut_many_fans(corners, counts)
 
 
 def _is_only_at_starts(words: list[bytes], word: bytes, width: int, count: int) -> bool:
@@ -268,7 +272,7 @@ def _is_only_at_starts(words: list[bytes], word: bytes, width: int, count: int) 
     return words[::width].count(word) == count == words.count(word)
 
 
-def _cut_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+def _cut_many_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
     """Polygons of so many corners (n,), one after the other, as triangles (m, 3); first the polygon (m,) of each."""
     triangles = np.maximum(counts - 2, 0)
     polygon = np.repeat(np.arange(len(counts)), triangles)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
+import codecs
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,14 +12,50 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.ply_header import PlyElement, PlyHeader, parse_header
-from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, remedy_for, text_of, to_doubles
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, cut_fans, remedy_for, text_of, to_doubles
 from meshforge.geometry import Floats, Ints
 
-_SHOWN = 60  # characters of a row in a message
+TYPES = {
+    **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4"},
+    **{"double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
+    **{"float32": "f4", "float64": "f8"},
+}
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_SHOWN = 60  # characters of a row, or a line of the header, in a message
 NEWLINE = b"\n"
 INDEX_NAMES = ("vertex_indices", "vertex_index")
 """The names under which files keep the corners of a face."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlyProperty:
+    """A property of an element: its name, numpy type, and the type of its length where it is a list."""
+
+    name: str
+    type: str
+    count: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PlyElement:
+    """An element: its name, how many rows it has, its properties."""
+
+    name: str
+    rows: int
+    properties: tuple[PlyProperty, ...]
+
+    @property
+    def has_lists(self) -> bool:
+        return any(p.count for p in self.properties)
+
+
+@dataclass(frozen=True, slots=True)
+class PlyHeader:
+    """size: bytes of the header with its last line end; order: of the bytes in numpy's letters, empty for ASCII."""
+
+    size: int
+    order: str
+    elements: tuple[PlyElement, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,6 +103,53 @@ def parse_ply(data: bytes, where: str) -> PlyText:
     vertices = _find_vertices(rows, where)
     faces, face_at = _find_faces(rows, len(vertices), where)
     return PlyText(header, tuple(rows), vertices, faces, face_at)
+
+
+def parse_header(data: bytes, where: str) -> PlyHeader:
+    """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
+    if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
+        raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
+    end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
+    if end is None and re.search(rb"\rend_header\r", data):
+        raise AssetError("its lines end in CR alone", where=where, remedy="Convert its line ends, or export it again.")
+    if end is None:
+        raise AssetError("the file is cut short: its header does not end", where=where, remedy="Export it again.")
+    order: str | None = None
+    elements: list[PlyElement] = []
+    for number, line in enumerate(data[: end.start()].splitlines(), start=1):
+        words = line.decode("ascii", "replace").split()
+        try:
+            match words:
+                case ["format", kind, _]:
+                    order = _ORDERS[kind]
+                case ["element", name, rows]:
+                    elements.append(PlyElement(name, _parse_count(rows), ()))
+                case ["property", *rest]:
+                    last, made = elements.pop(), _parse_property(rest)
+                    if any(p.name == made.name for p in last.properties):
+                        raise ValueError(made.name)
+                    elements.append(PlyElement(last.name, last.rows, (*last.properties, made)))
+        except (KeyError, IndexError, ValueError):
+            shown = " ".join(words)[:_SHOWN]
+            raise AssetError(f"this line of the header makes no sense: {shown!r}", where=f"{where}:{number}") from None
+    if order is None:
+        raise AssetError("the header names no format", where=where)
+    return PlyHeader(end.end(), order, tuple(elements))
+
+
+def _parse_count(text: str) -> int:
+    if not text.isdecimal():
+        raise ValueError(text)
+    return int(text)
+
+
+def _parse_property(words: list[str]) -> PlyProperty:
+    match words:
+        case ["list", count, kind, name]:
+            return PlyProperty(name, TYPES[kind], TYPES[count])
+        case [kind, name]:
+            return PlyProperty(name, TYPES[kind])
+    raise ValueError(words)
 
 
 class _OddRowError(Exception):
@@ -207,15 +291,12 @@ def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
         if table.min(initial=0) >= 0 and table.max(initial=-1) < count:
             return table, np.arange(len(table))
-    at: list[int] = []
-    triangles: list[tuple[int, int, int]] = []
+    polygons: list[list[int]] = []
     for k, corners in enumerate(read):
         if not all(0 <= c < count and c == int(c) for c in corners):
             names = ", ".join(f"{c:g}" for c in corners[:8])
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
             raise AssetError(problem, where=where)
-        indices = [int(c) for c in corners]
-        for second, third in itertools.pairwise(indices[1:]):
-            at.append(k)
-            triangles.append((indices[0], second, third))
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3), np.array(at, dtype=np.int64)
+        polygons.append([int(c) for c in corners])
+    at, triangles = cut_fans(polygons)
+    return triangles, at

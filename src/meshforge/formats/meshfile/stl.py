@@ -48,18 +48,15 @@ class StlText:
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each solid, named where there are several. Raises AssetError."""
         if len(self.solids) == 1:
-            corners = self.corners.reshape(-1, 3)
-            return check_surfaces([RawSurface(None, corners, _faces_in_order(corners))], where)
+            return check_surfaces([_surface_of(None, self.corners)], where)
         several = len(np.unique(self.solid)) > 1
-        parts = []
-        for k, name in enumerate(self.solids):
-            corners = self.corners[self.solid == k].reshape(-1, 3)
-            parts.append(RawSurface((name or None) if several else None, corners, _faces_in_order(corners)))
-        return check_surfaces(parts, where)
+        names = [(name or None) if several else None for name in self.solids]
+        return check_surfaces([_surface_of(name, self.corners[self.solid == k]) for k, name in enumerate(names)], where)
 
 
-def _faces_in_order(corners: Floats) -> Ints:
-    return np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
+def _surface_of(name: str | None, corners: Floats) -> RawSurface:
+    """Triangles (m, 3, 3) in their order, without shared vertices."""
+    return RawSurface(name, corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.int64).reshape(-1, 3))
 
 
 def parse_stl(data: bytes, where: str) -> StlText:
@@ -72,7 +69,7 @@ def parse_stl(data: bytes, where: str) -> StlText:
             raise AssetError(f"it says it has no triangle, yet {room} may follow", where=where, remedy=_AGAIN)
         return _parse_binary(data, count)
     if text:
-        return _parse_ascii(data, where)
+        return _plain_ascii(data) or _any_ascii(data, where)
     if count < 0 or _is_prose(data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
@@ -100,10 +97,6 @@ def facet_spans(data: bytes) -> Ints:
 def _blank_names(data: bytes) -> bytes:
     """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
     return _NAME.sub(lambda title: b" " * len(title[0]), data)
-
-
-def _parse_ascii(data: bytes, where: str) -> StlText:
-    return _plain_ascii(data) or _any_ascii(data, where)
 
 
 def _plain_ascii(data: bytes) -> StlText | None:

@@ -32,7 +32,7 @@ def parse_vrml(data: bytes, where: str) -> list[RawSurface]:
         for node in parse_nodes(data.decode("utf-8-sig", "replace"), where):
             _walk(node, np.eye(4), None, found, steps, where)
     except ValueError as error:
-        raise AssetError(str(error), where=where, remedy="Export it as OBJ.") from error
+        raise AssetError(str(error), where=where, remedy=_OTHER) from error
     return check_surfaces(found, where)
 
 
@@ -40,7 +40,7 @@ def _walk(
     node: VrmlNode, world: Floats, name: str | None, found: list[RawSurface], steps: Iterator[int], where: str
 ) -> None:
     if next(steps) > _MOST:
-        raise AssetError(f"it has more than {_MOST:,} nodes, most by USE", where=where, remedy="Export it as OBJ.")
+        raise AssetError(f"it has more than {_MOST:,} nodes, most by USE", where=where, remedy=_OTHER)
     name = node.name or name
     if node.type == "Shape":
         for geometry in node.nodes("geometry"):
@@ -54,7 +54,7 @@ def _walk(
 
 def _read_surface(node: VrmlNode, world: Floats, name: str | None, where: str) -> list[RawSurface]:
     if node.type in _SOLIDS:
-        raise AssetError(f"shapes of kind {node.type} are not read", where=where, remedy="Export it as OBJ.")
+        raise AssetError(f"shapes of kind {node.type} are not read", where=where, remedy=_OTHER)
     coordinates = node.nodes("coord")
     if node.type != "IndexedFaceSet" or not coordinates:
         return []
@@ -62,14 +62,14 @@ def _read_surface(node: VrmlNode, world: Floats, name: str | None, where: str) -
     if len(numbers) % 3:
         raise AssetError("its points are not all of three numbers", where=where)
     if not np.isfinite(numbers).all():
-        raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
+        raise AssetError("a coordinate is not a finite number", where=where, remedy="Fix or export it again.")
     points = np.array(numbers, dtype=np.float64).reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
     indices = node.numbers("coordIndex")
     if not all(x.is_integer() for x in indices):
         raise AssetError("a face names a vertex by a number that is not whole", where=where)
     if not all(-1 <= x < len(points) for x in indices):
         raise AssetError(f"a face names a vertex that is not there, there are {len(points)}", where=where)
-    faces = cut_fans(_split_polygons([int(x) for x in indices]))
+    _, faces = cut_fans(_split_polygons([int(x) for x in indices]))
     return [RawSurface(name, points, faces[:, ::-1] if node.word("ccw") == "FALSE" else faces)]
 
 

@@ -1,7 +1,7 @@
 """What the plain mesh formats have in common: a file is one body, its convex pieces are the hulls.
 
-A writer hands over the new file and whose each triangle should be; reading the file back tells whether it holds
-that, and under which names.
+A writer hands over the new file and the owner that each triangle should have; reading the file back shows whether it
+holds that, and under which names.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class MeshFileEdit:
 
     @property
     def owners(self) -> list[str]:
-        """Whose each triangle of the edited file should be."""
+        """The owner that each triangle of the edited file should have."""
         return list(itertools.compress(self.document.owners, self.stays)) + owners_of(self.parts)
 
 
@@ -125,11 +125,10 @@ class PlainFormat(Format):
     def _parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
         soup = self.parse_soup(data, path)
         try:
-            found = (
-                hull_groups(soup)
-                if soup.marked
-                else split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
-            )
+            if soup.marked:
+                found = hull_groups(soup)
+            else:
+                found = split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
         except GeometryError as error:
             raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
         owner = np.full(len(soup.faces), -1)
@@ -166,7 +165,7 @@ class PlainFormat(Format):
         return Output(data, names=self._check_output(data, Path(name), wanted, hulls, asset.path))
 
     def _edit_file(self, edit: MeshFileEdit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
-        """The edited file, and the names that read back otherwise; with explicit names where that mends them."""
+        """The edited file, and the names that read back otherwise; with explicit names where that repairs them."""
         if not edit.owners:
             raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
         if edit.document.marked and set(edit.owners) == {VISUAL_ONLY}:
@@ -176,18 +175,14 @@ class PlainFormat(Format):
                 remedy="Leave one hull: without any, what is seen would be taken for collision.",
             )
         data = self.apply_edit(edit)
-        wanted = self._target_of(edit)
+        soup = self.parse_soup(edit.document.data, edit.path)
+        kept = soup.vertices[soup.faces[edit.stays]]
+        wanted = TargetTriangles(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
         names = self._check_output(data, edit.path, wanted, hulls, edit.path)
         if names:
             data = self.apply_edit(replace(edit, explicit=True))
             names = self._check_output(data, edit.path, wanted, hulls, edit.path)
         return data, names
-
-    def _target_of(self, edit: MeshFileEdit) -> TargetTriangles:
-        """What the edited file should hold."""
-        soup = self.parse_soup(edit.document.data, edit.path)
-        kept = soup.vertices[soup.faces[edit.stays]]
-        return TargetTriangles(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
 
     def _check_output(
         self, data: bytes, path: Path, wanted: TargetTriangles, hulls: Collection[str], where: Path

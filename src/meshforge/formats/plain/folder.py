@@ -19,7 +19,7 @@ from meshforge.formats.segmentation.base import is_segmentation
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, Opaque
 
-Kept = TypeVar("Kept", Geom, Opaque)
+GeomOrOpaque = TypeVar("GeomOrOpaque", Geom, Opaque)
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
 
@@ -107,10 +107,10 @@ class FolderFormat(Format):
         return tree.to_output({g.name for g in asset.geoms})
 
 
-def _rename(piece: Kept, name: str) -> Kept:
+def _rename(piece: GeomOrOpaque, name: str) -> GeomOrOpaque:
     """A piece of a file with its name in the folder; a name that its file alone has is not forgotten."""
-    told: Mentions = () if piece.name in name or piece.name.startswith("geom") else (("group", piece.name),)
-    return replace(piece, name=name, mentions=(*told, *piece.mentions))
+    own: Mentions = () if piece.name in name or piece.name.startswith("geom") else (("group", piece.name),)
+    return replace(piece, name=name, mentions=(*own, *piece.mentions))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -65,16 +65,14 @@ class ObjFormat(PlainFormat):
         shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
-        meant = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
-        notes = (MARKED_NOTE, *(note for _, note in meant.values() if note))
-        return {name: shape for name, (shape, _) in meant.items()}, notes
+        readings = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
+        notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
+        return {name: shape for name, (shape, _) in readings.items()}, notes
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        return (
-            next_hull_names(parse_obj(document.data, ""), geoms)
-            if document.marked
-            else super().name_hulls(document, geoms)
-        )
+        if not document.marked:
+            return super().name_hulls(document, geoms)
+        return next_hull_names(parse_obj(document.data, ""), geoms)
 
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
         return edit_obj(parse_obj(edit.document.data, str(edit.path)), edit)

@@ -16,14 +16,14 @@ from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
 
 VISUAL_ONLY = ""
-"""Whose triangles are that are only seen; no piece has this name."""
+"""The owner of triangles that are only seen; no piece has this name."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlainDocument(Document):
     """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
 
-    groups: how many groups of the file have faces; marked: whether names mark its hulls, as of `Soup`; then -1 is the
+    groups: how many groups of the file have faces; marked: whether names mark its hulls (see `Soup`); then -1 is the
     owner of what is only seen.
     """
 
@@ -35,7 +35,7 @@ class PlainDocument(Document):
 
     @property
     def owners(self) -> list[str]:
-        """The name of the piece of each triangle, SEEN for what is only seen."""
+        """The name of the piece of each triangle, VISUAL_ONLY for what is only seen."""
         names = [*self.names, VISUAL_ONLY]  # -1 is the last
         return [names[k] for k in self.owner.tolist()]
 
@@ -61,7 +61,7 @@ class TargetTriangles:
 
 
 def owners_of(parts: Sequence[MeshPart]) -> list[str]:
-    """Whose each triangle of a file of these parts should be."""
+    """The owner that each triangle of a file of these parts should have."""
     return [part.name for part in parts for _ in part.surface.faces]
 
 
@@ -126,7 +126,7 @@ def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
 
 
 def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
-    """The hulls and the opaque surfaces of an asset. Raises AssetError where there are none."""
+    """The hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
     seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
     parts = to_parts(asset.geoms)[0] + seen
     if not parts:
@@ -159,11 +159,8 @@ def find_renamed_hulls(
     for name in sorted(hulls, key=natural_key):
         held = back.get(name, set())
         if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
-            raise AssetError(
-                f"the hull {name} cannot be told apart from others in this file",
-                where=where,
-                remedy="Write an OBJ, which has groups, or a folder of files.",
-            )
+            problem = f"the hull {name} cannot be told apart from others in this file"
+            raise AssetError(problem, where=where, remedy="Write an OBJ, which has groups, or a folder of files.")
     read = {name: min(back[name]) for name in back if name in hulls}
     return {name: now for name, now in read.items() if now != name}
 

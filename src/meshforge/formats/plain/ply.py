@@ -11,9 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.ply import INDEX_NAMES, PlyRows, PlyText, parse_ply
-from meshforge.formats.meshfile.ply_header import PlyProperty
-from meshforge.formats.meshfile.surface import Soup, join_surfaces
+from meshforge.formats.meshfile.ply import INDEX_NAMES, PlyProperty, PlyRows, PlyText, parse_ply
+from meshforge.formats.meshfile.surface import Soup, join_surfaces, stack_triangles
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, PlainDocument
 from meshforge.geometry import Floats, Ints
@@ -66,12 +65,7 @@ class PlyFormat(PlainFormat):
 
 def _stack_parts(parts: Sequence[MeshPart], start: int) -> tuple[Floats, Ints]:
     """All vertices (n, 3) of parts and their faces (m, 3), numbered from `start`."""
-    vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)]
-    for part in parts:
-        faces.append(part.surface.faces + start)
-        vertices.append(part.surface.vertices + 0.0)
-        start += len(part.surface.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)
+    return stack_triangles(((part.surface.vertices + 0.0, part.surface.faces) for part in parts), start)
 
 
 class _PlyEditor:
@@ -175,7 +169,7 @@ def _renumber_bytes(row: bytes, properties: Sequence[PlyProperty], order: str, n
 
 
 def find_misfits(kind: PlyProperty, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Those of new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
+    """The new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
     if kind.type[0] == "f" and not kind.count:
         return values[:0]
     with np.errstate(invalid="ignore"):

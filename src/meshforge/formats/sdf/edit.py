@@ -12,7 +12,6 @@ from meshforge.common import AssetError, join_names, nearest_name, pluralize
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.collision_meshes import SourceMeshes
 from meshforge.formats.companions import find_companions
-from meshforge.formats.element_plan import ElementPlan
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.sdf.document import (
@@ -37,7 +36,7 @@ from meshforge.formats.sdf.elements import (
     replace_mesh_file,
 )
 from meshforge.formats.sdf.shapes import read_submesh, select_submesh
-from meshforge.formats.slots import Slot, assign_names, name_attribute_of
+from meshforge.formats.slots import ElementPlan, Slot, assign_names, name_attribute_of
 from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, indent_of, newline_of
 from meshforge.geometry import Capsule, Ellipsoid, Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom

@@ -1,1 +1,1 @@
-"""TODO"""
+"""Points and faces that another tool gave classes, and the names of these classes."""

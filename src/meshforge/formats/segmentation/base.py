@@ -14,23 +14,14 @@ from meshforge.common import AssetError, pluralize
 from meshforge.geometry import Floats, Ints
 
 LABELS = (
-    "label",
-    "segment",
-    "segmentation",
-    "seg",
-    "part",
-    "semantic",
-    "class",
-    "category",
-    "prediction",
-    "pred",
-    "cluster",
+    *("label", "segment", "segmentation", "seg", "part", "semantic"),
+    *("class", "category", "prediction", "pred", "cluster"),
 )
 """What properties and arrays with classes are called, what is most plainly one first."""
 _LARGEST = 2**31
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
-"""Those of segmented points and meshes."""
+"""The suffixes of segmented points and meshes."""
 _MARK = ".points"
 
 
@@ -67,7 +58,7 @@ def check_segmentation(found: Segmentation, where: str) -> Segmentation:
     if not len(classes):
         raise AssetError("there is nothing in this file that has a class", where=where)
     if points is not None and not np.isfinite(points).all():
-        raise AssetError("a coordinate is not a finite number", where=where, remedy="Mend or export it again.")
+        raise AssetError("a coordinate is not a finite number", where=where, remedy="Fix or export it again.")
     if points is not None and len(faces) and (faces.min() < 0 or faces.max() >= len(points)):
         raise AssetError("a face names a vertex that is not there", where=where)
     if points is not None and len(classes) != len(faces if found.of_faces else points):

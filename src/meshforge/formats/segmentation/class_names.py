@@ -24,16 +24,11 @@ def read_class_names(path: Path) -> dict[int, str]:
 
     Raises AssetError: it cannot be read, or says a number twice, or some lines have one and some have none.
     """
-    try:
-        lines = [line.strip() for line in path.read_text(encoding="utf-8-sig").splitlines()]
-    except OSError as error:
-        raise AssetError(f"the names of classes cannot be read ({error.strerror})", where=str(path)) from error
-    except UnicodeDecodeError as error:
-        raise AssetError("the names of classes are not UTF-8 text", where=str(path)) from error
+    lines = [line.strip() for line in _read_lines(path, "the names of classes")]
     numbered = [(k, found) for k, line in enumerate(lines) if (found := _NUMBERED.fullmatch(line))]
-    said = [line for line in lines if line]
-    if numbered and len(numbered) < len(said):
-        problem = f"{pluralize(len(numbered), 'line')} of {len(said)} begin with a number"
+    count = sum(map(bool, lines))
+    if numbered and len(numbered) < count:
+        problem = f"{pluralize(len(numbered), 'line')} of {count} begin with a number"
         raise AssetError(problem, where=str(path), remedy="Number all classes, or none.")
     if not numbered:
         return {k: line for k, line in enumerate(lines) if line}
@@ -44,6 +39,15 @@ def read_class_names(path: Path) -> dict[int, str]:
             raise AssetError(f"class {number} is named twice", where=f"{path}:{k + 1}", remedy="Keep one of them.")
         names[number] = found[2]
     return names
+
+
+def _read_lines(path: Path, what: str) -> list[str]:
+    try:
+        return path.read_text(encoding="utf-8-sig").splitlines()
+    except OSError as error:
+        raise AssetError(f"{what} cannot be read ({error.strerror})", where=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise AssetError(f"{what} are not UTF-8 text", where=str(path)) from error
 
 
 def parse_comments(lines: Iterable[str]) -> dict[int, str]:
@@ -72,18 +76,12 @@ class LinkSemantics:
 
 
 def read_semantics(path: Path) -> tuple[LinkSemantics, ...]:
-    """The links that a file tells of, in its order.
+    """The links that a file lists, in its order.
 
-    Raises AssetError with the line: it cannot be read, a line of other than three words, a link told twice.
+    Raises AssetError with the line: it cannot be read, a line of other than three words, a link listed twice.
     """
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise AssetError(f"the semantics cannot be read ({error.strerror})", where=str(path)) from error
-    except UnicodeDecodeError as error:
-        raise AssetError("the semantics are not UTF-8 text", where=str(path)) from error
     found: dict[str, LinkSemantics] = {}
-    for number, line in enumerate(lines, start=1):
+    for number, line in enumerate(_read_lines(path, "the semantics"), start=1):
         words = line.split()
         if not words:
             continue
@@ -91,8 +89,9 @@ def read_semantics(path: Path) -> tuple[LinkSemantics, ...]:
             problem = f"this line has {len(words)} words, not three: {line.strip()[:60]!r}"
             raise AssetError(problem, where=f"{path}:{number}", remedy=_REMEDY)
         if words[0] in found:
-            raise AssetError(f"the link {words[0]!r} is told twice", where=f"{path}:{number}", remedy="Keep one line.")
+            problem = f"the link {words[0]!r} is listed twice"
+            raise AssetError(problem, where=f"{path}:{number}", remedy="Keep one line.")
         found[words[0]] = LinkSemantics(*words)
     if not found:
-        raise AssetError("it tells of no link", where=str(path), remedy=_REMEDY)
+        raise AssetError("it lists no link", where=str(path), remedy=_REMEDY)
     return tuple(found.values())

@@ -11,11 +11,10 @@ from meshforge.formats.base import Output
 from meshforge.formats.collision_meshes import SourceMeshes
 from meshforge.formats.collision_pieces import is_flat
 from meshforge.formats.companions import find_companions
-from meshforge.formats.element_plan import ElementPlan
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.references import Resolver, placement
-from meshforge.formats.slots import Slot, assign_names
+from meshforge.formats.slots import ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
 from meshforge.formats.urdf.elements import (
     build_collision,

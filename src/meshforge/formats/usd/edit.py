@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, file_digest
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.collision_meshes import digest_of
 from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.usd.colliders import StageBodies, physics_material
 from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
@@ -149,7 +148,7 @@ def _find_absolute_references(asset: Asset) -> frozenset[Path]:
 
 def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
     for path, digest in document.digests:
-        if not path.is_file() or digest_of(path) != digest:
+        if not path.is_file() or file_digest(path) != digest:
             raise _change_error(path, asset)
     if not asset.path.is_file() or asset.path.read_bytes() != document.source:
         raise _change_error(asset.path, asset)

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.common import AssetError, GeometryError, MeshForgeError, is_file, join_names, pluralize
-from meshforge.formats.collision_meshes import digest_of
+from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, drop_repeats, place_surface
 from meshforge.formats.gltf.visuals import GAMMA
 from meshforge.formats.mesh_reader import read_content
@@ -153,7 +152,7 @@ def digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
     own = scene.path.resolve()
     layers = [_file_of(layer.realPath) for layer in scene.stage.GetUsedLayers()]
     others = dict.fromkeys(layer for layer in layers if layer is not None and layer.resolve() != own)
-    return tuple((layer, digest_of(layer)) for layer in others)
+    return tuple((layer, file_digest(layer)) for layer in others)
 
 
 def _file_of(place: Any) -> Path | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import os
 import re
@@ -12,18 +13,19 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from meshforge.common import GeometryError
+from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.decomposition import worker
-from meshforge.geometry.decomposition.cache import EnginePiece, unpack_pieces
 from meshforge.geometry.decomposition.settings import DecomposeSettings
 from meshforge.geometry.decomposition.triangles import TriangleMesh
 
-DecompositionProgress = Callable[[str], None]
-"""Told in a few words how far a decomposition is."""
+EnginePiece = tuple[Floats, Ints]
+"""Vertices (n, 3) and triangles (m, 3) of one piece, as the engine gave them."""
 _TICK = 0.05  # seconds between two looks at the clock and at `cancel`
 _ROUND = re.compile(r"iter (\d+) -+ waiting pool: (\d+)")
 
@@ -32,16 +34,22 @@ class DecompositionCancelledError(GeometryError):
     """The caller asked to stop."""
 
 
-def run_engine(
-    mesh: TriangleMesh,
-    settings: DecomposeSettings,
-    progress: DecompositionProgress | None = None,
-    cancel: Callable[[], bool] | None = None,
-    timeout: float | None = None,
-) -> list[EnginePiece]:
+@dataclass(frozen=True, slots=True)
+class EngineControl:
+    """How an engine is followed and stopped.
+
+    progress: called with a few words on how far it is; cancel: asked whether to stop; timeout: [s], None for no end.
+    """
+
+    progress: Callable[[str], None] = lambda _: None
+    cancel: Callable[[], bool] = lambda: False
+    timeout: float | None = None
+
+
+def run_engine(mesh: TriangleMesh, settings: DecomposeSettings, control: EngineControl) -> list[EnginePiece]:
     """The pieces that the engine makes of the mesh.
 
-    timeout: [s]. Raises GeometryError: the engine crashed or took too long; DecompositionCancelledError.
+    Raises GeometryError: the engine crashed or took too long; DecompositionCancelledError.
     """
     with tempfile.TemporaryDirectory(prefix="meshforge-") as folder:
         source, target = Path(folder, "mesh.npz"), Path(folder, "pieces.npz")
@@ -50,38 +58,35 @@ def run_engine(
         command = [sys.executable, "-P", worker.__file__, str(source), str(target), job]
         log = Path(folder, "errors.txt")
         with log.open("wb") as errors:
-            code = _supervise(command, errors.fileno(), progress or _ignore_progress, cancel or _never_cancel, timeout)
+            code = _supervise(command, errors.fileno(), control)
         if code != 0 or not target.exists():
             raise GeometryError(
                 f"{settings.engine} crashed ({_last_message(log, code)})",
-                remedy="Try other settings (preprocess_mode, threshold), the other engine, or mend the mesh.",
+                remedy="Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh.",
             )
         return unpack_pieces(target.read_bytes())
 
 
-def _supervise(
-    command: list[str], errors: int, progress: DecompositionProgress, cancel: Callable[[], bool], timeout: float | None
-) -> int:
-    """The exit code of a command, which is killed when `cancel` says so or time is up."""
+def _supervise(command: list[str], errors: int, control: EngineControl) -> int:
+    """The exit code of a command, which is killed when it is cancelled or time is up."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
     process = subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True, env=environment
     )
-    heard: list[str] = []
-    reader = threading.Thread(target=_read_progress, args=(process, heard), daemon=True)
+    lines: list[str] = []
+    reader = threading.Thread(target=_read_progress, args=(process, lines), daemon=True)
     reader.start()
     try:
         started = time.monotonic()
         while _is_running(process):
-            _report(heard, progress)
-            if cancel():
+            _report(lines, control)
+            if control.cancel():
                 raise DecompositionCancelledError("the decomposition was stopped")
-            if timeout is not None and time.monotonic() - started > timeout:
-                raise GeometryError(
-                    f"no decomposition within {timeout:g} s", remedy="Allow more time, or set a coarser threshold."
-                )
+            if control.timeout is not None and time.monotonic() - started > control.timeout:
+                problem = f"no decomposition within {control.timeout:g} s"
+                raise GeometryError(problem, remedy="Allow more time, or set a coarser threshold.")
         reader.join()
-        _report(heard, progress)
+        _report(lines, control)
         return process.returncode
     finally:
         process.kill()
@@ -98,25 +103,44 @@ def _is_running(process: subprocess.Popen[str]) -> bool:
     return True
 
 
-def _read_progress(process: subprocess.Popen[str], heard: list[str]) -> None:
+def _read_progress(process: subprocess.Popen[str], lines: list[str]) -> None:
     """Turns CoACD's log into progress; V-HACD is silent."""
     found = (_ROUND.search(line) for line in process.stdout or ())
-    heard.extend(f"round {int(f[1]) + 1}: {f[2]} parts still to be split" for f in found if f)
+    lines.extend(f"round {int(f[1]) + 1}: {f[2]} parts still to be split" for f in found if f)
 
 
-def _report(heard: list[str], progress: DecompositionProgress) -> None:
-    while heard:
-        progress(heard.pop(0))
+def _report(lines: list[str], control: EngineControl) -> None:
+    while lines:
+        control.progress(lines.pop(0))
 
 
 def _last_message(log: Path, code: int) -> str:
     lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
-    told = lines[-1].strip() if lines else "no message"
-    return f"exit code {code}: {told[-200:]}"
+    message = lines[-1].strip() if lines else "no message"
+    return f"exit code {code}: {message[-200:]}"
 
 
-def _ignore_progress(_: str) -> None: ...
+def pack_pieces(pieces: list[EnginePiece]) -> bytes:
+    """The pieces as the content of an `.npz`."""
+    buffer = io.BytesIO()
+    np.savez_compressed(
+        buffer,
+        vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
+        faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3), np.int64)]),
+        counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
+    )
+    return buffer.getvalue()
 
 
-def _never_cancel() -> bool:
-    return False
+def unpack_pieces(content: bytes) -> list[EnginePiece]:
+    """The pieces of `pack_pieces`. Raises ValueError, KeyError, EOFError or BadZipFile for anything else."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        vertices, faces, counts = (arrays[name] for name in ("vertices", "faces", "counts"))
+    ends = np.cumsum(counts.reshape(-1, 2), axis=0)
+    if (len(vertices), len(faces)) != tuple(ends[-1] if len(ends) else (0, 0)):
+        raise ValueError("counts do not add up")
+    starts = ends - counts
+    return [
+        (vertices[v0:v1].astype(np.float64), faces[f0:f1].astype(np.int64))
+        for (v0, f0), (v1, f1) in zip(starts, ends, strict=True)
+    ]

@@ -18,10 +18,10 @@ import numpy as np
 def main(source: str, target: str, job: str) -> None:
     """Decompose the triangles in `source` and write the pieces to `target`."""
     _die_with_parent()
-    given = np.load(source, allow_pickle=False)
+    mesh = np.load(source, allow_pickle=False)
     settings: dict[str, Any] = json.loads(job)
     engine = {"coacd": _run_coacd, "vhacd": _run_vhacd}[settings.pop("engine")]
-    pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(given["vertices"], given["faces"], settings)]
+    pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(mesh["vertices"], mesh["faces"], settings)]
     np.savez(
         target,
         vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
@@ -31,14 +31,14 @@ def main(source: str, target: str, job: str) -> None:
 
 
 def _run_coacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
-    import coacd
+    import coacd  # lazy: this process runs one of two engines
 
     coacd.set_log_level("info")  # its lines are the only sign of progress
     return coacd.run_coacd(coacd.Mesh(vertices, faces.astype(np.int32)), **settings)
 
 
 def _run_vhacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
-    import vhacdx
+    import vhacdx  # lazy: this process runs one of two engines
 
     a, b, c = (vertices[faces[:, k]] - vertices.mean(axis=0) for k in range(3))
     outward = np.einsum("ij,ij->", a, np.cross(b, c)) > 0

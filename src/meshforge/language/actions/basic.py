@@ -9,8 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from meshforge.geometry import convex_hull
-from meshforge.language.actions.arguments import AXES, Axis, FactorArgument, WordArgument
-from meshforge.language.actions.base import Action, ActionArgument
+from meshforge.language.actions.base import AXES, Action, ActionArgument, Axis, FactorArgument, WordArgument
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
 from meshforge.language.actions.insert import Add, Replace
 from meshforge.symbolic import SymbolicMesh, split_by_contact
@@ -83,14 +82,4 @@ class Each(Action):
         return self.action.makes_hulls
 
 
-ACTIONS: Mapping[str, type[Action]] = {
-    kind.__name__: kind
-    for kind in (
-        Delete,
-        Replace,
-        Add,
-        Merge,
-        Scale,
-        Each,
-    )
-}
+ACTIONS: Mapping[str, type[Action]] = {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}

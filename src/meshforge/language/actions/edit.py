@@ -119,8 +119,8 @@ def check_templates(wanted: Iterable[str], templates: Mapping[str, Template]) ->
     """Raises ProgramError naming the first wanted template that is not among those given."""
     for name in wanted:
         if name not in templates:
-            given = ", ".join(sorted(templates)) or "none"
+            known = ", ".join(sorted(templates)) or "none"
             raise ProgramError(
-                f'there is no template "{name}" (templates given: {given})',
+                f'there is no template "{name}" (templates given: {known})',
                 remedy="Templates are looked for beside the program, then in the folder templates/ beside it.",
             )

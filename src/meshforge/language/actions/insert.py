@@ -22,15 +22,15 @@ from meshforge.geometry import (
     tight_capsule,
     tight_cylinder,
 )
-from meshforge.language.actions.arguments import (
+from meshforge.language.actions.base import (
     DIRECTION,
     PRIMITIVES,
+    Action,
     FileArgument,
     FlagArgument,
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.syntax import Direction
 
@@ -40,11 +40,7 @@ _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
     "capsule": aabb_capsule,
     "sphere": aabb_sphere,
 }
-_TIGHT_FITS = {
-    "box": tight_box,
-    "cylinder": tight_cylinder,
-    "capsule": tight_capsule,
-}
+_TIGHT_FITS = {"box": tight_box, "cylinder": tight_cylinder, "capsule": tight_capsule}
 
 
 @dataclass(frozen=True, slots=True)

@@ -228,5 +228,5 @@ class MeshTurner:
         oriented, pose = orient_mesh(self._mesh, orient)
         staged = replace(oriented, scale=oriented.diagonal)
         reach = staged.contact_distance * NEAR_MISS
-        staged.__dict__["graph"] = {pair: gap for pair, gap in self._wide.graph.items() if gap <= reach}
+        staged.set_known_graph({pair: gap for pair, gap in self._wide.graph.items() if gap <= reach})
         return staged, (pose.rotation.round(9) + 0.0).tobytes()
