@@ -120,14 +120,22 @@ class SourceMeshes:
         """What is in a file. Raises AssetError where it has changed since the asset was read."""
         path = resolver.find(reference)
         if path is None or digest_of(path) != self._digests.get(path):
-            raise AssetError(
-                f"the mesh {reference!r} has changed since the asset was read",
-                where=self._where,
-                remedy="Read the asset again.",
-            )
+            raise change_error(f"the mesh {reference!r}", self._where)
         if path not in self._surfaces:
             self._surfaces[path] = read_triangles(path)
         return self._surfaces[path]
+
+
+def change_error(what: str, where: str) -> AssetError:
+    """The error about a file that is not what it was."""
+    return AssetError(f"{what} has changed since the asset was read", where=where, remedy="Read the asset again.")
+
+
+def refuse_changed_files(digests: Iterable[tuple[Path, str]], where: str, kind: str = "") -> None:
+    """Raise AssetError where a file is not what it was when it had a digest; kind: what to call it, with a blank."""
+    for path, digest in digests:
+        if not path.is_file() or digest_of(path) != digest:
+            raise change_error(f"{kind}{path.name}", where)
 
 
 def digest_of(path: Path) -> str:

@@ -4,13 +4,16 @@ files have for them, and the hulls and opaque pieces of an asset that they becom
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, principal_extents
-from meshforge.symbolic import Geom, Mentions, Opaque, Surface
+from meshforge.common import GeometryError
+from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
+from meshforge.symbolic import Geom, Mentions, Opaque, Surface, unique_names
+
+_RING = 32  # corners of each end of a tapered cylinder
 
 ElementMentions = Sequence[Sequence[Mentions]]
 """What else is said of each of them."""
@@ -59,6 +62,35 @@ def turn_z_to(normal: Floats) -> Pose:
         return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
     cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
     return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
+
+
+def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], Shape]) -> CollisionPiece:
+    """The shape that `make` makes, unless it has no volume; sizes: its own [m], none of which may be zero."""
+    if not np.isfinite(sizes).all() or min(sizes) <= 0:
+        return CollisionPiece(None, f"a {kind.lower()} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
+    try:
+        return CollisionPiece(make())
+    except GeometryError as error:
+        return CollisionPiece(None, error.problem)
+
+
+def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:
+    """Points (n, 3) of the disk or ball at a height along an axis: the end of a tapered cylinder or capsule."""
+    centre = height * np.eye(3)[axis]
+    if radius == 0:
+        return centre[None]
+    if ball:
+        return Sphere(Pose.of_translation(centre), radius).vertices
+    angles = np.arange(_RING) * (2 * np.pi / _RING)
+    ring = np.column_stack([radius * np.cos(angles), radius * np.sin(angles)])
+    return np.insert(ring, axis, height, axis=1)
+
+
+def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
+    """The names of pieces; for each element its own name and how many pieces it has: `#k` for one of several."""
+    each = [[base] if count == 1 else [f"{base}#{k}" for k in range(count)] for base, count in bases]
+    unique = iter(unique_names(name for names in each for name in names))
+    return [tuple(next(unique) for _ in names) for names in each]
 
 
 ElementPieces = Sequence[Sequence[CollisionPiece]]

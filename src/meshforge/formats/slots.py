@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from meshforge.formats.collision_pieces import CollisionElement, name_pieces
 from meshforge.formats.xml import (
     Element,
     Splice,
@@ -101,22 +102,26 @@ def _parse_element(text: bytes) -> Element:
     return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
 
 
-def name_element_pieces(elements: Sequence[tuple[str, str | None, int]]) -> list[tuple[str, ...]]:
-    """The names that the pieces of collision elements read as; for each element its link, name attribute and pieces.
+def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
+    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
 
-    `link/name`, or `link/geomK` where the K-th element of a link has no name; `#k` for one of several pieces.
+    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
+    several pieces.
     """
-    count: dict[str, int] = {}
+    count: dict[str | None, int] = {}
     bases = []
     for link, name, _ in elements:
-        bases.append(f"{link}/{name or 'geom' + str(count.get(link, 0))}")
+        own = name or f"geom{count.get(link, 0)}"
+        bases.append(own if link is None else f"{link}/{own}")
         count[link] = count.get(link, 0) + 1
-    each = [
-        [base] if pieces == 1 else [f"{base}#{k}" for k in range(pieces)]
-        for base, (_, _, pieces) in zip(unique_names(bases), elements, strict=True)
-    ]
-    unique = iter(unique_names(name for names in each for name in names))
-    return [tuple(next(unique) for _ in names) for names in each]
+    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+
+
+def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
+    own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
+    named = zip(own, name_element_pieces(own), strict=True)
+    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
 
 
 def assign_names(slots: Sequence[Slot]) -> dict[str, str]:

@@ -41,7 +41,7 @@ class MjcfBody:
 
     name: as in the asset; parent: None for the world. source, start: its element, source -1 where it has none here.
     pose: root_T_body in the reference configuration; inertial: body_T_inertial; mass [kg]; inertia: (3,) moments about
-    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file tells them.
+    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file says them.
     """
 
     name: str
@@ -222,10 +222,8 @@ class _TreeReader:
             raise AssetError("this <include> names no file", where=where)
         path = self._find(reference, source)
         if path is None:
-            looked = " and ".join(dict.fromkeys(str(p) for p in self._list_candidates(reference, source)))
-            raise AssetError(
-                f"the included file {reference!r} is not there", where=where, remedy=f"Looked for {looked}."
-            )
+            remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, self._list_candidates(reference, source))))}."
+            raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
             raise AssetError(
                 f"{reference!r} is included twice, or includes itself",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
+from meshforge.formats.companions import note_absolute
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.edit_check import find_changed_masses, find_difference
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
@@ -95,7 +96,7 @@ def _build_output(
     files = dict(made)
     for place, text, source in included:
         if place is None:
-            notes.append(f"{source.reference!r} is an absolute reference: the file is used where it is, not copied")
+            notes.append(note_absolute(source.reference))
         else:
             files[place] = text
     return Output(texts[0], files, copies, tuple(notes), names)
@@ -137,7 +138,7 @@ class MjcfEdit:
         return read_model(self._build_tree(), self.is_whole)
 
     def read_back_unscaled(self) -> MjcfModel:
-        """The same with plain masses."""
+        """What MuJoCo makes of the texts with plain masses."""
         tree = self._build_tree()
         reading = read_model(tree, self.is_whole)
         return read_unscaled_model(tree, reading) if self.is_whole else reading

@@ -17,10 +17,9 @@ from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.elements import geom_attributes, mesh_geom_attributes, tag
 from meshforge.formats.mjcf.engine import compile_model
 from meshforge.formats.mjcf.references import AssetFolders
-from meshforge.formats.mjcf.shapes import rotation_of
 from meshforge.formats.slots import Slot
 from meshforge.formats.xml import format_numbers, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, rotation_of_quaternion
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -286,7 +285,7 @@ class ElementContext:
         model = compile_model(
             Path("frames.xml"), {Path("frames.xml"): text % (tag("compiler", units), opened, b"</frame>" * len(said))}
         )
-        return Pose(rotation_of(model.geom_quat[0]), model.geom_pos[0])
+        return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])
 
     def _add_classes(self, default: MjcfNode, chain: tuple[MjcfNode, ...] = ()) -> None:
         for child in default.children:

@@ -3,7 +3,7 @@ each geom is."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,15 +12,12 @@ import numpy as np
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
-from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses, rotation_of
-from meshforge.geometry import Pose
+from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
+from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import mujoco
-
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -60,7 +57,7 @@ class MjcfModel:
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
-        import mujoco
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         geoms, opaque = [], []
         shapes, said = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
@@ -90,7 +87,7 @@ class MjcfModel:
             source=node.source if node else -1,
             start=node.element.start if node else -1,
             pose=self.body_poses[k],
-            inertial=Pose(rotation_of(model.body_iquat[k]), model.body_ipos[k]),
+            inertial=Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k]),
             mass=float(model.body_mass[k]),
             inertia=model.body_inertia[k].copy(),
             explicit=bool(body.explicitinertial),
@@ -141,9 +138,8 @@ def read_mechanism(reading: MjcfModel) -> Mechanism:
 
 def _read_excludes(reading: MjcfModel) -> tuple[tuple[str, str], ...]:
     signatures = [int(signature) for signature in reading.model.exclude_signature]
-    return tuple(
-        (reading.body_names[s >> 16], reading.body_names[s & 0xFFFF]) for s in signatures
-    )  # as MuJoCo packs it
+    # two numbers of bodies as MuJoCo packs them
+    return tuple((reading.body_names[s >> 16], reading.body_names[s & 0xFFFF]) for s in signatures)
 
 
 def _read_pairs(reading: MjcfModel) -> tuple[tuple[str, str], ...]:

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, MeshForgeError, is_file, relative_name
-from meshforge.formats.companions import find_companions
+from meshforge.common import MeshForgeError, is_file, relative_name
+from meshforge.formats.companions import add_copy, find_companions, note_absolute
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.symbolic import Asset
@@ -185,19 +185,14 @@ def list_copies(asset: Asset, tree: MjcfTree) -> tuple[dict[str, Path], list[str
         if place is None:
             far[path] = reference
             far |= dict.fromkeys(find_companions(path).values(), "")
-        elif found.setdefault(place, path) != path:
-            raise AssetError(
-                f"{found[place]} and {path} would both become {place!r}", where=str(path), remedy="Rename one of them."
-            )
         else:
-            for key, companion in find_companions(path).items():
-                found.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
+            add_copy(found, place, path)
     known = {*found.values(), *far, *(source.path for source in tree.sources)}
     for path in asset.files:  # those of sub-models and plugins
         if path not in known:
             found.setdefault(relative_name(path, tree.main.path.parent), path)
-    absolute = dict.fromkeys(said for said in far.values() if said)
-    return found, [f"{said!r} is an absolute reference: the file is used where it is, not copied" for said in absolute]
+    absolute = dict.fromkeys(reference for reference in far.values() if reference)
+    return found, [note_absolute(reference) for reference in absolute]
 
 
 def top_folder(document: MjcfDocument) -> Path:

@@ -21,7 +21,7 @@ OLDEST: Version = (1, 2)
 """The first with elements as they are now; 1.0 had attributes."""
 NEWEST: Version = (1, 12)
 AXIS_IN_JOINT: Version = (1, 5)
-"""From here on the axis of a joint is told in the joint's frame, not in the model's."""
+"""From here on the axis of a joint is given in the joint's frame, not in the model's."""
 RELATIVE_TO: Version = (1, 7)
 """From here on `relative_to` counts; before, `frame` said the same, and few readers took notice of it."""
 ROUND_SHAPES: Version = (1, 8)
@@ -52,7 +52,7 @@ _MOST_SCRIPTS = 1000  # files of one folder of material scripts
 
 
 def parse_version(text: str) -> Version | None:
-    """The version that a text tells, None where it tells none."""
+    """The version in a text, None where there is none."""
     found = _VERSION_TEXT.fullmatch(text)
     return (int(found[1]), int(found[2])) if found else None
 
@@ -204,14 +204,14 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
     if root.tag not in ("sdf", "gazebo"):
         remedy = "It is a URDF: name it .urdf, or convert it first." if root.tag == "robot" else None
         raise AssetError(f"is no SDF: its root element is <{root.tag}>, not <sdf>", where=place, remedy=remedy)
-    told = root.attributes.get("version", "")
-    version = parse_version(told)
+    text = root.attributes.get("version", "")
+    version = parse_version(text)
     if version is None:
-        problem = f"version={told!r} of this <sdf> is no version" if told else "this <sdf> tells no version"
+        problem = f"version={text!r} of this <sdf> is no version" if text else "this <sdf> tells no version"
         raise AssetError(problem, where=place, remedy='Give it one, as in <sdf version="1.7">.')
     if not version >= OLDEST or version[0] != NEWEST[0]:
         known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
-        raise AssetError(f"SDF {told} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
+        raise AssetError(f"SDF {text} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
     return root, version
 
 

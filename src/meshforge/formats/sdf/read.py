@@ -56,13 +56,13 @@ from meshforge.formats.sdf.shapes import (
     read_submesh,
     select_submesh,
 )
-from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.slots import name_elements
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.symbolic import Asset, Body, Mechanism, Mentions
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
-_HEAD_BYTES = 100_000  # bytes within which a file tells its unit
+_HEAD_BYTES = 100_000  # bytes within which a file says its unit
 
 
 def read_sdf(path: Path, options: ReadOptions) -> Asset:
@@ -77,13 +77,13 @@ def read_sdf(path: Path, options: ReadOptions) -> Asset:
     refuse_missing(use for use in uses if use)
     meshes = CollisionMeshes(select_submesh)
     parts = [read_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
-    authored = _name_elements(links.collisions, [len(own) for own in parts])
-    told = [
+    authored = name_elements(_by_link(links), [len(own) for own in parts])
+    mentions = [
         _collect_mentions(one, meshes.groups(use), own)
         for one, use, own in zip(links.collisions, uses, parts, strict=True)
     ]
-    geoms = geoms_of(authored, parts, told)
-    opaque = opaque_of(authored, parts, told)
+    geoms = geoms_of(authored, parts, mentions)
+    opaque = opaque_of(authored, parts, mentions)
     joints = read_joints(composed, links)
     elements = {name: one.element for one, own in zip(links.collisions, authored, strict=True) for name in own.names}
     masses = (*read_masses(links), *compute_masses(links, elements, geoms, opaque))
@@ -117,18 +117,15 @@ def _build_document(
     )
 
 
-def _name_elements(found: Sequence[SdfCollision], pieces: Sequence[int]) -> tuple[CollisionElement, ...]:
-    """The collisions with the names of their pieces, of which each has so many."""
-    own = [(one.link.body, one.element.attributes.get("name"), count) for one, count in zip(found, pieces, strict=True)]
-    return tuple(
-        CollisionElement(body, names) for (body, _, _), names in zip(own, name_element_pieces(own), strict=True)
-    )
+def _by_link(links: SdfLinks) -> list[tuple[str, Element]]:
+    """The collisions with the names of their links."""
+    return [(one.link.body, one.element) for one in links.collisions]
 
 
 def _mesh_uses(links: SdfLinks, composed: ModelTree) -> list[MeshUse | None]:
     """The mesh file of each collision, None where it has another geometry or none."""
     uses: list[MeshUse | None] = []
-    labels = _name_elements(links.collisions, [1] * len(links.collisions))
+    labels = name_elements(_by_link(links), [1] * len(links.collisions))
     for one, named in zip(links.collisions, labels, strict=True):
         kind = geometry_of(one.element)
         if kind is None or kind.tag != "mesh":
@@ -161,7 +158,7 @@ def read_visuals(links: SdfLinks, composed: ModelTree) -> VisualSurfaces:
 
 
 def _read_color(visual: Element) -> Rgba | None:
-    """The diffuse colour that a visual tells, as transparent as it says."""
+    """The diffuse colour of a visual, as transparent as it says."""
     found = parse_numbers(text_of(visual.first("material"), "diffuse"))
     if not found or len(found) not in (3, 4):
         return None
@@ -212,7 +209,7 @@ def mentions_of_element(link: Element, collision: Element) -> Mentions:
 
 
 def _names_of(element: Element) -> ShapeNames | None:
-    """The names of a collision or visual element; of a collision its own is not told, which its hulls have."""
+    """The names of a collision or visual element; of a collision without its own, which its hulls have."""
     kind = geometry_of(element)
     if kind is None:
         return None
@@ -243,8 +240,8 @@ def _note_worlds(composed: ModelTree) -> Iterator[str]:
 
 def _note_newer_version(composed: ModelTree) -> Iterator[str]:
     if composed.root.version > NEWEST:
-        told, known = (".".join(map(str, version)) for version in (composed.root.version, NEWEST))
-        yield f"SDF {told} is newer than {known}: what is new in it is not understood"
+        own, known = (".".join(map(str, version)) for version in (composed.root.version, NEWEST))
+        yield f"SDF {own} is newer than {known}: what is new in it is not understood"
 
 
 def _note_older_file(composed: ModelTree) -> Iterator[str]:
