@@ -102,8 +102,9 @@ class _Creator:
                 yield entry
                 continue
             body, depth = entry
-            lead = b"  " * depth
-            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(self._pose(body))}, closed=False)
+            lead, place = b"  " * depth, self._place_of(body)
+            pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
+            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(pose)}, closed=False)
             yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
@@ -116,11 +117,6 @@ class _Creator:
         if parent is None or self.bodies[parent] == WORLD or (floats and self.tree.is_static(parent)):
             return ""
         return parent
-
-    def _pose(self, body: str) -> Pose:
-        """place_T_body."""
-        place = self._place_of(body)
-        return self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]
 
     def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
         """Joints, mass, geoms and visuals of a body."""

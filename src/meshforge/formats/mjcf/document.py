@@ -220,9 +220,11 @@ class _TreeReader:
         reference = include.attributes.get("file", "").strip()
         if not reference:
             raise AssetError("this <include> names no file", where=where)
-        path = self._find(reference, source)
+        folders = (self.main.parent, self.sources[source].path.parent)
+        candidates = [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]
+        path = next((path for path in candidates if path in self.files or is_file(path)), None)
         if path is None:
-            remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, self._list_candidates(reference, source))))}."
+            remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
             raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
             raise AssetError(
@@ -234,11 +236,3 @@ class _TreeReader:
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")
         return self._build_node(root, len(self.sources) - 1, depth + 1).children
-
-    def _find(self, reference: str, source: int) -> Path | None:
-        return next((p for p in self._list_candidates(reference, source) if p in self.files or is_file(p)), None)
-
-    def _list_candidates(self, reference: str, source: int) -> list[Path]:
-        """Where an included file may be: from the main file's folder, from that of the file which includes it."""
-        folders = (self.main.parent, self.sources[source].path.parent)
-        return [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]

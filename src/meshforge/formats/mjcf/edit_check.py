@@ -59,20 +59,14 @@ _POSE = 1e-9  # relative: a pose through quaternions and frames
 MASS_FIELDS = ("body_mass", "body_inertia", "body_ipos", "body_iquat")
 
 
-def find_difference(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool = True
-) -> str | None:
-    """The first thing that an edited file says otherwise than it should, None where all is right.
+def find_differences(
+    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool
+) -> Iterator[str]:
+    """What an edited file says otherwise than it should.
 
     expected: the geoms of the edited model; masses: whether masses are to be as before; is_whole: whether both are
     of all that the file says, so that meshes stay which no geom uses any more.
     """
-    return next(_find_differences(before, after, expected, masses, is_whole), None)
-
-
-def _find_differences(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool
-) -> Iterator[str]:
     if after.model.ngeom != len(expected):
         yield f"{after.model.ngeom} geoms where {len(expected)} were expected"
         return

@@ -49,7 +49,7 @@ class HullGeomMaker:
         said = self._geometry_attributes(geom, root_t_body, parent, self.context.body_t_frame(parent))
         if "fromto" in set_by_class:
             return self._spell_out_class(geom, parent, said, parent_volume)
-        said = self._settle_attributes(
+        said = self._complete_attributes(
             geom, said, {**set_by_class, **_own_attributes(parent)}, set_by_class, parent_volume
         )
         data = self.context.tree.sources[parent.source].text.data
@@ -66,7 +66,7 @@ class HullGeomMaker:
             set_by_class = self.context.defaults_of(self.context.class_inside(body))
             if "fromto" in set_by_class:
                 raise _fromto_error(geom, self.context, body)
-            said = self._settle_attributes(geom, said, set_by_class, set_by_class, 0.0)
+            said = self._complete_attributes(geom, said, set_by_class, set_by_class, 0.0)
             if set_by_class.get("contype") == "0" == set_by_class.get("conaffinity"):  # a class of visual geoms
                 said |= {"contype": "1", "conaffinity": "1"}
             return Slot(geom.body, (geom.name,), text=tag("geom", said))
@@ -88,7 +88,7 @@ class HullGeomMaker:
         mesh = self.meshes.add(geom.name, shape, said.get("mesh"), said.get("shellinertia") == "true")
         return mesh_geom_attributes(mesh, frame_t_body @ centre)
 
-    def _settle_attributes(
+    def _complete_attributes(
         self,
         geom: Geom,
         said: Mapping[str, str],
@@ -123,10 +123,10 @@ class HullGeomMaker:
         if "fromto" in main:
             raise _fromto_error(geom, self.context, parent)
         inherited = {**self.context.defaults_of(self.context.class_of(parent)), **_own_attributes(parent)}
-        settled = self._settle_attributes(geom, said, inherited, main, parent_volume)
+        complete = self._complete_attributes(geom, said, inherited, main, parent_volume)
         dropped = (*_GEOMETRY, "mass", "shellinertia")
         rest = {key: value for key, value in inherited.items() if key not in dropped and value != main.get(key)}
-        return Slot(geom.body, (geom.name,), text=tag("geom", {"class": MAIN_CLASS, **settled, **rest}))
+        return Slot(geom.body, (geom.name,), text=tag("geom", {"class": MAIN_CLASS, **complete, **rest}))
 
 
 def _own_attributes(node: MjcfNode) -> dict[str, str]:

@@ -114,10 +114,6 @@ class MjcfPlan:
             found += [NewGeom(slot, self.made[id(slot)]) for slot in self.ends.get(body, [])]
         return found
 
-    def new_slots(self) -> list[Slot]:
-        """The new elements."""
-        return [entry.slot for entry in self.predict_geoms() if isinstance(entry, NewGeom)]
-
     def build_splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
         """The edits of one of the files; masses: the `<inertial>` of bodies whose elements hold nothing yet."""
         data = self.tree.sources[source].text.data
@@ -184,7 +180,7 @@ class MjcfPlan:
         self.made[id(slot)] = geom
 
     def _body_of(self, geom: Geom) -> MjcfNode:
-        """The element of a made hull's body."""
+        """The element of a new hull's body."""
         body = self.body_node(geom.body)
         outer = (body, *self.maker.context.ancestors_of(body)) if body is not None else ()
         why = next((why for node in outer if (why := _obstacle_in(node))), "")

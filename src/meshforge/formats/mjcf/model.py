@@ -133,18 +133,11 @@ def read_mechanism(reading: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
     joints = [joint for k in range(1, reading.model.nbody) for joint in _read_joints(reading, k)]
     inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
-    return Mechanism(tuple(joints), tuple(inertials), _read_excludes(reading), _read_pairs(reading))
-
-
-def _read_excludes(reading: MjcfModel) -> tuple[tuple[str, str], ...]:
-    signatures = [int(signature) for signature in reading.model.exclude_signature]
-    # two numbers of bodies as MuJoCo packs them
-    return tuple((reading.body_names[s >> 16], reading.body_names[s & 0xFFFF]) for s in signatures)
-
-
-def _read_pairs(reading: MjcfModel) -> tuple[tuple[str, str], ...]:
+    bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
+    excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
     geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
-    return tuple((reading.names[int(first)], reading.names[int(second)]) for first, second in geoms)
+    pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
+    return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
 
 
 def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:

@@ -19,7 +19,7 @@ from meshforge.formats.mjcf.references import AssetFolders, find_files
 from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
-from meshforge.geometry import Floats, Polytope, rotation_of_quaternion
+from meshforge.geometry import Polytope, rotation_of_quaternion
 from meshforge.symbolic import Asset, Body
 
 if TYPE_CHECKING:
@@ -220,9 +220,9 @@ class _Visuals:
             return None
         if path := self._find_file(mesh):
             placed = pose @ mesh_frame(model, mesh).inverse()
-            refpos, refquat = self._reference(mesh)
-            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(refquat).T
-            return Visual(body, path, linear, placed.translation - linear @ refpos, rgba)
+            first = self.meshes[mesh]  # its reference pose, by which its vertices are moved first of all
+            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
+            return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
         surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
         return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
 
@@ -239,7 +239,3 @@ class _Visuals:
             return None
         path = self.folders.find(self.reading.tree, node)
         return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None
-
-    def _reference(self, mesh: int) -> tuple[Floats, Floats]:
-        """The reference position (3,) and quaternion (4,) of a mesh, by which its vertices are moved first of all."""
-        return np.asarray(self.meshes[mesh].refpos), np.asarray(self.meshes[mesh].refquat)

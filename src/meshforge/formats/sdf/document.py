@@ -207,7 +207,7 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
     text = root.attributes.get("version", "")
     version = parse_version(text)
     if version is None:
-        problem = f"version={text!r} of this <sdf> is no version" if text else "this <sdf> tells no version"
+        problem = f"version={text!r} of this <sdf> is no version" if text else "this <sdf> has no version"
         raise AssetError(problem, where=place, remedy='Give it one, as in <sdf version="1.7">.')
     if not version >= OLDEST or version[0] != NEWEST[0]:
         known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
@@ -234,33 +234,23 @@ def references(root: Element) -> list[str]:
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
 
 
-def script_folders(root: Element) -> list[str]:
-    """The references of material scripts: folders, or files."""
-    scripts = (element for element in root.walk() if element.tag == "script")
-    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
-    return [text for text in found if text and not text.startswith(_BUILT_IN)]
-
-
 def _iterate_references(root: Element) -> Iterator[str]:
     for element in root.walk():
         if element.tag == "mesh":
             yield mesh_uri(element)
         elif element.tag in ("heightmap", "image"):
-            yield uri_of(element)
+            uri = element.first("uri")
+            yield uri.text if uri else ""
         elif element.tag in _MAPS and parse_numbers(element.text) is None:  # <diffuse> is a colour, too
             yield element.text
 
 
-def uri_of(element: Element) -> str:
-    """The `<uri>` of a height map or an image."""
-    uri = element.first("uri")
-    return uri.text if uri else ""
-
-
 def find_scripts(source: SdfSource) -> Iterator[tuple[str, Path]]:
-    """The files of material scripts: how a file refers to each, and where it is."""
+    """The files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
     root, _ = parse_root(source.text.data, str(source.path))
-    for reference in script_folders(root):
+    scripts = (element for element in root.walk() if element.tag == "script")
+    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
+    for reference in (text for text in found if text and not text.startswith(_BUILT_IN)):
         if (path := source.resolver.find(reference)) is not None:
             yield reference, path
             continue

@@ -91,11 +91,6 @@ class ModelScope:
         inside = self.frames[head].inside if tail and head in self.frames else None
         return (self.frames[head], tail, inside) if inside else None
 
-    def merge_names(self, inner: ModelScope) -> None:
-        """Make the names of a merged model known in this scope."""
-        for name in (*inner.frames, *inner.through):
-            self.through.setdefault(name, inner)
-
 
 def _refuse_unknown_name(scope: ModelScope, name: str, where: str) -> tuple[SdfFrame, str, ModelScope]:
     like = nearest_name(name, [*scope.frames, *scope.through])

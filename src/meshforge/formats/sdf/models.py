@@ -121,7 +121,8 @@ class _Composer:
                 self._add_include(scope, child, files)
         around.inner.append(scope)
         if merged:
-            around.merge_names(scope)
+            for known in (*scope.frames, *scope.through):
+                around.through.setdefault(known, scope)
         elif name:
             around.frames.setdefault(name, frame)
 

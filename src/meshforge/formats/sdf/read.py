@@ -222,48 +222,22 @@ def _names_of(element: Element) -> ShapeNames | None:
     return ShapeNames(shape, name, stem_of(reference), text_of(script, "name"))
 
 
-def collect_notes(composed: ModelTree, links: SdfLinks) -> tuple[str, ...]:
+def collect_notes(composed: ModelTree, links: SdfLinks) -> Iterator[str]:
     """Notes on worlds, older versions of a model, collisions without a shape, and what is decomposed when loaded."""
-    return (
-        *_note_worlds(composed),
-        *_note_newer_version(composed),
-        *_note_older_file(composed),
-        *_note_actors(composed),
-        *_note_shapes(links),
-    )
-
-
-def _note_worlds(composed: ModelTree) -> Iterator[str]:
+    root, path = composed.root, composed.sources[0].path
     if composed.worlds:
-        yield f"it is a world of {pluralize(len(composed.root.inner), 'model')}, which is only read"
-
-
-def _note_newer_version(composed: ModelTree) -> Iterator[str]:
-    if composed.root.version > NEWEST:
-        own, known = (".".join(map(str, version)) for version in (composed.root.version, NEWEST))
+        yield f"it is a world of {pluralize(len(root.inner), 'model')}, which is only read"
+    if root.version > NEWEST:
+        own, known = (".".join(map(str, version)) for version in (root.version, NEWEST))
         yield f"SDF {own} is newer than {known}: what is new in it is not understood"
-
-
-def _note_older_file(composed: ModelTree) -> Iterator[str]:
-    """A note where the folder's `model.config` names another file for newer versions."""
-    path = composed.sources[0].path
-    newest = None if is_main_file(path) else find_main_file(path.parent)
-    if newest is not None:
+    if not is_main_file(path) and (newest := find_main_file(path.parent)) is not None:
         yield f"{CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
-
-
-def _note_actors(composed: ModelTree) -> Iterator[str]:
-    lines = [e.line for e in composed.root.element.each("actor")]
-    if lines:
-        yield f"{pluralize(len(lines), 'actor')}, the first on line {lines[0]}: passed over"
-
-
-def _note_shapes(links: SdfLinks) -> Iterator[str]:
-    bare = [f"line {c.element.line}" for c in links.collisions if geometry_of(c.element) is None]
-    if bare:
+    if actors := [actor.line for actor in root.element.each("actor")]:
+        yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
+    kinds = [(collision.element.line, geometry_of(collision.element)) for collision in links.collisions]
+    if bare := [f"line {line}" for line, kind in kinds if kind is None]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
-    kinds = [geometry_of(collision.element) for collision in links.collisions]
-    cut = [k for k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
+    cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
     if cut:
         yield f"{pluralize(len(cut), 'mesh', 'meshes')} to be decomposed by Gazebo when loaded, shown as authored"
 

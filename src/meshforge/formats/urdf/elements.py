@@ -9,7 +9,6 @@ import numpy as np
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.urdf.document import geometry_of
-from meshforge.formats.visuals import Rgba
 from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, set_attribute
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
 from meshforge.symbolic import Inertial
@@ -138,13 +137,11 @@ def visual_lines(visual: LinkVisual, reference: str | None = None) -> list[bytes
         pose, tag = visual.pose, mesh_tag(file)
         if not np.array_equal(visual.scale, np.ones(3)):
             tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
-    inside = _place_lines(pose, tag) + ([_material_line(visual.rgba)] if visual.rgba else [])
+    inside = _place_lines(pose, tag)
+    if visual.rgba:  # a material named by its numbers: equal names must be equal colours
+        color = _text_of(*visual.rgba)
+        inside.append(b'<material name="rgba %s"><color rgba="%s"/></material>' % (color, color))
     return [b"    <visual>", *(b"      " + line for line in inside), b"    </visual>"]
-
-
-def _material_line(rgba: Rgba) -> bytes:
-    """A colour, named by its numbers: equal names must be equal colours."""
-    return b'<material name="rgba %s"><color rgba="%s"/></material>' % (_text_of(*rgba), _text_of(*rgba))
 
 
 def _text_of(*values: float) -> bytes:

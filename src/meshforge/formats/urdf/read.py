@@ -32,7 +32,6 @@ from meshforge.formats.urdf.document import (
     read_floats,
     read_origin,
     references,
-    xacro_lines,
 )
 from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.urdf.shapes import read_mesh_scale, read_parts, read_primitive
@@ -73,7 +72,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
-        notes=collect_notes(robot, links, found),
+        notes=tuple(collect_notes(robot, links, found)),
         mechanism=read_mechanism(robot, links),
     )
 
@@ -190,36 +189,19 @@ def _names_of(element: Element) -> ShapeNames | None:
     return ShapeNames(shape, name, stem_of(reference), material.attributes.get("name", "") if material else "")
 
 
-def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> tuple[str, ...]:
+def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> Iterator[str]:
     """Notes on links without a parent, xacro, and collision elements that engines pass over."""
-    return (*_note_roots(links), *_note_xacro(robot), *_note_stray_collisions(robot, found), *_note_shapes(found))
-
-
-def _note_roots(links: UrdfLinks) -> Iterator[str]:
     if len(links.roots) > 1:
         yield (
             f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the origin, "
             "as MuJoCo does; PyBullet cannot load such a file"
         )
-
-
-def _note_xacro(robot: Element) -> Iterator[str]:
-    if lines := xacro_lines(robot):
-        yield f"{pluralize(len(lines), 'xacro element')} not expanded, the first on line {lines[0]}: passed over"
-
-
-def _note_stray_collisions(robot: Element, found: LinkCollisions) -> Iterator[str]:
-    """A note on collisions in elements that engines do not know."""
+    if xacro := [element.line for element in robot.walk() if element.tag.startswith("xacro:")]:
+        yield f"{pluralize(len(xacro), 'xacro element')} not expanded, the first on line {xacro[0]}: passed over"
     known = {id(collision) for _, collision in found}
-    lines = [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]
-    if lines:
-        yield (
-            f"{pluralize(len(lines), 'collision')} in no link, the first on line {lines[0]}: passed over, as by engines"
-        )
-
-
-def _note_shapes(found: LinkCollisions) -> Iterator[str]:
-    """Notes on collisions without a shape, or with more than the one that counts."""
+    if stray := [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]:
+        strays = f"{pluralize(len(stray), 'collision')} in no link"
+        yield f"{strays}, the first on line {stray[0]}: passed over, as by engines"
     for link, collision in found:
         place = f"a collision of link {link!r} on line {collision.line} has"
         shapes = [len(geometry.children) for geometry in collision.each("geometry")]
