@@ -4,14 +4,14 @@ files have for them, and the hulls and opaque pieces of an asset that they becom
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
-from meshforge.symbolic import Geom, Mentions, Opaque, Surface, unique_names
+from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
 _RING = 32  # corners of each end of a tapered cylinder
 
@@ -146,6 +146,16 @@ def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterabl
     found += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
     found += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
     return drop_repeats(found)
+
+
+def kept_names(asset: Asset) -> set[str]:
+    """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
+    return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
+
+
+def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:
+    """The hulls that an edit made; known: the names of the pieces of the file."""
+    return [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
 
 
 def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:

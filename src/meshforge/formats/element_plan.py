@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement
+from meshforge.formats.collision_pieces import CollisionElement, kept_names, new_hulls
 from meshforge.formats.slots import Slot, append_elements, child_indent_of, replace_element
 from meshforge.formats.xml import Element, Splice
 from meshforge.geometry import Pose
@@ -52,9 +52,8 @@ class ElementPlan:
         self._elements = elements
         self._poses = asset.body_poses
         self._place_authored()
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in self._owner:
-                self._place_made(geom)
+        for geom in new_hulls(asset, self._owner):
+            self._place_made(geom)
 
     @property
     def slots(self) -> list[Slot]:
@@ -75,7 +74,7 @@ class ElementPlan:
         return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
-        kept = {g.name for g in self.asset.geoms if g.parent is None} | {o.name for o in self.asset.opaque}
+        kept = kept_names(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):

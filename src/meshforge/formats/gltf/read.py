@@ -56,11 +56,11 @@ def read_gltf(path: Path) -> Asset:
         fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
         notes = [*collect_notes(scene, reader.convention), *reader.notes]
         authored = record_nodes(sources, bodies)
-        said = [mentions_of_node(scene, source) for source in sources]
+        mentions = [mentions_of_node(scene, source) for source in sources]
         pieces = (
             [CollisionElement(element.body, element.names) for element in authored],
             [s.parts for s in sources],
-            said,
+            mentions,
         )
         geoms = geoms_of(*pieces)
         masses = tuple(_read_masses(scene, bodies, geoms))

@@ -6,6 +6,7 @@ from collections.abc import Collection, Container, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
+from meshforge.formats.collision_pieces import kept_names, new_hulls
 from meshforge.formats.mjcf.document import GeomRecord, MjcfDocument, MjcfNode, MjcfTree
 from meshforge.formats.mjcf.edit_geoms import HullGeomMaker
 from meshforge.formats.mjcf.model import MjcfModel
@@ -49,14 +50,9 @@ class NewGeom:
 
 def is_edited(asset: Asset, document: MjcfDocument) -> bool:
     """Whether any hull is made, or gone."""
-    kept, owned = names_to_keep(asset), {name for authored in document.authored for name in authored.names}
+    kept, known = kept_names(asset), {name for authored in document.authored for name in authored.names}
     gone = any(names_to_remove(authored, kept) for authored in document.authored)
-    return gone or any(geom.parent is not None or geom.name not in owned for geom in asset.geoms)
-
-
-def names_to_keep(asset: Asset) -> set[str]:
-    """The names of the collision geoms that stay as they were."""
-    return {geom.name for geom in asset.geoms if geom.parent is None} | {opaque.name for opaque in asset.opaque}
+    return gone or bool(new_hulls(asset, known))
 
 
 def names_to_remove(authored: GeomRecord, kept: Container[str]) -> list[str]:
@@ -78,16 +74,15 @@ class MjcfPlan:
         self.tree = reading.tree
         self.nodes = {(n.source, n.element.start): n for n in self.tree.root.walk()}
         self.body_poses = dict(zip(authored.body_names, authored.body_poses, strict=True))
-        kept = names_to_keep(asset)
+        kept = kept_names(asset)
         self.places = [self._place_geom(entry, kept) for entry in document.authored]
         self.owner = {name: place for place in self.places for name in place.authored.names}
         self.ends: dict[str, list[Slot]] = {}
         self.made: dict[int, Geom] = {}
         self._shapes = MjcfShapes(reading.model)
         self._refuse_fixed(kept)
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in self.owner:
-                self._place_new(geom)
+        for geom in new_hulls(asset, self.owner):
+            self._place_new(geom)
 
     @property
     def bodies_to_change(self) -> list[str]:
@@ -216,13 +211,13 @@ def _obstacle_in(node: MjcfNode) -> str:
 def geom_references(tree: MjcfTree) -> Iterator[tuple[str, MjcfNode]]:
     """The names of geoms that other elements refer to, each with such an element, in document order."""
     for node in tree.root.walk():
-        said = node.attributes
+        attributes = node.attributes
         for key in _PLAIN:
-            if said.get(key):
-                yield said[key], node
+            if attributes.get(key):
+                yield attributes[key], node
         for kind, key in _TYPED:
-            if said.get(kind) == "geom" and said.get(key):
-                yield said[key], node
+            if attributes.get(kind) == "geom" and attributes.get(key):
+                yield attributes[key], node
 
 
 def refuse_referenced(tree: MjcfTree, removed: Collection[tuple[str, str]]) -> None:

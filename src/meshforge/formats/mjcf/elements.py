@@ -38,8 +38,8 @@ FROM_GEOMS = "inertiafromgeom"
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
     """An element without children; closed: else only its start tag."""
-    said = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
-    return f"<{name}{said}{'/' if closed else ''}>".encode()
+    text = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
+    return f"<{name}{text}{'/' if closed else ''}>".encode()
 
 
 def geom_attributes(shape: MjcfShape) -> dict[str, str]:
@@ -194,16 +194,16 @@ def _legal_moments(moments: Floats, mass: float) -> Floats:
 
 def is_inertial_ignored(tree: MjcfTree) -> bool:
     """Whether the compiler settings say that every `<inertial>` is ignored."""
-    said = [n.attributes[FROM_GEOMS] for n in tree.root.children if n.tag == "compiler" and FROM_GEOMS in n.attributes]
-    return said[-1:] == ["true"]
+    settings = [c.attributes[FROM_GEOMS] for c in tree.root.each("compiler") if FROM_GEOMS in c.attributes]
+    return settings[-1:] == ["true"]
 
 
 def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
     """The edits, with their files, by which an `<inertial>` counts where there is one."""
     return [
         (node.source, set_attribute(tree.sources[node.source].text.data, node.element, FROM_GEOMS, "auto"))
-        for node in tree.root.children
-        if node.tag == "compiler" and node.attributes.get(FROM_GEOMS) == "true"
+        for node in tree.root.each("compiler")
+        if node.attributes.get(FROM_GEOMS) == "true"
     ]
 
 

@@ -60,17 +60,17 @@ class MjcfModel:
         import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         geoms, opaque = [], []
-        shapes, said = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
+        shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
                 continue
             part = shapes.part_of(k, pose)
             if part.shape is not None:
                 contact = contact_attributes(self.model, k)
-                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=said.of(k)))
+                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=mentions.of(k)))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane, said.of(k)))
+                opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))
         return tuple(geoms), tuple(opaque)
 
     @cached_property
@@ -204,7 +204,7 @@ class GeomMentions:
 
     @cached_property
     def _visual_names(self) -> dict[str, list[ShapeNames]]:
-        """What each body has to be looked at alone."""
+        """What each body shows that does not collide."""
         found: dict[str, list[ShapeNames]] = {}
         for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
             if not collides:

@@ -40,10 +40,10 @@ class AssetFolders:
     def of(tree: MjcfTree) -> AssetFolders:
         mesh = texture = strip = ""
         for compiler in tree.root.each("compiler"):
-            said = compiler.attributes
-            mesh, texture = said.get("assetdir", mesh), said.get("assetdir", texture)
-            mesh, texture = said.get("meshdir", mesh), said.get("texturedir", texture)
-            strip = said.get("strippath", strip)
+            attributes = compiler.attributes
+            mesh, texture = attributes.get("assetdir", mesh), attributes.get("assetdir", texture)
+            mesh, texture = attributes.get("meshdir", mesh), attributes.get("texturedir", texture)
+            strip = attributes.get("strippath", strip)
         return AssetFolders(tree.main.path.parent, mesh, texture, strip == "true")
 
     def find(self, tree: MjcfTree, node: MjcfNode, attribute: str = "file") -> Path:
@@ -168,9 +168,9 @@ def output_places(tree: MjcfTree) -> list[str | None]:
     found: list[str | None] = [tree.main.path.name]
     main = tree.main.path.parent
     for source in tree.sources[1:]:
-        said = posixpath.normpath(source.reference.replace("\\", "/"))
-        from_main = Path(os.path.normpath(main / said)) == source.path
-        found.append(None if source.place is None else said if from_main else source.place)
+        place = posixpath.normpath(source.reference.replace("\\", "/"))
+        from_main = Path(os.path.normpath(main / place)) == source.path
+        found.append(None if source.place is None else place if from_main else source.place)
     return found
 
 
@@ -224,7 +224,7 @@ def _locate_references(tree: MjcfTree) -> Iterator[tuple[str | None, Path, str]]
 def _absolute_references(path: Path) -> Iterator[tuple[str | None, Path, str]]:
     """The absolute references in a sub-model."""
     try:
-        yield from (said for said in _locate_references(read_tree(path)) if said[0] is None)
+        yield from (found for found in _locate_references(read_tree(path)) if found[0] is None)
     except MeshForgeError:  # of another format than MJCF
         return
 

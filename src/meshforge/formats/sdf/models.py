@@ -212,9 +212,9 @@ def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:
     if outer.place is None:
         return None
     folder = uri.rstrip("/")
-    for said in (f"{folder}/{path.name}", folder):
-        place = outer.resolver.place(said)
-        if place is not None and outer.resolver.find(said) == path:
+    for reference in (f"{folder}/{path.name}", folder):
+        place = outer.resolver.place(reference)
+        if place is not None and outer.resolver.find(reference) == path:
             return posixpath.normpath(posixpath.join(posixpath.dirname(outer.place), place))
     return None
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, pluralize
-from meshforge.formats.collision_pieces import CollisionPiece
+from meshforge.formats.collision_pieces import CollisionPiece, kept_names, new_hulls
 from meshforge.formats.usd.colliders import (
     COLLISION,
     MESH_COLLISION,
@@ -49,16 +49,15 @@ class UsdEdit:
 
     def run(self, asset: Asset, sources: Sequence[PrimCollision]) -> None:
         """Bring the layer to hold just the geoms and non-convex pieces of an asset. Raises AssetError."""
-        kept = {g.name for g in asset.geoms if g.parent is None} | {o.name for o in asset.opaque}
+        kept = kept_names(asset)
         for element, source in zip(self.document.authored, sources, strict=True):
             staying = [k for k, name in enumerate(element.names) if name in kept]
             if len(staying) < len(element.names):
                 self._remove(element, source, staying)
         known = {name: k for k, element in enumerate(self.document.authored) for name in element.names}
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in known:
-                parent = known.get(geom.parent or "")
-                self._add_hull(geom, None if parent is None else sources[parent])
+        for geom in new_hulls(asset, known):
+            parent = known.get(geom.parent or "")
+            self._add_hull(geom, None if parent is None else sources[parent])
 
     @property
     def notes(self) -> list[str]:
