@@ -76,9 +76,9 @@ def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], S
 
 def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:
     """Points (n, 3) of the disk or ball at a height along an axis: the end of a tapered cylinder or capsule."""
-    centre = height * np.eye(3)[axis]
+    centre: Floats = height * np.eye(3)[axis]
     if radius == 0:
-        return centre[None]
+        return centre.reshape(1, 3)
     if ball:
         return Sphere(Pose.of_translation(centre), radius).vertices
     angles = np.arange(_RING) * (2 * np.pi / _RING)
@@ -148,7 +148,7 @@ def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterabl
     return drop_repeats(found)
 
 
-def kept_names(asset: Asset) -> set[str]:
+def names_to_keep(asset: Asset) -> set[str]:
     """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
     return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
 

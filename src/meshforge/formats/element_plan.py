@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement, kept_names, new_hulls
+from meshforge.formats.collision_pieces import CollisionElement, names_to_keep, new_hulls
 from meshforge.formats.slots import Slot, append_elements, child_indent_of, replace_element
 from meshforge.formats.xml import Element, Splice
 from meshforge.geometry import Pose
@@ -74,7 +74,7 @@ class ElementPlan:
         return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
-        kept = kept_names(self.asset)
+        kept = names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):

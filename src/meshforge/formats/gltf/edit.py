@@ -11,7 +11,7 @@ from pathlib import Path
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.base import Output, note_renames
 from meshforge.formats.collision_meshes import refuse_changed_files
-from meshforge.formats.collision_pieces import kept_names, new_hulls
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls
 from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
@@ -31,7 +31,7 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
 
     Raises AssetError: a buffer changed since the asset was read, nothing would be left, or an animation is in the way.
     """
-    kept, known = kept_names(asset), {piece for element in document.authored for piece in element.names}
+    kept, known = names_to_keep(asset), {piece for element in document.authored for piece in element.names}
     made = new_hulls(asset, known)
     with report_damage(str(asset.path)):
         scene = GltfScene.of(document.source, asset.path)

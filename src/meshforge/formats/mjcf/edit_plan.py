@@ -6,7 +6,7 @@ from collections.abc import Collection, Container, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import kept_names, new_hulls
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls
 from meshforge.formats.mjcf.document import GeomRecord, MjcfDocument, MjcfNode, MjcfTree
 from meshforge.formats.mjcf.edit_geoms import HullGeomMaker
 from meshforge.formats.mjcf.model import MjcfModel
@@ -50,7 +50,7 @@ class NewGeom:
 
 def is_edited(asset: Asset, document: MjcfDocument) -> bool:
     """Whether any hull is made, or gone."""
-    kept, known = kept_names(asset), {name for authored in document.authored for name in authored.names}
+    kept, known = names_to_keep(asset), {name for authored in document.authored for name in authored.names}
     gone = any(names_to_remove(authored, kept) for authored in document.authored)
     return gone or bool(new_hulls(asset, known))
 
@@ -74,7 +74,7 @@ class MjcfPlan:
         self.tree = reading.tree
         self.nodes = {(n.source, n.element.start): n for n in self.tree.root.walk()}
         self.body_poses = dict(zip(authored.body_names, authored.body_poses, strict=True))
-        kept = kept_names(asset)
+        kept = names_to_keep(asset)
         self.places = [self._place_geom(entry, kept) for entry in document.authored]
         self.owner = {name: place for place in self.places for name in place.authored.names}
         self.ends: dict[str, list[Slot]] = {}

@@ -13,7 +13,7 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats.base import Mass, Output, note_renames
 from meshforge.formats.collision_meshes import change_error, refuse_changed_files
-from meshforge.formats.collision_pieces import CollisionPiece, kept_names, new_hulls
+from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.usd.colliders import StageBodies, physics_material
 from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
 from meshforge.formats.usd.edit_stage import UsdEdit
@@ -38,7 +38,7 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     """
     suffix = PurePosixPath(name).suffix.lower()
     known = {piece for element in document.authored for piece in element.names}
-    edited = not known <= kept_names(asset) or bool(new_hulls(asset, known))
+    edited = not known <= names_to_keep(asset) or bool(new_hulls(asset, known))
     copies, far = _list_copies(asset)
     if not edited and suffix == asset.path.suffix.lower():
         return Output(document.source, copies=copies, notes=tuple(far))

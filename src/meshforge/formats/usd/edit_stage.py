@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, pluralize
-from meshforge.formats.collision_pieces import CollisionPiece, kept_names, new_hulls
+from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.usd.colliders import (
     COLLISION,
     MESH_COLLISION,
@@ -49,7 +49,7 @@ class UsdEdit:
 
     def run(self, asset: Asset, sources: Sequence[PrimCollision]) -> None:
         """Bring the layer to hold just the geoms and non-convex pieces of an asset. Raises AssetError."""
-        kept = kept_names(asset)
+        kept = names_to_keep(asset)
         for element, source in zip(self.document.authored, sources, strict=True):
             staying = [k for k, name in enumerate(element.names) if name in kept]
             if len(staying) < len(element.names):
