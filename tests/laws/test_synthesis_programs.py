@@ -40,9 +40,7 @@ def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
         demos,
         templates=TEMPLATES,
         vocabulary=LABELS,
-        contact=program.contact,
-        extremity=program.extremity,
-        options=Options(repair=False),
+        options=Options(repair=False, contact=program.contact, extremity=program.extremity),
     )
     assert isinstance(outcome, Found | Ambiguous)
     return outcome
@@ -100,7 +98,7 @@ def ambiguous(mislabelled):
     mesh = meshes[name]
     shown = {mesh.hulls[k].name for k in chosen[name]}
     if mislabelled:
-        mesh = mesh.labelled({min(shown): Label("leg", 0.5, "vlm")})
+        mesh = mesh.with_labels({min(shown): Label("leg", 0.5, "vlm")})
     demo = Demonstration(mesh, [Step(1, shown, Delete())], name)
     return synthesize([demo], {**meshes, name: mesh}, vocabulary=VOCABULARIES["table"])
 

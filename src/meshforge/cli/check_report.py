@@ -7,34 +7,44 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, CheckOutcome, EarlierExamination, MeshReader, ReportAsset, ReportStatus
-    from meshforge.checks import CheckOptions, Examination, Severity
-
+from meshforge.batch import (
+    AssetJob,
+    CheckOutcome,
+    EarlierExamination,
+    MeshReader,
+    ReportAsset,
+    ReportHeader,
+    ReportStatus,
+    RunFigures,
+    TopItems,
+    read_again,
+    read_job,
+)
+from meshforge.checks import CheckOptions, Examination, Finding, Severity
+from meshforge.cli.report import write_report_page
+from meshforge.formats import load
 
 _FROM_JOURNAL = "kept in the journal from an earlier run"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _ReportLine:
-    """What there is to show of one asset; mended: its file where anything was mended."""
+    """What there is to show of one asset; fixed: its file where anything was fixed."""
 
     job: AssetJob
     status: ReportStatus
     error: str | None
     notes: tuple[str, ...]
     checked: Examination | EarlierExamination | None
-    mended: Path | None
+    fixed: Path | None
 
 
 class CheckReport:
     """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
 
     def __init__(self) -> None:
-        from meshforge.batch import TopItems
-
         self._counts: Counter[ReportStatus] = Counter()
         self._lines: TopItems[_ReportLine] = TopItems()
 
@@ -46,18 +56,9 @@ class CheckReport:
 
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
-        from meshforge.batch import RunFigures
-        from meshforge.cli.report import write_report_page
-
         figures = RunFigures(self._counts, {}, "those that failed or have errors")
-        write_report_page(
-            path,
-            _to_report_assets(list(self._lines)),
-            title=title,
-            about=_describe_measures(measures),
-            figures=figures,
-            seconds=seconds,
-        )
+        header = ReportHeader(title, _describe_measures(measures), seconds, figures)
+        write_report_page(path, header, _to_report_assets(list(self._lines)))
 
 
 def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
@@ -65,21 +66,18 @@ def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
     if examined.examination is None:
         return _ReportLine(job, "failed", examined.error, notes, None, None)
     status = _status(finding.severity for finding in examined.examination.findings)
-    mended = examined.output if examined.fix_result and examined.fix_result.changes else None
-    return _ReportLine(job, status, None, notes, examined.examination, mended)
+    fixed = examined.output if examined.fix_result and examined.fix_result.changes else None
+    return _ReportLine(job, status, None, notes, examined.examination, fixed)
 
 
 def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
-    from meshforge.batch import EarlierExamination
-    from meshforge.checks import Finding
-
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
-    fixed = found.get("fixed")
+    fix = found.get("fixed")
     kept = EarlierExamination(findings, tuple(row.get("told", ())))
-    mended = Path(fixed["out"]) if fixed and fixed["changes"] else None
-    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, mended)
+    fixed = Path(fix["out"]) if fix and fix["changes"] else None
+    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
 
 
 def _status(severities: Iterable[Severity]) -> ReportStatus:
@@ -88,7 +86,7 @@ def _status(severities: Iterable[Severity]) -> ReportStatus:
 
 
 def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
-    """What was mended, what was left, and where it was written, a sentence each."""
+    """What was fixed, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
     if fixed is None:
         return ()
@@ -96,12 +94,9 @@ def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
 
 
 def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
-    """The assets with their meshes, mended ones before and after."""
-    from meshforge.batch import ReportAsset, read_again, read_job
-    from meshforge.formats import load
-
+    """The assets with their meshes, fixed ones before and after."""
     before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
-    after: list[MeshReader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
+    after: list[MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
     meshes = read_again([*before, *after])
     shown = []
     for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
+import numpy as np
 import typer
+from rich.console import Console
 
 from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Seconds, parse_engine_settings
-
-if TYPE_CHECKING:
-    from meshforge.geometry import Polytope
-    from meshforge.symbolic import Asset
+from meshforge.cli.terminal import remark
+from meshforge.common import pluralize
+from meshforge.formats import read_triangles, save
+from meshforge.geometry import Polytope, Pose, cache_folder
+from meshforge.geometry import decompose as run_engine
+from meshforge.symbolic import Asset, Body, Document, Geom
 
 
 def decompose(
@@ -25,21 +29,12 @@ def decompose(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file if it is there.")] = False,
 ) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
-    import numpy as np
-    from rich.console import Console
-
-    from meshforge.cli.terminal import remark
-    from meshforge.common import pluralize
-    from meshforge.formats import read_triangles, save
-    from meshforge.geometry import cache_folder
-    from meshforge.geometry import decompose as run
-
     settings = parse_engine_settings(method, option)
     surfaces = read_triangles(mesh)
     starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
     console = Console(stderr=True)
     with console.status(f"{method.value} on {mesh.name}") as status:
-        hulls = run(
+        hulls = run_engine(
             np.concatenate([s.vertices for s in surfaces]),
             np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)]),
             settings,
@@ -57,9 +52,6 @@ def decompose(
 
 def _to_asset(mesh: Path, hulls: list[Polytope]) -> Asset:
     """The hulls as an asset of one body, to be written in any format."""
-    from meshforge.geometry import Pose
-    from meshforge.symbolic import Asset, Body, Document, Geom
-
     width = len(str(len(hulls) - 1))
     geoms = tuple(Geom(f"hull_{k:0{width}}", "body", hull) for k, hull in enumerate(hulls))
     return Asset(mesh, "decomposition", (Body("body", Pose.identity()),), geoms, Document())

@@ -6,16 +6,20 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import indent
-from typing import TYPE_CHECKING, Annotated
+from time import perf_counter
+from typing import Annotated
 
 import typer
 
+from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, write_report
+from meshforge.checks import check
+from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
-
-if TYPE_CHECKING:
-    from meshforge.batch import ReportAsset
-    from meshforge.project import Project
-
+from meshforge.cli.report import compare_outcomes
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError
+from meshforge.project import Project
+from meshforge.samples import TABLES
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
 
@@ -44,28 +48,26 @@ def demo(
     """
     if studio:
         _open_in_browser(out or _STUDIO, port, browser)
-        return
-    _run_all(out or _OUT, workers)
+    else:
+        _run_all(out or _OUT, workers)
 
 
 def _run_all(out: Path, workers: int | None) -> None:
     """Everything at once, with what happened in a few lines."""
-    from time import perf_counter
-
-    from meshforge.batch import ExecutionOptions, write_report
-    from meshforge.cli.report import compare_outcomes
-    from meshforge.cli.terminal import progress, remark
-
     project = create_tables(out)
     shown = project.demonstrations()
-    _say(f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}")
-    _say(f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}")
-    lesson = project.synthesize()
+    typer.echo(
+        f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}"
+    )
+    typer.echo(
+        f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}"
+    )
+    outcome = project.synthesize()
     program = project.program()
     if program is None:  # the bundled demonstrations always have a program; a changed install might not
         remark("no program was found; see: meshforge synthesize " + str(project.folder))
         raise typer.Exit(1)
-    _say(f"From these two, MeshForge learned a program in {sum(lesson.seconds.values()):.2f} s:\n")
+    typer.echo(f"From these two, MeshForge learned a program in {sum(outcome.seconds.values()):.2f} s:\n")
     typer.echo(indent(str(program), "    "))
     started = perf_counter()
     with progress(len(project.assets()), "editing") as advance:
@@ -75,34 +77,31 @@ def _run_all(out: Path, workers: int | None) -> None:
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        write_report(
-            report, title="Tables", program=program, assets=assets, seconds=seconds, about=about, progress=advance
-        )
+        header = ReportHeader("Tables", about, seconds)
+        write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
     _print_result(assets, seconds, project, report)
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
 def _open_in_browser(out: Path, port: int, browser: bool) -> None:
     """The tables in the studio; those of an earlier time with all that was done there."""
-    from meshforge.cli.studio import open_studio
-    from meshforge.studio.session.session import StudioOptions
+    from meshforge.cli.studio import open_studio  # lazy: 330 modules that only --studio needs
+    from meshforge.studio.session.session import StudioOptions  # lazy: 330 modules that only --studio needs
 
     open_studio(StudioOptions(open_tables(out).folder, tour=True), port=port, browser=browser)
 
 
 def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
-    from meshforge.checks import check
-
     edited = [asset for asset in assets if asset.after and asset.counts]
     before, after = (sum(asset.counts[k] for asset in edited if asset.counts) for k in (0, 1))
     wrong = sum(any(f.severity == "error" for f in check(asset.after)) for asset in edited if asset.after)
     legal = "every hull legal" if not wrong else f"{wrong} with illegal hulls"
-    _say(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
+    typer.echo(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
     if len(edited) < len(assets):
-        _say(f"{len(assets) - len(edited)} failed; the report says why.")
-    _say(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
-    _say(f"Before, after, and what each rule did: {_relative_path(report)}")
-    _say(f"Look around: meshforge status {_relative_path(project.folder)}")
+        typer.echo(f"{len(assets) - len(edited)} failed; the report says why.")
+    typer.echo(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
+    typer.echo(f"Before, after, and what each rule did: {_relative_path(report)}")
+    typer.echo(f"Look around: meshforge status {_relative_path(project.folder)}")
 
 
 def _relative_path(path: Path) -> Path:
@@ -111,14 +110,11 @@ def _relative_path(path: Path) -> Path:
     return path.relative_to(here) if path.is_relative_to(here) else path
 
 
-def _say(text: str) -> None:
-    typer.echo(text)
-
-
 def create_tables(out: Path) -> Project:
-    """A fresh project of the tables below `out`, labelled and demonstrated. Raises UsageError as `_empty_folder`."""
-    from meshforge.samples import TABLES
+    """A fresh project of the tables below `out`, labelled and demonstrated.
 
+    Raises UsageError where the folder holds something else.
+    """
     _empty_folder(out, DEMO_MARK)
     project = _create_project(out)
     shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
@@ -130,8 +126,6 @@ def open_tables(out: Path) -> Project:
 
     Raises UsageError where the folder holds something else.
     """
-    from meshforge.project import Project
-
     whole = out / STUDIO_MARK
     if whole.exists() and whole.read_text(encoding="utf-8"):
         return Project.open(out / "project")
@@ -143,8 +137,6 @@ def open_tables(out: Path) -> Project:
 
 def _empty_folder(out: Path, mark: str) -> None:
     """An empty folder with a mark. Raises UsageError where it holds what no demo of that kind made."""
-    from meshforge.common import UsageError
-
     if out.exists() and any(out.iterdir()) and not (out / mark).exists():
         raise UsageError("this folder holds something else", where=str(out), remedy="Choose another: demo --out DIR")
     shutil.rmtree(out, ignore_errors=True)
@@ -153,9 +145,6 @@ def _empty_folder(out: Path, mark: str) -> None:
 
 
 def _create_project(out: Path) -> Project:
-    from meshforge.project import Project
-    from meshforge.samples import TABLES
-
     (out / "assets").mkdir()
     for source in sorted(TABLES.glob("table_*")):
         shutil.copyfile(source, out / "assets" / source.name)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from meshforge.project import Project
-    from meshforge.symbolic import SymbolicMesh
-    from meshforge.synthesis import Step
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError, nearest_name
+from meshforge.language import Program, apply_action, to_canonical_frame
+from meshforge.project import Project
+from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.synthesis import Step
 
 
 def demonstrate(
@@ -30,9 +31,6 @@ def demonstrate(
     HULLS are names as `info` lists them (patterns as in a shell: 'leg_*'), or `nothing` where this asset has nothing to
     select, or `open` where it says nothing about that rule. Step by step, what earlier steps made can be named, too.
     """
-    from meshforge.cli.terminal import remark
-    from meshforge.project import Project
-
     opened = Project.open(project)
     if clear:
         opened.demonstrate(asset, ())
@@ -49,10 +47,6 @@ def demonstrate(
 
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
-    from meshforge.language import Program, apply_action, to_canonical_frame
-    from meshforge.symbolic import mask_of
-    from meshforge.synthesis import Step
-
     mesh = to_canonical_frame(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
     recorded, used = [], frozenset[str]()
     for number, text in enumerate(texts, 1):
@@ -71,8 +65,6 @@ def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[St
 
 def _parse_hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
     """The hulls that the left side of a step names; None for `open`."""
-    from meshforge.common import UsageError, nearest_name
-
     text = text.strip()
     if text in ("open", "nothing"):
         return None if text == "open" else frozenset()

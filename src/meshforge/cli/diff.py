@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from meshforge.cli.options import Json
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
+from meshforge.cli.terminal import print_json, remark
+from meshforge.formats import load
+from meshforge.geometry import is_same_shape
+from meshforge.symbolic import SymbolicMesh
 
 
 def diff(
@@ -20,13 +21,11 @@ def diff(
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
-    from meshforge.cli.terminal import print_json, remark
-    from meshforge.formats import load
-    from meshforge.rendering import draw_before_after, write_png
-
     old, new = load(before), load(after)
     changes = compare_meshes(old, new)
     if out:
+        from meshforge.rendering import draw_before_after, write_png  # lazy: 40 modules that only a picture needs
+
         write_png(out, draw_before_after(old, new))
         remark(f"wrote {out}")
     if json:
@@ -37,8 +36,6 @@ def diff(
 
 def compare_meshes(old: SymbolicMesh, new: SymbolicMesh) -> dict[str, Any]:
     """Names of removed, made, changed and kept hulls, and the counts, vertices and volumes of both."""
-    from meshforge.geometry import is_same_shape
-
     near = 1e-6 * max(old.diagonal, new.diagonal)
     both = [name for name in old.index if name in new.index]
     kept = [name for name in both if is_same_shape(old.hull_of(name).shape, new.hull_of(name).shape, near)]

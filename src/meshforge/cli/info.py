@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
-
-if TYPE_CHECKING:
-    from meshforge.geometry import Shape
-    from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.cli.terminal import print_json
+from meshforge.common import pluralize
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
+from meshforge.symbolic import Hull, SymbolicMesh
 
 
 def info(
@@ -21,8 +21,6 @@ def info(
     geometry: Annotated[bool, typer.Option("--geometry", help="With --json: the points of every hull.")] = False,
 ) -> None:
     """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
-    from meshforge.cli.terminal import print_json
-
     mesh = open_asset(asset, labels, project)
     if json:
         print_json(describe_asset(mesh, str(asset), geometry=geometry))
@@ -63,8 +61,6 @@ def _describe_hull(hull: Hull, geometry: bool) -> dict[str, Any]:
 
 
 def _describe_primitive(shape: Shape | None) -> dict[str, Any] | None:
-    from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
-
     match shape:
         case Box():
             size: dict[str, Any] = {"size": (2 * shape.half).tolist()}
@@ -81,14 +77,11 @@ def _describe_primitive(shape: Shape | None) -> dict[str, Any] | None:
 
 
 def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
-    from meshforge.cli.terminal import print_table
-    from meshforge.common import pluralize
-
     source = mesh.asset
     opaque = source.opaque if source else ()
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
     head = [source.format if source else "", pluralize(len(mesh.hulls), "hull"), pluralize(bodies, "body", "bodies")]
-    head += [pluralize(len(opaque), "opaque piece")] if opaque else []
+    head += [pluralize(len(opaque), "non-convex piece")] if opaque else []
     typer.echo(
         f"{asset}: {', '.join(head)}, {pluralize(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m"
     )
@@ -100,10 +93,12 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
             (h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
             for k, h in enumerate(mesh.hulls)
         )
+        from meshforge.cli.console import print_table  # lazy: 50 modules of rich that --json does not need
+
         columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
         print_table(columns, rows, right=("vertices", "volume", "touches"))
     if opaque:
-        typer.echo("\nOpaque (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
+        typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:
             typer.echo(f"  {piece.name}: {piece.reason}")
     if mesh.near_misses:

@@ -7,18 +7,18 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import typer
+from pydantic import ValidationError
 
-if TYPE_CHECKING:
-    from meshforge.batch import ExecutionOptions
-    from meshforge.cli.label_report import LabelReport
-    from meshforge.labels import Usage, VlmForecast, VlmResult
-    from meshforge.project import Project
-    from meshforge.store import VlmSettings
-
+from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
+from meshforge.cli.label_report import LabelPrinter
+from meshforge.cli.terminal import catch_interrupt, print_json, remark
+from meshforge.common import UsageError, first_validation_error, join_names, pluralize
+from meshforge.labels import Usage, VlmForecast, VlmResult
+from meshforge.project import Project
+from meshforge.store import VlmSettings
 
 _MAX_NAMES = 8  # names in a row
 
@@ -34,11 +34,6 @@ class VlmOptions:
 
     def settings(self, project: Project) -> VlmSettings:
         """The settings of the project with these in their place. Raises UsageError where they do not fit."""
-        from pydantic import ValidationError
-
-        from meshforge.common import UsageError, first_validation_error
-        from meshforge.store import VlmSettings
-
         given = {name: value for name, value in asdict(self).items() if value is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
@@ -53,14 +48,12 @@ class VlmOptions:
 
 
 def forecast(
-    project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, spread: ExecutionOptions, *, json: bool
+    project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, execution: ExecutionOptions, *, json: bool
 ) -> None:
     """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
-    from meshforge.cli.terminal import catch_interrupt, print_json, progress
-
     settings = options.settings(project)
     with progress(len(project.assets()), "drawing") as advance, catch_interrupt() as stop:
-        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, spread=spread)
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, execution=execution)
         if stop():
             raise KeyboardInterrupt
     if json:
@@ -69,58 +62,39 @@ def forecast(
         _print_forecast(found)
 
 
-def label_with_vlm(
-    project: Project,
-    options: VlmOptions,
-    spread: ExecutionOptions,
-    sheets: Path | None,
-    page: LabelReport | None,
-    *,
-    json: bool,
-) -> bool:
-    """Label a project, and say what came of it; whether some labels could not be taken, or it ended early."""
-    from meshforge.cli.label_report import LabelPrinter, summarize
-
-    found, telling = _ask_model(project, options, spread), LabelPrinter(page, json=json)
-    for report in found.reports:
-        telling(report, {"open": found.open.get(report.asset, {})})
-        lines = _describe_open(found, report.asset)
-        if not json:
-            typer.echo("".join(f"    {line}\n" for line in lines), nl=False)
-        if page:
-            page.note(report.asset, lines)
-    if page and found.ended:
+def label_with_vlm(project: Project, options: VlmOptions, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+    """Label a project, and print what came of it; an asking that ended early has failed."""
+    found = _ask_model(project, options, execution)
+    for outcome in found.reports:
+        printer.print(outcome, {"open": found.open.get(outcome.asset, {})}, _describe_open(found, outcome.asset))
+    if found.ended:
+        printer.failed = True
         why = ". ".join(line.strip(" .") for line in found.ended.splitlines())
-        page.remark(f"The asking ended early: {why}.")
-    summarize(project, sheets, page, json=json)
-    _print_end(project, found, json=json)
-    return telling.failed or bool(found.ended)
+        printer.remark(f"The asking ended early: {why}.")
+    printer.summarize(project)
+    _print_end(project, found, json=printer.json)
 
 
-def _ask_model(project: Project, options: VlmOptions, spread: ExecutionOptions) -> VlmResult:
+def _ask_model(project: Project, options: VlmOptions, execution: ExecutionOptions) -> VlmResult:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
-    from meshforge.cli.terminal import catch_interrupt, progress
-
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
     bar = progress(len(project.assets()), f"asking {settings.model}")
     with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
-        return project.label_with_vlm(settings, progress=lambda bill: advance(), stop=stop, spread=spread)
+        return project.label_with_vlm(settings, progress=lambda usage: advance(), stop=stop, execution=execution)
 
 
 @contextmanager
 def _announce_stop(stop: Callable[[], bool], text: str) -> Iterator[None]:
     """Within the block, say so as soon as a stop is wanted, whatever is waited for then."""
-    from meshforge.cli.terminal import remark
-
     over = threading.Event()
 
-    def watch() -> None:
+    def wait() -> None:
         while not over.wait(0.1):
             if stop():
                 remark(text)
                 return
 
-    threading.Thread(target=watch, daemon=True).start()
+    threading.Thread(target=wait, daemon=True).start()
     try:
         yield
     finally:
@@ -129,8 +103,6 @@ def _announce_stop(stop: Callable[[], bool], text: str) -> Iterator[None]:
 
 def _describe_open(found: VlmResult, asset: str) -> list[str]:
     """The hulls of an asset that got no label, by why."""
-    from meshforge.common import join_names
-
     by_reason: dict[str, list[str]] = defaultdict(list)
     for hull, why in found.open.get(asset, {}).items():
         by_reason[why].append(hull)
@@ -139,15 +111,12 @@ def _describe_open(found: VlmResult, asset: str) -> list[str]:
 
 def _print_end(project: Project, found: VlmResult, *, json: bool) -> None:
     """Say what it all came to, and where it can be looked at."""
-    from meshforge.cli.terminal import print_json, remark
-    from meshforge.common import join_names
-
     pages = project.layout.vlm / "pages"
     if json:
         ending = {"ended": found.ended, "unasked": list(found.unasked), "blind": found.blind}
         print_json({"bill": asdict(found.usage)} | ending, compact=True)
         return
-    typer.echo(_describe_bill(found.usage))
+    typer.echo(_describe_usage(found.usage))
     if any(found.open.values()) or found.usage.answered + found.usage.cached:
         typer.echo(f"what was sent and what came back: {pages}")
     if found.blind:
@@ -158,29 +127,23 @@ def _print_end(project: Project, found: VlmResult, *, json: bool) -> None:
         remark(f"not labelled: {join_names(found.unasked, _MAX_NAMES)}; run it again to go on")
 
 
-def _describe_bill(bill: Usage) -> str:
-    from meshforge.common import pluralize
-
-    parts = [f"{pluralize(bill.answered, 'answer')}"]
-    parts += [f"{bill.cached} more from earlier"] if bill.cached else []
-    parts += [f"{pluralize(bill.retries, 'attempt')} repeated"] if bill.retries else []
-    tokens = f"{bill.usage.input:,} tokens in, {bill.usage.output:,} out"
-    tokens += " (estimated, since the server does not tell)" if bill.usage.estimated else ""
-    return f"{', '.join(parts)}; {tokens}; {_describe_cost(bill)}"
+def _describe_usage(usage: Usage) -> str:
+    parts = [f"{pluralize(usage.answered, 'answer')}"]
+    parts += [f"{usage.cached} more from earlier"] if usage.cached else []
+    parts += [f"{pluralize(usage.retries, 'attempt')} repeated"] if usage.retries else []
+    tokens = f"{usage.usage.input:,} tokens in, {usage.usage.output:,} out"
+    tokens += " (estimated, since the server does not say)" if usage.usage.estimated else ""
+    return f"{', '.join(parts)}; {tokens}; {_describe_cost(usage)}"
 
 
-def _describe_cost(bill: Usage) -> str:
-    from meshforge.common import pluralize
-
-    if bill.cost is None:
+def _describe_cost(usage: Usage) -> str:
+    if usage.cost is None:
         return "cost not known: write input_price and output_price into [vlm]"
-    lost = f", and up to ${bill.perhaps:.4f} should {pluralize(bill.lost, 'lost attempt')} be charged for"
-    return f"${bill.cost:.4f}{lost if bill.lost else ''}"
+    lost = f", and up to ${usage.perhaps:.4f} should {pluralize(usage.lost, 'lost attempt')} be charged for"
+    return f"${usage.cost:.4f}{lost if usage.lost else ''}"
 
 
 def _print_forecast(found: VlmForecast) -> None:
-    from meshforge.common import join_names, pluralize
-
     hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, 'hull')} to be labelled"
     typer.echo(f"{found.model} at {found.host}, mode {found.mode}: {hulls}")
     known = f"; {found.known} more have their answer already" if found.known else ""

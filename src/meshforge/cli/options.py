@@ -3,19 +3,25 @@ options, the settings of a decomposition engine, the mesh of an asset."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import fields
+from collections.abc import Callable, Collection
+from dataclasses import MISSING, fields
 from enum import StrEnum
+from functools import wraps
+from inspect import Parameter, Signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hints
 
 import typer
 
+from meshforge.common import UsageError, plain_path
+from meshforge.formats import load
+from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.symbolic import SymbolicMesh
+
 if TYPE_CHECKING:
     from meshforge.batch import ExecutionOptions
-    from meshforge.geometry import DecomposeSettings
-    from meshforge.symbolic import SymbolicMesh
 
+Arguments = TypeVar("Arguments")
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for scripts.")]
 LabelsPath = Annotated[
@@ -83,14 +89,40 @@ Memory = Annotated[
 ]
 
 
+def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Callable[..., None]]:
+    """A command of Typer's out of a function of one dataclass, whose fields are the command's parameters."""
+    hints = get_type_hints(kind, include_extras=True)
+
+    def decorate(function: Callable[[Arguments], None]) -> Callable[..., None]:
+        @wraps(function)
+        def command(**values: Any) -> None:
+            function(kind(**values))
+
+        command.__annotations__ = hints
+        command.__signature__ = Signature(  # type: ignore[attr-defined]
+            [
+                Parameter(
+                    field.name,
+                    Parameter.KEYWORD_ONLY,
+                    default=Parameter.empty if field.default is MISSING else field.default,
+                    annotation=hints[field.name],
+                )
+                for field in fields(kind)  # type: ignore[arg-type]
+            ]
+        )
+        return command
+
+    return decorate
+
+
 def to_execution_options(
     workers: int | None = None,
     timeout: float | None = None,
     memory: int | None = None,
     backend: Literal["local", "ray"] = "local",
 ) -> ExecutionOptions:
-    """How work is spread by these options."""
-    from meshforge.batch import TIMEOUT, ExecutionOptions
+    """The options of the workers; a timeout of None is the default one, of 0 none."""
+    from meshforge.batch import TIMEOUT, ExecutionOptions  # lazy: 200 modules that info, select and convert do not need
 
     return ExecutionOptions(workers, TIMEOUT if timeout is None else timeout or None, memory, backend=backend)
 
@@ -104,9 +136,6 @@ class EngineMethod(StrEnum):
 
 def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
     """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
-    from meshforge.common import UsageError
-    from meshforge.geometry import CoacdSettings, VhacdSettings
-
     kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
     known = {f.name: f for f in fields(kind)}
     values: dict[str, Any] = {}
@@ -119,10 +148,13 @@ def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> Deco
     return kind(**values)
 
 
+def split_words(text: str) -> list[str]:
+    """The words of a list with commas between."""
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
 def refuse_options(context: typer.Context, names: Collection[str], without: str) -> None:
     """Raise UsageError for a parameter among some that was typed, though it says nothing `without` another option."""
-    from meshforge.common import UsageError
-
     for parameter in context.command.params:
         source = context.get_parameter_source(parameter.name or "")
         if parameter.name in names and source is not None and source.name == "COMMANDLINE":
@@ -131,8 +163,6 @@ def refuse_options(context: typer.Context, names: Collection[str], without: str)
 
 
 def _parse_value(text: str, value: str, kind: type) -> Any:
-    from meshforge.common import UsageError
-
     words = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
     try:
         return words[value.lower()] if kind is bool else kind(value)
@@ -145,15 +175,12 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
 
     Raises UsageError for labels beside a project, which has its own.
     """
-    from meshforge.common import UsageError, plain_path
-    from meshforge.formats import load
-
     if project is None:
         return load(asset, labels=labels)
-    from meshforge.project import Project
-
     if labels:
         raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")
+    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+
     home = Project.open(project)
     by_path = {plain_path(path): key for key, path in home.found.ids.items()}
     return home.mesh(by_path.get(plain_path(asset), asset.as_posix()))

@@ -6,25 +6,43 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from meshforge.batch import AssetOutcome, Failed, MeshReader, ReportAsset, WorkerFailure
-    from meshforge.checks import CheckOptions, Examination
-    from meshforge.language import Program
-    from meshforge.symbolic import SymbolicMesh
-
+from meshforge.batch import (
+    READ_TIMEOUT,
+    REPORT_DEFAULTS,
+    AssetOutcome,
+    ExecutionOptions,
+    Failed,
+    MeshReader,
+    ReportAsset,
+    ReportHeader,
+    ReportOptions,
+    WorkerFailure,
+    execute,
+    read_again,
+    status_of,
+    write_report,
+)
+from meshforge.checks import CheckOptions, Examination, examine_mesh
+from meshforge.cli.console import progress
+from meshforge.cli.terminal import remark
+from meshforge.formats import load
+from meshforge.language import Program, RuleTrace, to_canonical_frame
+from meshforge.symbolic import SymbolicMesh
 
 NOTHING_WRITTEN = " (nothing was written)"
 
 
-def write_report_page(path: Path, assets: Sequence[ReportAsset], **more: Any) -> None:
-    """Write it with a bar on stderr, and say where it is; more: as of `write_report`."""
-    from meshforge.batch import write_report
-    from meshforge.cli.terminal import progress, remark
-
+def write_report_page(
+    path: Path,
+    header: ReportHeader,
+    assets: Sequence[ReportAsset],
+    program: Program | None = None,
+    options: ReportOptions = REPORT_DEFAULTS,
+) -> None:
+    """Write a report with a progress bar on stderr, and say where it is."""
     with progress(len(assets), "drawing") as advance:
-        write_report(path, assets=assets, progress=advance, **more)
+        write_report(path, header, assets, program=program, options=replace(options, progress=advance))
     remark(f"report: {path}")
 
 
@@ -39,10 +57,6 @@ def compare_outcomes(
 
     measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
     """
-    from meshforge.batch import READ_TIMEOUT, ExecutionOptions, Failed, ReportAsset, execute, read_again, status_of
-    from meshforge.formats import load
-    from meshforge.language import RuleTrace, to_canonical_frame
-
     made = [None if isinstance(outcome, Failed) else partial(load, outcome.out) for outcome in outcomes]
     meshes = read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
@@ -67,8 +81,6 @@ def compare_outcomes(
 
 def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
     """What was measured, or why it was not."""
-    from meshforge.batch import WorkerFailure
-
     if isinstance(found, WorkerFailure):
         return None, (f"the checks did not come to an end: {found.why}",)
     return found, ()
@@ -76,8 +88,6 @@ def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | Non
 
 def _examine(work: tuple[SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
     """In a process of its own, since MuJoCo may crash."""
-    from meshforge.checks import examine_mesh
-
     return examine_mesh(*work)
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
+from meshforge.cli.terminal import print_json, remark
+from meshforge.language import labels_of, parse_extractor
+from meshforge.symbolic import SymbolicMesh
 
 
 def select(
@@ -22,10 +22,6 @@ def select(
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
-    from meshforge.cli.terminal import print_json, remark
-    from meshforge.language import labels_of, parse_extractor
-    from meshforge.rendering import render, write_png
-
     mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
     for label in labels_of(extractor):
@@ -33,6 +29,8 @@ def select(
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
+        from meshforge.rendering import render, write_png  # lazy: 40 modules that only a picture needs
+
         write_png(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})
@@ -44,8 +42,6 @@ def select(
 
 def _warn_of_label(label: str, mesh: SymbolicMesh) -> None:
     """An asset need not have every label of its family, so one that is missing here is a remark, not an error."""
-    from meshforge.cli.terminal import remark
-
     here = sorted({hull.label for hull in mesh.hulls if hull.label})
     if label not in here:
         remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
-
-if TYPE_CHECKING:
-    from meshforge.project import AssetStatus, Status
+from meshforge.cli.terminal import print_json
+from meshforge.common import pluralize
+from meshforge.project import AssetStatus, Project, Status
 
 
 def status(project: Annotated[Path, typer.Argument(help="A project folder.")], json: Json = False) -> None:
     """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step."""
-    from meshforge.cli.terminal import print_json, progress
-    from meshforge.project import Project
-
     opened = Project.open(project)
     with progress(len(opened.assets()), "reading") as advance:
         found = opened.status(progress=advance)
@@ -28,9 +26,6 @@ def status(project: Annotated[Path, typer.Argument(help="A project folder.")], j
 
 
 def _print_status(found: Status) -> None:
-    from meshforge.cli.terminal import print_table
-    from meshforge.common import pluralize
-
     rules = "no program yet" if found.rules is None else f"a program of {pluralize(found.rules, 'rule')}"
     typer.echo(f"{found.name}: {pluralize(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")
     typer.echo(f"vocabulary: {', '.join(found.vocabulary) or 'none'}\n")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from meshforge.cli.options import Browser, Port
-
-if TYPE_CHECKING:
-    from meshforge.studio.session.session import StudioOptions
+from meshforge.studio.api.server import PAGE_FOLDER, serve
+from meshforge.studio.session.session import StudioOptions
 
 
 def studio(
@@ -27,16 +26,12 @@ def studio(
 
     The studio answers on this machine only, to the address with its token that is printed.
     """
-    from meshforge.studio.session.session import StudioOptions
-
     open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 
 
-def open_studio(opening: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
+def open_studio(options: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    from meshforge.studio.api.server import PAGE_FOLDER, serve
-
-    serve(opening, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
+    serve(options, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
 
 
 def _say(address: str) -> None:

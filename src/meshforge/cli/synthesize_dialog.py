@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
+from meshforge.cli.console import show_status
 from meshforge.cli.synthesize_session import LearningSession, QuestionPictures
 from meshforge.cli.synthesize_text import describe_change, format_question, format_repair
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
-    from meshforge.synthesis import Ambiguous, LearningOutcome, NeedsRepair, NoProgram, Question
-
+from meshforge.common import UsageError, nearest_name
+from meshforge.language import explain
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Ambiguous, LearningOutcome, NeedsRepair, NoProgram, Question
 
 AskPerson = Callable[[str], str]
 """Shows a prompt and gives the line that is typed; raises EOFError or KeyboardInterrupt when a person has enough."""
@@ -22,13 +21,13 @@ _MAX_LISTED = 20  # hulls that are listed
 class Conversation:
     """Asks until the program is found, or the person stops; whatever is said is kept at once."""
 
-    def __init__(self, lessons: LearningSession, ask: AskPerson, say: Callable[[str], None]) -> None:
-        self._session, self._ask, self._say = lessons, ask, say
-        self._pictures = QuestionPictures(lessons)
+    def __init__(self, session: LearningSession, ask: AskPerson, say: Callable[[str], None]) -> None:
+        self._session, self._ask, self._say = session, ask, say
+        self._pictures = QuestionPictures(session)
         self._last_question: Question | None = None
 
     def run(self) -> LearningOutcome:
-        """The outcome of the last lesson."""
+        """Ask and learn; the outcome of the last time."""
         try:
             return self._run()
         finally:
@@ -44,15 +43,11 @@ class Conversation:
         return outcome
 
     def _learn(self) -> LearningOutcome:
-        from meshforge.cli.terminal import show_status
-
         with show_status("learning; Ctrl-C stops"):
             return self._session.learn()
 
     def _respond(self, outcome: LearningOutcome) -> bool:
         """Ask what there is to ask; whether something was said, so that it is worth learning again."""
-        from meshforge.synthesis import Ambiguous, NeedsRepair, NoProgram
-
         try:
             match outcome:
                 case Ambiguous() if outcome.question == self._last_question:
@@ -71,8 +66,6 @@ class Conversation:
             return False
 
     def _ask_question(self, outcome: Ambiguous) -> bool:
-        from meshforge.cli.terminal import show_status
-
         question = outcome.question
         with show_status("drawing"):
             pictures = self._pictures.of_question(question, outcome.program)
@@ -94,14 +87,12 @@ class Conversation:
         if not hulls:
             return
         self._say(f"Then a label may be wrong. The choices differ on:\n{format_labels(hulls, mesh)}")
-        labels = self._ask_labels("HULL=LABEL to mend one (more with commas), Enter to leave them: ", mesh)
+        labels = self._ask_labels("HULL=LABEL to correct one (more with commas), Enter to leave them: ", mesh)
         if labels:
             self._session.project.set_labels(question.asset, labels)
             self._session.project.take_back(question.id)  # with other labels there are other choices
 
     def _ask_labels(self, prompt: str, mesh: SymbolicMesh) -> dict[str, str]:
-        from meshforge.common import UsageError
-
         while True:
             try:
                 return parse_labels(self._ask(prompt), mesh, self._session.project.vocabulary)
@@ -111,10 +102,10 @@ class Conversation:
     def _ask_repair(self, outcome: NeedsRepair) -> bool:
         repair, project = outcome.repairs[0], self._session.project
         self._say(format_repair(repair, self._pictures.of_repair(repair)))
-        word = self._ask_one_of(("y", "n", "s"), "Mend it? y, n, s to stop asking: ")
+        word = self._ask_one_of(("y", "n", "s"), "Repair it? y, n, s to stop asking: ")
         if word == "y":
             project.confirm(repair.correction)
-            self._say(f"mended: {describe_change(repair)}")
+            self._say(f"repaired: {describe_change(repair)}")
         elif word == "n":
             project.reject(repair.correction)
         self._last_question = None
@@ -139,8 +130,6 @@ class Conversation:
 
     def _report_changes(self, before: LearningOutcome, after: LearningOutcome) -> None:
         """What the last answer did to the program."""
-        from meshforge.language import explain
-
         self._say("")
         if not before.program or not after.program:
             if after.question:
@@ -169,8 +158,6 @@ def format_labels(hulls: Sequence[str], mesh: SymbolicMesh) -> str:
 
 def parse_labels(text: str, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> dict[str, str]:
     """The labels that a line of HULL=LABEL, with commas between, gives. Raises UsageError for what cannot be."""
-    from meshforge.common import UsageError, nearest_name
-
     given: dict[str, str] = {}
     for part in (part.strip() for part in text.split(",") if part.strip()):
         hull, equals, label = (word.strip() for word in part.rpartition("="))

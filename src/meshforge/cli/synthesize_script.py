@@ -6,14 +6,14 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from meshforge.cli.synthesize_session import LearningSession
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-    from meshforge.synthesis import Answer, LearningOutcome, Question, Repair
-
+from meshforge.cli.synthesize_text import describe_change
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError
+from meshforge.project import Project
+from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Question, Repair
 
 ANSWERS_FORM = (
     'The file holds a list of {"question": "RULE:ASSET", "choice": 1} (null for neither) '
@@ -31,8 +31,6 @@ class ScriptAnswers:
 
 def read_answers(path: Path, project: Project) -> ScriptAnswers:
     """Read the file. Raises UsageError naming the entry: not of that form, or a question that cannot be."""
-    from meshforge.synthesis import Answer
-
     entries = _read_entries(path)
     direct, choices = [], {}
     for number, entry in enumerate(entries, 1):
@@ -55,8 +53,6 @@ def read_answers(path: Path, project: Project) -> ScriptAnswers:
 
 
 def _read_entries(path: Path) -> list[Any]:
-    from meshforge.common import UsageError
-
     try:
         entries = json.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
@@ -77,30 +73,24 @@ def _check_question(question: str, path: Path, number: int, project: Project) ->
 
 
 def _entry_error(path: Path, number: int, problem: str) -> Exception:
-    from meshforge.common import UsageError
-
     return UsageError(f"answer {number}: {problem}", where=str(path), remedy=ANSWERS_FORM)
 
 
-def run_script(lessons: LearningSession, given: ScriptAnswers | None, verdict: bool | None) -> LearningOutcome:
+def run_script(session: LearningSession, given: ScriptAnswers | None, verdict: bool | None) -> LearningOutcome:
     """The outcome after all answers that were given; verdict: what is said to each repair, None leaves it open."""
-    from meshforge.synthesis import Ambiguous
-
     for answer in given.direct if given else ():
-        lessons.answer(answer)
+        session.answer(answer)
     waiting = given.choices if given else {}
     confirm = None if verdict is None else _confirm_always(verdict)
-    outcome = lessons.learn(confirm)
+    outcome = session.learn(confirm)
     while isinstance(outcome, Ambiguous) and outcome.question.id in waiting:
-        lessons.answer(outcome.question.answer_with(_choice_index(outcome.question, waiting.pop(outcome.question.id))))
-        outcome = lessons.learn(confirm)
+        session.answer(outcome.question.answer_with(_choice_index(outcome.question, waiting.pop(outcome.question.id))))
+        outcome = session.learn(confirm)
     return outcome
 
 
 def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: LearningOutcome) -> None:
     """Raise UsageError where a choice is left over, whose question did not come up now or earlier."""
-    from meshforge.common import UsageError
-
     known = set(project.answers().ids)
     odd = [question for question in (given.choices if given else {}) if question not in known]
     if odd:
@@ -109,8 +99,6 @@ def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: Lear
 
 
 def _choice_index(question: Question, choice: int | None) -> int | None:
-    from meshforge.common import UsageError
-
     if choice is not None and choice > len(question.choices):
         count = len(question.choices)
         raise UsageError(f"the question {question.id} has {count} choices, there is no choice {choice}")
@@ -118,11 +106,9 @@ def _choice_index(question: Question, choice: int | None) -> int | None:
 
 
 def _confirm_always(verdict: bool) -> Callable[[Repair], bool]:
-    from meshforge.cli.synthesize_text import describe_change
-    from meshforge.cli.terminal import remark
 
     def said(repair: Repair) -> bool:
-        remark(f"{'mended' if verdict else 'left as it is'}: {describe_change(repair)}")
+        remark(f"{'repaired' if verdict else 'left as it is'}: {describe_change(repair)}")
         return verdict
 
     return said

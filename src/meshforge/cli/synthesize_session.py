@@ -8,17 +8,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt
-
-if TYPE_CHECKING:
-    from meshforge.language import Program
-    from meshforge.project import FamilyMeshes, Project
-    from meshforge.rendering import Up
-    from meshforge.symbolic import SymbolicMesh
-    from meshforge.synthesis import Answer, LearningOutcome, Options, Question, Repair
-
+from meshforge.common import MeshForgeError
+from meshforge.language import Program
+from meshforge.project import FamilyMeshes, Project, select_assets
+from meshforge.rendering import Up, render, write_png
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Answer, LearningOutcome, Options, Question, Repair
 
 PICTURE_SIZE = (720, 560)
 
@@ -28,15 +26,13 @@ class LearningSession:
     """Learns as often as it is asked to.
 
     keep: whether programs, answers and repairs are kept in the project. stopped: whether a person ended the last
-    lesson; answers: how many it took into account; given: answers that are not kept; follow: a program to tell
-    about.
+    search; given: answers that are not kept.
     """
 
     project: Project
     options: Options
     keep: bool = True
     stopped: bool = False
-    follow: Program | None = None
     given: dict[tuple[int, str], Answer] = field(default_factory=dict)
 
     def learn(self, confirm: Callable[[Repair], bool] | None = None) -> LearningOutcome:
@@ -50,7 +46,6 @@ class LearningSession:
                 stop=stop,
                 answers=tuple(self.given.values()),
                 meshes=meshes,
-                follow=self.follow,
             )
             self.stopped = stop()
         return outcome
@@ -64,15 +59,11 @@ class LearningSession:
 
     @cached_property
     def family(self) -> FamilyMeshes:
-        from meshforge.project import FamilyMeshes
-
         return FamilyMeshes(self.project)
 
     @property
     def ids_in_use(self) -> tuple[str, ...]:
         """The ids of the assets to learn from."""
-        from meshforge.project import select_assets
-
         return select_assets(self.project)
 
     def meshes(self) -> dict[str, SymbolicMesh]:
@@ -83,14 +74,12 @@ class LearningSession:
 class QuestionPictures:
     """Draws into `.meshforge/questions` of a project; every new card takes away the pictures of the one before."""
 
-    def __init__(self, lessons: LearningSession) -> None:
-        self._session = lessons
-        self._folder = lessons.project.layout.questions
+    def __init__(self, session: LearningSession) -> None:
+        self._session = session
+        self._folder = session.project.layout.questions
 
     def of_question(self, question: Question, program: Program) -> list[Path]:
         """A picture of each choice, on the asset as the rule meets it; none where it cannot be drawn."""
-        from meshforge.common import MeshForgeError
-
         self.clear()
         name = f"rule-{question.rule}-{Path(question.asset).stem}"
         try:
@@ -106,9 +95,6 @@ class QuestionPictures:
 
     def of_repair(self, repair: Repair) -> Path | None:
         """A picture of the hull that may have a wrong label; None where it cannot be drawn."""
-        from meshforge.cli.synthesize_text import describe_change
-        from meshforge.common import MeshForgeError
-
         self.clear()
         wrong = repair.correction
         try:
@@ -122,15 +108,11 @@ class QuestionPictures:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _upright_mesh(self, asset: str) -> SymbolicMesh:
-        from meshforge.language import Program
-
         return self._session.project.mesh_before_rule(
             asset, 1, Program(orient=self._session.project.orientation), self._session.meshes()
         )
 
     def _draw(self, mesh: SymbolicMesh, chosen: frozenset[str], name: str, title: str) -> Path:
-        from meshforge.rendering import render, write_png
-
         path, here = self._folder / f"{name}.png", Path.cwd()
         up: Up | None = "Z" if self._has_upright_axis else None
         write_png(path, render(mesh, highlight=chosen, size=PICTURE_SIZE, title=title, up=up))

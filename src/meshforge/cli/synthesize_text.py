@@ -2,33 +2,36 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import assert_never
 
-if TYPE_CHECKING:
-    from meshforge.language import Program
-    from meshforge.synthesis import (
-        Ambiguous,
-        Choice,
-        Found,
-        LearningOutcome,
-        Nearest,
-        NeedsRepair,
-        NoProgram,
-        Question,
-        Repair,
-        TimedOut,
-    )
+from meshforge.common import join_names, pluralize
+from meshforge.language import Program, explain, show
+from meshforge.store import orientation_text, toml_value
+from meshforge.synthesis import (
+    BELIEVABLE,
+    Ambiguous,
+    Choice,
+    Found,
+    LearningOutcome,
+    Nearest,
+    NeedsRepair,
+    NoProgram,
+    Question,
+    Repair,
+    TimedOut,
+)
 
 
 @dataclass(frozen=True, slots=True)
 class LearningContext:
-    """What there is to tell besides the outcome.
+    """What there is to say besides the outcome.
 
-    folder: of the project, as a person types it; assets, looked_at, readable: how many there are, are learned from,
+    folder: of the project, as a person types it; assets, in_use, readable: how many there are, are learned from,
     and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
     stopped: whether a person ended the search.
     """
@@ -49,10 +52,6 @@ class LearningContext:
 
 def format_result(outcome: LearningOutcome, about: LearningContext) -> str:
     """The result: a program, or why there is none."""
-    from typing import assert_never
-
-    from meshforge.synthesis import Ambiguous, Found, NeedsRepair, NoProgram, TimedOut
-
     match outcome:
         case Found() | Ambiguous():
             return str(outcome.program).rstrip("\n")
@@ -68,8 +67,6 @@ def format_result(outcome: LearningOutcome, about: LearningContext) -> str:
 
 def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
     """How far the result can be trusted, and what to do next."""
-    from meshforge.synthesis import Ambiguous, Found
-
     lines = [*_describe_stale(outcome, about), *_describe_overruled(outcome)]
     if isinstance(outcome, Found | Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
@@ -80,73 +77,61 @@ def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
 
 
 def _describe_inputs(about: LearningContext) -> str:
-    from meshforge.common import pluralize
-
-    said = [pluralize(about.answers, "answer")] if about.answers else []
-    said += [pluralize(about.repairs, "mended label")] if about.repairs else []
-    return f" with {' and '.join(said)}" if said else ""
+    parts = [pluralize(about.answers, "answer")] if about.answers else []
+    parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
+    return f" with {' and '.join(parts)}" if parts else ""
 
 
 def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> Iterator[str]:
-    from meshforge.common import join_names
-
     if outcome.settled:
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
         part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
-        yield f"settled: all believable readings agree on {seen}"
+        yield f"unambiguous: all believable readings agree on {seen}"
         return
     if outcome.question:
-        yield f"not settled: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
+        yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
     else:
         yield from _describe_doubt(outcome)
         if outcome.sample:
-            yield f"After applying, look at {join_names(outcome.sample)} first: these tell best whether it is right"
+            yield f"After applying, look at {join_names(outcome.sample)} first: they show best whether it is right"
     if outcome.hint:
-        yield f"To be surer, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
+        yield f"To be more certain, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
         yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
 
 
 def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
     """Where a reading that is not likely enough to ask about would do something else."""
-    from meshforge.common import join_names
-
     rows = _doubtful_pairs(outcome)
     rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
     if rows:
         many = "s" * (len(rules) > 1)
         yield (
-            f"almost settled: rule{many} {join_names(rules)} might mean something else on "
+            f"almost unambiguous: rule{many} {join_names(rules)} might mean something else on "
             f"{join_names(assets)}; look there"
         )
 
 
 def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:
     """The rules and assets on which a believable reading differs from the program."""
-    from meshforge.synthesis import BELIEVABLE
-
     believable = (reading for reading in outcome.readings if reading.belief >= BELIEVABLE)
     return {(reading.rule, asset) for reading in believable for asset in reading.differs_on}
 
 
 def _describe_stale(outcome: LearningOutcome, about: LearningContext) -> Iterator[str]:
     for answer in outcome.stale:
-        said = f"{answer.rule}:{answer.asset}"
-        yield f"the answer {said} no longer fits what is there, and is left out"
-        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(said)}"
+        question = f"{answer.rule}:{answer.asset}"
+        yield f"the answer {question} no longer fits what is there, and is left out"
+        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
 
 
 def _describe_overruled(outcome: LearningOutcome) -> Iterator[str]:
-    from meshforge.common import join_names
-
     if outcome.overruled:
         yield f"no program does what is demonstrated and keeps the accepted results of {join_names(outcome.overruled)};"
         yield "  it was learned without these: look at them again after applying"
 
 
 def _describe_failure(outcome: NoProgram) -> Iterator[str]:
-    from meshforge.store import orientation_text, toml_value
-
     yield f"no program found: {outcome.why}"
     yield from (f"  learned: {rule}" for rule in outcome.rules)
     yield from _describe_nearest(outcome.nearest)
@@ -169,8 +154,6 @@ def _describe_timeout(outcome: TimedOut, about: LearningContext) -> Iterator[str
 
 
 def _describe_nearest(nearest: Nearest) -> Iterator[str]:
-    from meshforge.language import show
-
     yield f"nearest for rule {nearest.rule}: {show(nearest.extractor)}; on {nearest.asset} it"
     if nearest.extra:
         yield f"  selects too much: {', '.join(nearest.extra)}"
@@ -179,8 +162,6 @@ def _describe_nearest(nearest: Nearest) -> Iterator[str]:
 
 
 def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[str]:
-    from meshforge.common import pluralize
-
     yield f"no program yet: {pluralize(len(outcome.repairs), 'label')} may be wrong"
     for repair in outcome.repairs:
         yield f"  {describe_change(repair)}" + (f"  ({format_belief(repair)} sure)" if format_belief(repair) else "")
@@ -189,14 +170,12 @@ def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
     command = f"meshforge synthesize {about.folder_word}"
-    yield f"To look at each: {command} in a terminal; to mend all: {command} --accept-repairs"
+    yield f"To look at each: {command} in a terminal; to repair all: {command} --accept-repairs"
     yield f"To keep the labels as they are: {command} --reject-repairs"
 
 
 def format_question(question: Question, program: Program, pictures: Sequence[Path] = ()) -> str:
     """What a rule does as it stands, and what else it may be meant to select."""
-    from meshforge.language import explain
-
     rule = program.rules[question.rule - 1]
     lines = [f"Rule {question.rule} can be read in more than one way.", f"  now: {rule}", f"       {explain(rule)}"]
     return "\n".join([*lines, format_choices(question, pictures)])
@@ -213,8 +192,6 @@ def format_choices(question: Question, pictures: Sequence[Path] = ()) -> str:
 
 def _describe_choice(choice: Choice, number: int, first: Choice) -> str:
     """The hulls of a choice; those of a later one by how they differ from the first, where that says it shorter."""
-    from meshforge.common import join_names, pluralize
-
     if not choice.select:
         return "nothing"
     count = pluralize(len(choice.select), "hull")
@@ -246,9 +223,7 @@ def format_belief(repair: Repair) -> str | None:
 
 def format_answer_help(question: Question, project: str) -> str:
     """How to answer where nobody can be asked; project: its folder, as one types it."""
-    from json import dumps
-
-    example = dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
+    example = json.dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
     return (
         f"Answer it in a terminal: meshforge synthesize {project}\n"
         f"  or in a script: meshforge synthesize {project} --answers FILE, where FILE holds {example}\n"

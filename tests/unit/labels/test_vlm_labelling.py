@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.labels import VlmResult
-from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm import label_by_vlm, prompt
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
@@ -66,9 +66,9 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
         project = family(tmp_path / name, 5)
         (project.path("t003.obj")).write_text("f 1 2 3\n")
         with serving(right) as server:
-            seen = project.forecast_vlm(settings(server), spread=spread)
+            seen = project.forecast_vlm(settings(server), execution=spread)
             assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
-            found = project.label_with_vlm(settings(server), spread=spread)
+            found = project.label_with_vlm(settings(server), execution=spread)
             asked.append(sorted(one.raw for one, _, _ in server.asked))
         assert [report.taken for report in found.reports] == [6, 6, 6, 0, 6]
         assert "t003.obj" in found.reports[3].problems[0]
@@ -79,7 +79,7 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
 def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), spread=ExecutionOptions(workers=1, timeout=0.001))
+        found = project.label_with_vlm(settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
     assert not server.asked
     assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
 
@@ -248,7 +248,8 @@ def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path)
 _RUN = """
 import sys
 import time
-from meshforge.project import Project, VlmSettings
+from meshforge.project import Project
+from meshforge.store import VlmSettings
 Project.open(sys.argv[1]).label_with_vlm(VlmSettings.model_validate_json(sys.argv[2]))
 """
 
@@ -402,7 +403,7 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
         inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
 
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), keeping=keeping)
+        found = project.label_with_vlm(settings(server), write_block=keeping)
     assert inside == [[0, 0, 6, 6]]
     assert [report.taken for report in found.reports] == [6, 6]
 
@@ -438,7 +439,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
             raise ZeroDivisionError("no room for the picture")
         return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(prompt, "build_questions", looks)
+    monkeypatch.setattr(label_by_vlm, "build_questions", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))

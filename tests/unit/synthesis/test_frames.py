@@ -53,8 +53,8 @@ def suggested(
     """The suggestion, whose sizes are those that learning finds in its frame."""
     orient, options = parse_orient(now) if now else None, options or Options()
     before = sizes_now(demos, orient, labels, options)
-    rules, frame, watch = collect_rule_specs(demos), Program(tuple(labels), orient), TimeBudget(60.0)
-    found = suggest_orientation(demos, rules, frame, {}, options, watch, before, batch)
+    rules, frame, budget = collect_rule_specs(demos), Program(tuple(labels), orient), TimeBudget(60.0)
+    found = suggest_orientation(demos, rules, frame, {}, options, budget, before, batch)
     if found:
         assert found.sizes == sizes_now(demos, found.orient, labels, options)
         assert before is None or sum(found.sizes) <= sum(before) - 3

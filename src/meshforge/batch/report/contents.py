@@ -72,22 +72,31 @@ class ReportAsset:
         return (len(self.before.hulls), len(self.after.hulls)) if self.before and self.after else None
 
     @property
-    def has_findings(self) -> bool:
-        """Whether anything was found when it was checked."""
-        return bool(self.checked and self.checked.findings)
+    def findings(self) -> list[Finding]:
+        """What was found when it was checked, errors first."""
+        return sorted(self.checked.findings if self.checked else (), key=lambda finding: finding.severity != "error")
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether an error was found when it was checked."""
+        return any(finding.severity == "error" for finding in self.findings)
 
     @property
     def is_broken(self) -> bool:
         """Whether it failed, or an error was found when it was checked."""
-        errors = self.checked and any(finding.severity == "error" for finding in self.checked.findings)
-        return self.status in BROKEN or bool(errors)
+        return self.status in BROKEN or self.has_errors
+
+    @property
+    def kinds(self) -> list[str]:
+        """The words by which the page can be filtered."""
+        marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings)))
+        return [self.status, *(word for word, holds in marks if holds)]
 
     @property
     def hulls_to_blame(self) -> frozenset[str]:
         """The hulls that findings name: those of errors, where there are any."""
-        found = self.checked.findings if self.checked else ()
-        errors = [finding for finding in found if finding.severity == "error"]
-        return frozenset(hull for finding in errors or found for hull in finding.hulls)
+        errors = [finding for finding in self.findings if finding.severity == "error"]
+        return frozenset(hull for finding in errors or self.findings for hull in finding.hulls)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +174,7 @@ def read_job(job: AssetJob) -> SymbolicMesh:
 def _try_read(reader: MeshReader) -> SymbolicMesh | None:
     try:
         return reader()
-    except Exception:  # why it cannot be read is told already, or is not what the report is about
+    except Exception:  # why it cannot be read is reported already, or is not what the report is about
         return None
 
 

@@ -33,14 +33,14 @@ def make_edit(session: CurrentSession, change: Annotated[AnyEdit, Body()], page:
 
 @router.post("/undo")
 def undo(session: CurrentSession, page: SenderId = None) -> Done:
-    """Take back what was done last."""
-    return session.undo(page)
+    """Undo what was done last."""
+    return session.move("undo", page)
 
 
 @router.post("/redo")
 def redo(session: CurrentSession, page: SenderId = None) -> Done:
-    """Do again what was taken back last."""
-    return session.redo(page)
+    """Redo what was undone last."""
+    return session.move("redo", page)
 
 
 @router.post("/learn")

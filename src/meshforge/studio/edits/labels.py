@@ -107,7 +107,7 @@ class Propagate(JobEdit, _LabelsEdit):
     next: str | None
 
     def describe(self, project: Project) -> str:
-        return "labels carried over"
+        return "labels propagated"
 
 
 class LabelFromModel(JobEdit, _LabelsEdit):

@@ -9,7 +9,7 @@ from uuid import uuid4
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize
 from meshforge.geometry import CoacdSettings, VhacdSettings
-from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult
+from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import PreparationResult, Project
 from meshforge.store import VlmSettings
 from meshforge.studio.edits.assets import Decompose
@@ -33,9 +33,8 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
         results = project.decompose(
             assets,
             settings,
-            progress=progress.advance,
-            stop=progress.is_stopped,
-            keeping=lambda asset: session.record_edit(Decompose(asset=asset), group),
+            execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
+            write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
         )
         for result in results:
             made += len(result.hulls)
@@ -62,12 +61,12 @@ def start_propagate(session: Session) -> Job:
     def record(best: str | None) -> Iterator[None]:
         with session.record_edit(Propagate(used=used, next=best), uuid4().hex):
             if _preparation_digests(session.project) != began:
-                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Carry labels over again.")
+                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
             yield
 
     def work(progress: JobProgress) -> str:
         options = ExecutionOptions(stop=progress.is_stopped)
-        result = project.propagate_labels(spread=options, stage=progress.stage, keeping=record)
+        result = project.propagate_labels(execution=options, stage=progress.stage, write_block=record)
         for report in result.reports:
             progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
         if not any(report.taken for report in result.reports):
@@ -76,7 +75,7 @@ def start_propagate(session: Session) -> Job:
         return _describe_propagation(result)
 
     assets = project.assets()
-    return session.jobs.start("propagate", "Carrying labels over", len(assets), work, stays="no label was changed.")
+    return session.jobs.start("propagate", "Propagating labels", len(assets), work, stays="no label was changed.")
 
 
 def _check_labels(project: Project) -> None:
@@ -85,7 +84,7 @@ def _check_labels(project: Project) -> None:
         raise ProjectError("the vocabulary is empty", remedy="Say first what hulls can be.")
     given = (label.source in GIVEN_SOURCES for a in project.assets() for label in project.labels(a).labels.values())
     if not any(given):
-        raise ProjectError("there is no label to carry over", remedy="Label the hulls of one asset first.")
+        raise ProjectError("there is no label to propagate", remedy="Label the hulls of one asset first.")
 
 
 def _preparation_digests(project: Project) -> dict[str, str | None]:
@@ -129,7 +128,7 @@ def start_ask(session: Session, request: AskJob) -> Job:
             settings,
             progress=lambda usage: progress.advance(),
             stop=progress.is_stopped,
-            keeping=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
+            write_block=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
         )
         for report in found.reports:
             bare = list(found.open.get(report.asset, {}))
@@ -146,7 +145,7 @@ def start_ask(session: Session, request: AskJob) -> Job:
 def _check_settings(session: Session, request: ForecastJob | AskJob) -> VlmSettings:
     """The settings of the project with the mode asked for, checked before anything long starts."""
     settings = session.project.settings.vlm.model_copy(update={"mode": request.mode})
-    settings.check(session.project.vocabulary)
+    check_vlm_settings(settings, session.project.vocabulary)
     return settings
 
 

@@ -38,7 +38,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
     """An asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical frame."""
     source = mesh.asset
     if source is None:
-        raise MeshForgeError("this mesh was made in memory and has no file to tell about")
+        raise MeshForgeError("this mesh was made in memory and has no file")
     replay, problem = _try_replay(project, asset, mesh)
     seen = replay.start if replay else mesh
     shown = compute_upright(project, mesh)

@@ -71,14 +71,14 @@ def _step_for_propagation(cards: Sequence[Card], propagated: CarriedOver | None)
     """What leads to sure labels with the least work."""
     bare = [card for card in cards if card.hulls and all(place < 0 for place in card.labels)]
     if bare and any(card.hulls and card.given == card.hulls for card in cards):
-        return Next(stage="label", say=f"{_count_assets(bare, 'has', 'have')} no label: carry labels over.")
+        return Next(stage="label", say=f"{_count_assets(bare, 'has', 'have')} no label: propagate labels.")
     doubtful = [card for card in cards if card.unsure]
     unsure = sum(len(card.unsure) for card in doubtful)
     if not unsure:
         return None
     if propagated and propagated.unused >= unsure:
         used = pluralize(propagated.unused, "label")
-        return Next(stage="label", say=f"Carry labels over again: {used} of yours not used yet.")
+        return Next(stage="label", say=f"Propagate labels again: {used} of yours not used yet.")
     are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
     best = next((card for card in cards if propagated and card.asset == propagated.next), None)
     if best and len(best.labels) - best.given < unsure:
@@ -103,9 +103,9 @@ def _step_for_learning(lesson: LessonView | None, has_program: bool) -> Next | N
 def _explain_failure(lesson: LessonView) -> str:
     """What to do where there is no program; the panel of the learning run says why."""
     if lesson.status == "error":
-        return "The lesson came to no end: see what stands in its way."
+        return "Learning failed: see why."
     if lesson.status == "timeout":
-        return "The lesson was stopped: learn again, or show the steps on another asset."
+        return "Learning was stopped: learn again, or show the steps on another asset."
     if lesson.nearest:
         return f"No selection fits rule {lesson.nearest.rule} yet: see what comes nearest."
     return "No program does all that is demonstrated: see why, and what may help."
@@ -117,7 +117,7 @@ def _step_for_outputs(cards: Sequence[Card]) -> Next | None:
         return Next(stage="review", say=f"Apply the program: {_count_assets(behind, 'is', 'are')} not up to date.")
     failed = [c for c in cards if c.output == "failed"]
     if failed:
-        say = f"The program fails on {pluralize(len(failed), 'asset')}: mend what is named, then apply it again."
+        say = f"The program fails on {pluralize(len(failed), 'asset')}: fix what is named, then apply it again."
         return Next(stage="review", say=say, asset=failed[0].asset)
     return None
 
@@ -125,12 +125,12 @@ def _step_for_outputs(cards: Sequence[Card]) -> Next | None:
 def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
     flagged = [c for c in cards if c.review == "flagged"]
     if flagged:
-        return Next(stage="review", say=f"{pluralize(len(flagged), 'asset')} flagged: mend it.", asset=flagged[0].asset)
+        return Next(stage="review", say=f"{pluralize(len(flagged), 'asset')} flagged: fix it.", asset=flagged[0].asset)
     open_ = [c for c in cards if c.review is None]
     waiting = {c.asset for c in open_}
     best = [asset for asset in sample if asset in waiting]
     if best:  # before all others, as these show best whether the program is right
-        what = pluralize(len(best), "result that tells", "results that tell")
+        what = pluralize(len(best), "result that shows", "results that show")
         say = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
         return Next(stage="review", say=say, asset=best[0])
     if open_:

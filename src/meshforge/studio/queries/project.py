@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
+from meshforge.labels import check_vlm_settings, endpoint_of
 from meshforge.language import explain
 from meshforge.project import AssetStatus, Project
 from meshforge.rendering import UNSURE, label_color
@@ -139,8 +140,8 @@ def model_of(project: Project) -> Model | None:
         return None
     host, why = "", None
     try:
-        host = settings.endpoint().host
-        settings.check(project.vocabulary)
+        host = endpoint_of(settings).host
+        check_vlm_settings(settings, project.vocabulary)
     except MeshForgeError as error:
         why = error.message
     if find_spec("openai") is None:

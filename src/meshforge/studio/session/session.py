@@ -131,20 +131,12 @@ class Session:
             self.announce((entry,), "edit", by)
         return Done(said=entry.title)
 
-    def undo(self, by: str | None = None) -> Done:
-        """Take back what was done last."""
-        return self._move("undo", by)
-
-    def redo(self, by: str | None = None) -> Done:
-        """Do again what was taken back last."""
-        return self._move("redo", by)
-
-    def _move(self, way: Literal["undo", "redo"], by: str | None) -> Done:
+    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> Done:
+        """Undo what was done last, or redo what was undone last."""
         with self._mutex:
             self.learning.pause()
             try:
-                move = self.history.undo if way == "undo" else self.history.redo
-                entries = move(self.project)
+                entries = self.history.undo(self.project) if way == "undo" else self.history.redo(self.project)
             finally:
                 self.learning.resume()
             if not entries:
@@ -172,7 +164,7 @@ class Session:
                 self.announce((self.history.last_entry,), "edit")
 
     def note_output(self, asset: str) -> None:
-        """The output of an asset was written anew."""
+        """The output of an asset was written."""
         self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
 
     def update(self, names: Iterable[str]) -> None:
@@ -202,8 +194,8 @@ class Session:
     def _end_learning(self, lesson: LessonView) -> None:
         """A learning run is over: it wrote its program, unless a person's is there."""
         with self._mutex:
-            taking, self._take_learned = self._take_learned, False
-            if taking and lesson.program and self.learning.is_latest(lesson.number):
+            take, self._take_learned = self._take_learned, False
+            if take and lesson.program and self.learning.is_latest(lesson.number):
                 self.edit(TakeLearned())
                 return
             self._file_sync.show_program()

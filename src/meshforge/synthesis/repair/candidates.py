@@ -53,7 +53,7 @@ MIN_BELIEF = 0.75
 """A proposal is made when each of its corrections is so probable."""
 
 MIN_BELIEF_WITHOUT_EXACT = 0.3
-"""The same where there is no exact extractor, so that nothing else is left."""
+"""Where there is no exact extractor, nothing else is left, so less is enough."""
 
 MAX_BELIEF_AGAINST_PERSON = 0.5
 """A correction of a person's label is never believed more."""
@@ -99,27 +99,27 @@ def key_cost(key: Key) -> float:
     return NODE_COST * size + DOUBT_COST * doubts
 
 
-def search_small(variants: Variants, largest: int, within: float, watch: TimeBudget) -> Iterator[Candidate]:
+def search_small(variants: Variants, largest: int, within: float, budget: TimeBudget) -> Iterator[Candidate]:
     """The candidates of up to `largest` nodes that cost no more than `within`, smaller ones first.
 
     Those that are much less believable than one before are passed over.
     """
-    bank = Bank(variants.terms, variants.width, watch)
+    bank = Bank(variants.terms, variants.width, budget)
     for size in range(1, largest + 1):
         if NODE_COST * size > within:
             return
-        for candidate in _candidates_on_level(bank.level(size), variants.by_example, within, watch):
+        for candidate in _candidates_on_level(bank.level(size), variants.by_example, within, budget):
             within = min(within, candidate.cost + NEGLIGIBLE_MARGIN)
             yield candidate
 
 
 def _candidates_on_level(
-    level: Level, by_example: Sequence[Sequence[Variant]], within: float, watch: TimeBudget
+    level: Level, by_example: Sequence[Sequence[Variant]], within: float, budget: TimeBudget
 ) -> Iterator[Candidate]:
     """The candidates among the terms of one level."""
     rows, found = level.columns.every, list[RelabelingRows]()
     for variants in by_example:
-        watch.check()
+        budget.check()
         hits = [(variant.relabeling, _find_rows(level, variant, rows)) for variant in variants]
         rows &= reduce(or_, (hit for _, hit in hits), 0)
         found.append([(relabeling, hit) for relabeling, hit in hits if hit])
@@ -150,22 +150,21 @@ def search_larger(
     variants: Variants,
     vocabulary: Sequence[str],
     options: Options,
-    extremity: float,
     above: int,
     within: float,
-    watch: TimeBudget,
+    budget: TimeBudget,
 ) -> Iterator[Candidate]:
     """Candidates of more than `above` nodes that cost no more than `within`, of cheap relabelings first."""
     places = {label: place for place, label in enumerate(vocabulary)}
     known: set[Key] = set()
-    for searched, ways in enumerate(combine_relabelings(variants, watch)):
+    for searched, ways in enumerate(combine_relabelings(variants, budget)):
         room = within - sum(way.cost for way in ways)
         largest = min(options.max_size, _MAX_SIZE, int(room / NODE_COST))
         if largest <= above or searched == MAX_SEARCHES:
             return
         shown = [relabel(example, way.changes) for example, way in zip(examples, ways, strict=True)]
-        answer = Search(shown, vocabulary, watch, replace(options, max_size=largest), extremity).run()
-        watch.check()
+        answer = Search(shown, vocabulary, budget, replace(options, max_size=largest)).run()
+        budget.check()
         if isinstance(answer, Hit) and (key := order_key(answer.extractor, places)) not in known and key[0] > above:
             known.add(key)
             matched = variants.relabelings_for(answer.extractor)
@@ -174,7 +173,7 @@ def search_larger(
             yield candidate
 
 
-def combine_relabelings(variants: Variants, watch: TimeBudget) -> Iterator[tuple[Relabeling, ...]]:
+def combine_relabelings(variants: Variants, budget: TimeBudget) -> Iterator[tuple[Relabeling, ...]]:
     """Relabelings of all examples with a correction at least, cheapest first, that some extractor may match."""
     lists = variants.by_example
     if not all(lists):
@@ -184,7 +183,7 @@ def combine_relabelings(variants: Variants, watch: TimeBudget) -> Iterator[tuple
     for _ in range(_MAX_COMBINATIONS):
         if not heap:
             return
-        watch.check()
+        budget.check()
         _, at = heappop(heap)
         chosen = [some[k] for some, k in zip(lists, at, strict=True)]
         if _is_compatible(chosen) and any(one.relabeling.changes for one in chosen):

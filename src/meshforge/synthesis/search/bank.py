@@ -36,10 +36,10 @@ class Bank:
     merge: False keeps every term instead (to test that the answer is the same).
     """
 
-    def __init__(self, leaves: Sequence[Term], width: int, watch: TimeBudget, merge: bool = True) -> None:
+    def __init__(self, leaves: Sequence[Term], width: int, budget: TimeBudget, merge: bool = True) -> None:
         self._leaves = leaves
         self._width = width
-        self._watch = watch
+        self._budget = budget
         self._merge = merge
         self._levels: list[Level] = []
         self._known: set[int] = {0}
@@ -61,12 +61,12 @@ class Bank:
 
     def _grow(self, size: int) -> Level:
         if not self._merge:
-            every = [combine(joint, x, y) for _, (_, joint, x, y) in self._drafts(size)]
+            every = [combine(operator, x, y) for _, (_, operator, x, y) in self._drafts(size)]
             return Level([*self.leaves(size), *every], self._width)
         terms = {leaf.bits: leaf for leaf in sorted(self.leaves(size), key=lambda leaf: leaf.key, reverse=True)}
-        for bits, (key, joint, x, y) in self._first_drafts(size).items():
+        for bits, (key, operator, x, y) in self._first_drafts(size).items():
             if bits not in terms or key < terms[bits].key:
-                terms[bits] = combine(joint, x, y)
+                terms[bits] = combine(operator, x, y)
         fresh = [term for bits, term in terms.items() if bits not in self._known]
         self._known.update(terms)
         return Level(fresh, self._width)
@@ -84,7 +84,7 @@ class Bank:
         for small in range(1, (size - 1) // 2 + 1):
             large = self.level(size - 1 - small).terms
             for x in self.level(small).terms:
-                self._watch.check()
+                self._budget.check()
                 a, xk = x.bits, x.key
                 for y in large:
                     b = y.bits

@@ -56,9 +56,9 @@ class Completion:
     goals: how many goals of missing operands it has looked at.
     """
 
-    def __init__(self, bank: Bank, watch: TimeBudget, shortcuts: Shortcuts) -> None:
+    def __init__(self, bank: Bank, budget: TimeBudget, shortcuts: Shortcuts) -> None:
         self._bank = bank
-        self._watch = watch
+        self._budget = budget
         self._shortcuts = shortcuts
         self._known: dict[tuple[Goal, int], Term | None] = {}
         self.goals = 0
@@ -81,11 +81,11 @@ class Completion:
     def _compounds(self, goal: Goal, size: int) -> Iterator[Term]:
         """Of each set operator whose smaller operand is known, the first that meets the goal."""
         for small in range(1, (size - 1) // 2 + 1):
-            self._watch.check()
-            for opening in half_terms_for(self._bank.level(small), goal, self._shortcuts.help):
-                other = self._find_operand(opening.rest, size - 1 - small)
+            self._budget.check()
+            for half in half_terms_for(self._bank.level(small), goal, self._shortcuts.help):
+                other = self._find_operand(half.rest, size - 1 - small)
                 if other:
-                    yield opening.complete(other)
+                    yield half.complete(other)
 
 
 def satisfies(bits: int, goal: Goal) -> bool:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from meshforge.language import EXTREMITY, Extractor
-from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
+from meshforge.language import Extractor
+from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.search.bank import Bank, positions
@@ -21,7 +21,7 @@ NEAREST_SIZE = 5
 """Where nothing matches, the nearest miss is looked for among all selections of extractors up to this size."""
 
 _NEAREST_SIZE_LATE = 4
-"""The same where the time ran out."""
+"""Where the time ran out, only up to this size."""
 
 _MAX_COUNTEREXAMPLES = 16  # groups that join the search when its answer is wrong on them
 
@@ -74,21 +74,22 @@ class Search:
         self,
         examples: Sequence[Example],
         vocabulary: Sequence[str],
-        watch: TimeBudget,
+        budget: TimeBudget,
         options: Options,
-        extremity: float = EXTREMITY,
         batch: Sequence[SymbolicMesh] = (),
     ) -> None:
-        self.examples, self.options, self.watch = tuple(examples), options, watch
+        self.examples, self.options, self.budget = tuple(examples), options, budget
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
-        self.field = ObservationTable(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
+        self.field = ObservationTable(
+            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group
+        )
         self.width = self.field.width_of(len(examples))
         self.need = self.field.groups_in(self.selections)
         self._exhausted = self._kept = self._goals = 0
 
     def run(self) -> SearchResult:
-        """The answer, within the limits of the options and the watch."""
+        """The answer, within the limits of the options and the budget."""
         try:
             return self._find_hit() or self._report_miss()
         except OutOfTime:
@@ -127,8 +128,8 @@ class Search:
         groups, shortcuts = self.decisive, self.options.shortcuts
         whole = groups == tuple(range(self.width))
         terms = [Term(_pack(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
-        bank = Bank(terms, len(groups), self.watch, shortcuts.merge)
-        completion = Completion(bank, self.watch, shortcuts)
+        bank = Bank(terms, len(groups), self.budget, shortcuts.merge)
+        completion = Completion(bank, self.budget, shortcuts)
         need = _pack(self.need, groups, whole)
         goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
         try:
@@ -144,14 +145,14 @@ class Search:
 
     def _report_miss(self) -> Miss:
         why = describe_conflict(self.field, self.selections, self.examples)
-        nearest = self._find_nearest(NEAREST_SIZE, self.watch)
+        nearest = self._find_nearest(NEAREST_SIZE, self.budget)
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _find_nearest(self, size: int, watch: TimeBudget) -> NearestExtractor | None:
+    def _find_nearest(self, size: int, budget: TimeBudget) -> NearestExtractor | None:
         """The nearest miss among extractors of up to some size."""
         terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
-        bank = Bank(terms, self.width, watch)
+        bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]
         errors = ErrorCounter(self.field, self.selections, self.width)
         made = (term for level in levels for term in level.terms)
@@ -206,9 +207,8 @@ def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Seq
     missing = [example.selection & ~mask for mask, example in zip(on, examples, strict=True)]
     worst = max(range(len(examples)), key=lambda k: (extra[k].bit_count() + missing[k].bit_count(), -k))
     example = examples[worst]
-    return NearestExtractor(
-        extractor, example.name, _hull_names(example, extra[worst]), _hull_names(example, missing[worst])
-    )
+    names_of = example.mesh.names_of
+    return NearestExtractor(extractor, example.name, names_of(extra[worst]), names_of(missing[worst]))
 
 
 def describe_conflict(field: ObservationTable, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
@@ -221,10 +221,6 @@ def describe_conflict(field: ObservationTable, selections: Sequence[int], exampl
         f"{shown} was selected and {other} was not, yet every extractor treats them alike; "
         "a label of its own for one of them would tell them apart"
     )
-
-
-def _hull_names(example: Example, mask: int) -> tuple[str, ...]:
-    return tuple(example.mesh.hulls[index].name for index in sorted(bits_of(mask)))
 
 
 def _to_planes(weights: Sequence[int]) -> list[int]:

@@ -72,11 +72,11 @@ def survey(
     layout: Layout,
     only: Collection[str] | None = None,
     *,
-    spread: ExecutionOptions | None = None,
+    execution: ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
 ) -> dict[str, AssetFacts]:
     """The facts of all assets by id, or of some; all as of `iterate_survey`."""
-    return dict(iterate_survey(found, layout, only, spread=spread, progress=progress))
+    return dict(iterate_survey(found, layout, only, execution=execution, progress=progress))
 
 
 def iterate_survey(
@@ -84,7 +84,7 @@ def iterate_survey(
     layout: Layout,
     only: Collection[str] | None = None,
     *,
-    spread: ExecutionOptions | None = None,
+    execution: ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
 ) -> Generator[tuple[str, AssetFacts], None, None]:
     """The ids of all assets in order, or of some, with their facts, as soon as these are known.
@@ -97,7 +97,7 @@ def iterate_survey(
     work = {key: _AssetPaths(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
-    results = execute(_read_facts, todo, replace(spread or ExecutionOptions(), progress=progress))
+    results = execute(_read_facts, todo, replace(execution or ExecutionOptions(), progress=progress))
     try:
         for key, own in work.items():
             if key not in fresh:
