@@ -20,6 +20,17 @@ _PATHS = (
     "GAZEBO_MODEL_PATH",
     "GAZEBO_RESOURCE_PATH",
 )
+BODY_FEATURES = frozenset(
+    {
+        *(FeatureKind.NAMES, FeatureKind.BODIES, FeatureKind.BOXES, FeatureKind.SPHERES, FeatureKind.CYLINDERS),
+        *(FeatureKind.MASSES, FeatureKind.VISUALS, FeatureKind.COLORS),
+    }
+)
+"""What every format with bodies holds."""
+SCENE_FEATURES = frozenset(
+    {FeatureKind.MATERIALS, FeatureKind.TEXTURES, FeatureKind.CONTACT, FeatureKind.CAMERAS, FeatureKind.LIGHTS}
+)
+"""What every format of scenes could hold besides, and `create` leaves out."""
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
 
@@ -145,6 +156,19 @@ class Format(ABC):
     def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
+
+
+def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:
+    """A feature of things by their names, empty for those that have none."""
+    each = list(names)
+    return Feature(kind, tuple(name for name in each if name), sum(not name for name in each))
+
+
+def feature_of_tags(kind: FeatureKind, tags: Iterable[str]) -> Feature:
+    """A feature of things that are told apart by their tags only: each tag is named once."""
+    each = list(tags)
+    names = tuple(dict.fromkeys(each))
+    return Feature(kind, names, len(each) - len(names))
 
 
 def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:

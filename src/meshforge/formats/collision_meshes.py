@@ -112,11 +112,22 @@ class SourceMeshes:
         """What is in a file. Raises AssetError where it has changed since the asset was read."""
         path = resolver.find(reference)
         if path is None or file_digest(path) != self._digests.get(path):
-            problem = f"the mesh {reference!r} has changed since the asset was read"
-            raise AssetError(problem, where=self._where, remedy="Read the asset again.")
+            raise change_error(f"the mesh {reference!r}", self._where)
         if path not in self._surfaces:
             self._surfaces[path] = read_triangles(path)
         return self._surfaces[path]
+
+
+def change_error(what: str, where: str) -> AssetError:
+    """The error about a file that is not what it was."""
+    return AssetError(f"{what} has changed since the asset was read", where=where, remedy="Read the asset again.")
+
+
+def refuse_changed_files(digests: Iterable[tuple[Path, str]], where: str, kind: str = "") -> None:
+    """Raise AssetError where a file is not what it was when it had a digest; kind: what to call it, with a blank."""
+    for path, digest in digests:
+        if not path.is_file() or file_digest(path) != digest:
+            raise change_error(f"{kind}{path.name}", where)
 
 
 def _shorten(reference: str) -> str:

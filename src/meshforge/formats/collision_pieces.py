@@ -4,13 +4,16 @@ files have for them, and the hulls and non-convex pieces of an asset that they b
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, principal_extents
-from meshforge.symbolic import Geom, Mentions, Opaque, Surface
+from meshforge.common import GeometryError
+from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
+from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
+
+_RING = 32  # corners of each end of a tapered cylinder
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,6 +75,39 @@ def turn_z_to(normal: Floats) -> Pose:
     return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
 
 
+def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], Shape]) -> CollisionPiece:
+    """The shape that `make` makes, unless it has no volume; sizes: its own [m], none of which may be zero."""
+    if not np.isfinite(sizes).all() or min(sizes) <= 0:
+        return CollisionPiece(None, f"a {kind.lower()} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
+    try:
+        return CollisionPiece(make())
+    except GeometryError as error:
+        return CollisionPiece(None, error.problem)
+
+
+def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:
+    """Points (n, 3) of the disk or ball at a height along an axis: the end of a tapered cylinder or capsule."""
+    centre: Floats = height * np.eye(3)[axis]
+    if radius == 0:
+        return centre.reshape(1, 3)
+    if ball:
+        return Sphere(Pose.of_translation(centre), radius).vertices
+    angles = np.arange(_RING) * (2 * np.pi / _RING)
+    ring = np.column_stack([radius * np.cos(angles), radius * np.sin(angles)])
+    return np.insert(ring, axis, height, axis=1)
+
+
+def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
+    """The names of pieces; for each element its own name and how many pieces it has: `#k` for one of several."""
+    each = [[base] if count == 1 else [f"{base}#{k}" for k in range(count)] for base, count in bases]
+    unique = iter(unique_names(name for names in each for name in names))
+    return [tuple(next(unique) for _ in names) for names in each]
+
+
+ElementPieces = Sequence[Sequence[CollisionPiece]]
+"""The pieces of each element, in order."""
+
+
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
     pieces = _iterate_pieces(authored, parts, mentions)
@@ -123,6 +159,16 @@ def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterabl
     found += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
     found += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
     return drop_repeats(found)
+
+
+def names_to_keep(asset: Asset) -> set[str]:
+    """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
+    return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
+
+
+def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:
+    """The hulls that an edit made; known: the names of the pieces of the file."""
+    return [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
 
 
 def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:

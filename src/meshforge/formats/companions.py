@@ -33,6 +33,19 @@ def find_companions(mesh: Path) -> dict[str, Path]:
     return found
 
 
+def add_copy(copies: dict[str, Path], place: str, path: Path, remedy: str = "Rename one of them.") -> None:
+    """Copy a file, with its companions, to a place in an output. Raises AssetError where another file goes there."""
+    if copies.setdefault(place, path) != path:
+        raise AssetError(f"{copies[place]} and {path} would both become {place!r}", where=str(path), remedy=remedy)
+    for key, companion in find_companions(path).items():
+        copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
+
+
+def note_absolute(reference: str) -> str:
+    """The note on a file that is not copied."""
+    return f"{reference!r} is an absolute reference: the file is used where it is, not copied"
+
+
 def _find_references(mesh: Path) -> Iterator[str]:
     match mesh.suffix.lower():
         case ".obj":

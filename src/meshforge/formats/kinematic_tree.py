@@ -10,7 +10,12 @@ import numpy as np
 
 from meshforge.formats.base import Loss
 from meshforge.geometry import Floats, Pose
-from meshforge.symbolic import Asset, FeatureKind, Joint, JointKind, unique_names
+from meshforge.symbolic import Asset, FeatureKind, Inertial, Joint, JointKind, unique_names
+
+LIGHT_INERTIAL = Inertial("", 1e-6, np.zeros(3), 1e-9 * np.eye(3))
+"""The mass of a link that stands for none, above what engines refuse."""
+TENSOR_NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""What URDF and SDF call the six numbers of an inertia, those on and above its diagonal."""
 
 _NEAR = 1e-12  # [m] from a link's origin, within which a joint's axis counts as going through it
 _ROUNDING = 1e-14  # as a share of the largest number; a few products of rotations make less
@@ -233,6 +238,24 @@ def perpendicular_to(axis: Floats) -> Floats:
 
 def _is_identity(pose: Pose) -> bool:
     return np.array_equal(pose.rotation, np.eye(3)) and not pose.translation.any()
+
+
+def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:
+    """The centre (3,) [m] of a mass and the inertia (3, 3) [kg m^2] about it, in the frame of a link."""
+    turn = root_t_link.rotation.T
+    centre = turn @ (inertial.centre - root_t_link.translation)
+    return centre, drop_rounding(turn @ inertial.inertia @ turn.T)
+
+
+def name_moments(tensor: Floats) -> list[tuple[str, float]]:
+    """The numbers of an inertia (3, 3) by the names of URDF and SDF."""
+    return list(zip(TENSOR_NAMES, tensor[np.triu_indices(3)].tolist(), strict=True))
+
+
+def tensor_of_moments(moments: Iterable[float]) -> Floats:
+    """The inertia (3, 3) of six numbers in the order of `TENSOR_NAMES`."""
+    xx, xy, xz, yy, yz, zz = moments
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def drop_rounding(values: Floats, scale: float | None = None) -> Floats:

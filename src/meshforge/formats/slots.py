@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement
+from meshforge.formats.collision_pieces import CollisionElement, name_pieces, names_to_keep, new_hulls
 from meshforge.formats.xml import (
     Element,
     Splice,
@@ -97,9 +97,8 @@ class ElementPlan:
         self._elements = elements
         self._poses = asset.body_poses
         self._place_authored()
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in self._owner:
-                self._place_made(geom)
+        for geom in new_hulls(asset, self._owner):
+            self._place_made(geom)
 
     @property
     def slots(self) -> list[Slot]:
@@ -120,7 +119,7 @@ class ElementPlan:
         return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
-        kept = {g.name for g in self.asset.geoms if g.parent is None} | {o.name for o in self.asset.opaque}
+        kept = names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
@@ -206,22 +205,26 @@ def _parse_element(text: bytes) -> Element:
     return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
 
 
-def name_element_pieces(elements: Sequence[tuple[str, str | None, int]]) -> list[tuple[str, ...]]:
-    """The names that the pieces of collision elements read as; for each element its link, name attribute and pieces.
+def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
+    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
 
-    `link/name`, or `link/geomK` where the K-th element of a link has no name; `#k` for one of several pieces.
+    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
+    several pieces.
     """
-    count: dict[str, int] = {}
+    count: dict[str | None, int] = {}
     bases = []
     for link, name, _ in elements:
-        bases.append(f"{link}/{name or 'geom' + str(count.get(link, 0))}")
+        own = name or f"geom{count.get(link, 0)}"
+        bases.append(own if link is None else f"{link}/{own}")
         count[link] = count.get(link, 0) + 1
-    each = [
-        [base] if pieces == 1 else [f"{base}#{k}" for k in range(pieces)]
-        for base, (_, _, pieces) in zip(unique_names(bases), elements, strict=True)
-    ]
-    unique = iter(unique_names(name for names in each for name in names))
-    return [tuple(next(unique) for _ in names) for names in each]
+    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+
+
+def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
+    own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
+    named = zip(own, name_element_pieces(own), strict=True)
+    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
 
 
 def assign_names(slots: Sequence[Slot]) -> dict[str, str]:

@@ -8,12 +8,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, overload
 
+import numpy as np
+
 from meshforge.common import MeshForgeError
 from meshforge.formats.base import Loss
 from meshforge.formats.collision_pieces import place_surface
 from meshforge.formats.mesh_reader import read_triangles
 from meshforge.geometry import Floats, Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Surface
+
+GAMMA = 2.2
+"""Colours of glTF and USD are linear, those of other formats are as screens show them."""
 
 Rgba = tuple[float, float, float, float]
 
@@ -106,5 +111,15 @@ def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[
         found += [(body, replace(surface, rgba=visual.rgba)) for surface in surfaces if len(surface.faces)]
         if not surfaces:
             refused.append(body)
-    names = tuple(dict.fromkeys(refused))
-    return found, [Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if refused else []
+    return found, unreadable_visuals(refused)
+
+
+def unreadable_visuals(bodies: Sequence[str]) -> list[Loss]:
+    """The loss of the visuals of some bodies, named once each; none where there are no such bodies."""
+    names = tuple(dict.fromkeys(bodies))
+    return [Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if names else []
+
+
+def linear_color(rgba: Rgba) -> list[float]:
+    """Red, green and blue of a colour as glTF and USD have them."""
+    return [round(float(share), 6) for share in np.clip(rgba[:3], 0, 1) ** GAMMA]

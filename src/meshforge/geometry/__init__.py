@@ -11,13 +11,14 @@ from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit_box import tight_box
 from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
-from meshforge.geometry.measure import inertia, overlap_volume, volume_of_union
+from meshforge.geometry.measure import inertia, overlap_volume, principal_axes, volume_of_union
 from meshforge.geometry.pieces import Piece, split_pieces
 from meshforge.geometry.pose import (
     Pose,
     nearest_aligned_rotation,
     nearest_aligned_rotation_between,
     rotation_about,
+    rotation_of_quaternion,
     smallest_rotation,
     snap_rotation,
 )
@@ -90,9 +91,11 @@ __all__ = [
     "partition",
     "planes_of",
     "polygon_sizes",
+    "principal_axes",
     "principal_extents",
     "rises_above",
     "rotation_about",
+    "rotation_of_quaternion",
     "sheet_hulls",
     "smallest_rotation",
     "snap_rotation",

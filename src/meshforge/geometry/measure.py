@@ -102,6 +102,14 @@ def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) 
     return about, mass * (np.trace(spread) * np.eye(3) - spread)
 
 
+def principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
+    """The principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its own."""
+    if not (inertia - np.diag(np.diag(inertia))).any():
+        return np.diag(inertia).copy(), np.eye(3)
+    moments, axes = np.linalg.eigh(inertia)
+    return moments, axes * np.sign(np.linalg.det(axes))
+
+
 def _second_moment(shape: Shape) -> Floats:
     """The mean (3, 3) of the products of two coordinates over a shape, from its centroid [m^2]."""
     match shape:

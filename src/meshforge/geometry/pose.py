@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -144,15 +145,25 @@ def _best_aligned(likeness: Callable[[Floats], float]) -> Floats:
     return max(tied, key=lambda turn: float(np.trace(turn)))
 
 
+def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
+    """The rotation (3, 3) of a quaternion (4,), w x y z, of any length but zero."""
+    return np.array(_rotation_rows(np.asarray(quaternion) / np.linalg.norm(quaternion)))
+
+
 def rotations_of_quaternions(quaternions: Floats) -> Floats:
     """Rotations (k, 3, 3) of quaternions (k, 4), scalar first, of any length."""
-    w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    rows = [
+    rows = _rotation_rows((quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T)
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def _rotation_rows(unit: Floats) -> list[list[Any]]:
+    """The rows of the rotation of a unit quaternion (4,), or of many at once (4, k)."""
+    w, x, y, z = unit
+    return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), 2, 0)
 
 
 def quaternions_of_rotations(rotations: Floats) -> Floats:

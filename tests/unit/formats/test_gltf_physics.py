@@ -231,7 +231,7 @@ def test_masses_that_cannot_go_along_are_told(tmp_path: Path) -> None:
     lost = save(asset_of(scene, tmp_path), tmp_path / "m.urdf").report.lost
     assert [str(loss) for loss in lost if loss.kind is FeatureKind.MASSES] == [
         "2 masses (heavy, stiff) are left out: they or their inertia are endless",
-        "1 mass (ghost) is left out: no hull of these bodies tells their inertia",
+        "1 mass (ghost) is left out: no hull of these bodies gives their inertia",
     ]
 
 

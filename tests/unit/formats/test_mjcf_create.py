@@ -288,4 +288,4 @@ def test_a_body_of_an_asset_made_in_memory_becomes_a_body(tmp_path: Path) -> Non
     asset = replace(pair(), bodies=(Body("base", Pose.identity()), Body("arm", TURNED)), mechanism=Mechanism())
     _, model, saved = made(asset, tmp_path)
     assert model.njnt == 0
-    assert "MuJoCo computes the masses that are not told, at 1000 kg/m^3 (base, arm)" in saved.notes
+    assert "MuJoCo computes the masses that the file does not say, at 1000 kg/m^3 (base, arm)" in saved.notes

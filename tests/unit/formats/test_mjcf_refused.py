@@ -121,7 +121,9 @@ def test_a_second_fault_behind_the_first_is_told_too(tmp_path: Path) -> None:
         read(path)
     assert "unrecognized element" in error.value.problem
     assert error.value.remedy is not None
-    assert error.value.remedy.startswith(f"Mended, it would meet: {path}:2: MuJoCo refuses this file: size 0 must")
+    first, _, rest = error.value.remedy.partition(": ")
+    assert first == "Once that is fixed, the next problem is"
+    assert rest.startswith(f"{path}:2: MuJoCo refuses this file: size 0 must")
 
 
 def test_a_flat_collision_mesh_is_an_error_about_the_mesh(tmp_path: Path) -> None:

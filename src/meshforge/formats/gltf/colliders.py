@@ -15,12 +15,12 @@ from meshforge.formats.engine_names.godot_unity import holds_colliders
 from meshforge.formats.engine_names.unreal import interpret_unreal_shape
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.mechanism import rigid_pose_of
-from meshforge.formats.gltf.physics import Z_TO_Y, ExtensionShape, collider_of, has_collider, physics_extension_of
+from meshforge.formats.gltf.physics import collider_of, has_collider, physics_extension_of
 from meshforge.formats.meshfile.gltf_document import entry
 from meshforge.formats.meshfile.gltf_meshes import INSTANCING, GltfMesh, is_instanced, repeat_surface
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Pose, Sphere, convex_hull, split_pieces
+from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, convex_hull, split_pieces
 
 _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 
@@ -29,14 +29,13 @@ _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 class NodeCollision:
     """A node with collision: its name, and its pieces in the root frame.
 
-    owner: see `Authored`; plane: root_T_plane of one that is an endless plane, whose normal is Z.
+    owner: the piece (m,) of each triangle, as in `NodeRecord`.
     """
 
     node: int
     name: str | None
     parts: Sequence[CollisionPiece]
     owner: Ints | None = None
-    plane: Pose | None = None
 
 
 @dataclass(slots=True)
@@ -47,16 +46,15 @@ class CollisionReader:
     convention: Convention = "plain"
     notes: list[str] = field(default_factory=list)
     _pieces: dict[int, list[Piece]] = field(default_factory=dict)
-    _colliding: frozenset[int] = frozenset()  # in files for Unity
 
     def read(self) -> list[NodeCollision]:
         """All nodes with collision, in the order of the scene."""
         self.convention = convention_of(self.scene)
-        self._colliding = nodes_below_colliders(self.scene)
+        below = nodes_below_colliders(self.scene)  # of Unity's nodes
         read: dict[Convention, Callable[[Placement], NodeCollision | None]] = {
             "unreal": self._read_unreal,
             "godot": self._read_godot,
-            "unity": self._read_unity,
+            "unity": lambda placement: self._read_plain(placement) if placement.index in below else None,
             "plain": self._read_plain,
         }
         each = read.get(self.convention, self._read_physics)
@@ -87,10 +85,8 @@ class CollisionReader:
     def _read_physics(self, placement: Placement) -> NodeCollision | None:
         if not has_collider(placement.node, self.convention, self.scene.tree):
             return None
-        name, collider = (
-            collision_name_of(self.scene, placement, self.convention),
-            collider_of(placement, self.convention, self.scene),
-        )
+        name = collision_name_of(self.scene, placement, self.convention)
+        collider = collider_of(placement, self.convention, self.scene)
         if collider.shape is not None:
             return self._place_shape(placement, name, collider.shape)
         if not isinstance(collider.mesh, int) or collider.mesh < 0:
@@ -100,12 +96,12 @@ class CollisionReader:
             return NodeCollision(placement.index, name, [self._hull_part(*mesh)])
         return self._read_pieces(placement.index, name, collider.mesh, *mesh)
 
-    def _place_shape(self, placement: Placement, name: str | None, found: ExtensionShape) -> NodeCollision:
+    def _place_shape(self, placement: Placement, name: str | None, found: CollisionPiece) -> NodeCollision:
         """A shape of an extension, in its place."""
         if found.shape is None:
-            plane = rigid_pose_of(placement) @ Z_TO_Y if found.is_plane else None
-            return NodeCollision(placement.index, name, [CollisionPiece(None, found.reason)], plane=plane)
-        if found.taper:
+            plane = rigid_pose_of(placement) @ found.plane if found.plane else None
+            return NodeCollision(placement.index, name, [replace(found, plane=plane)])
+        if isinstance(found.shape, Polytope):
             self.notes.append(f"the collider of {name or f'node {placement.index}'!r} is tapered: it is read as a hull")
         if _is_degenerate(placement.linear):
             return NodeCollision(placement.index, name, [CollisionPiece(None, "it is scaled to nothing")])
@@ -144,9 +140,6 @@ class CollisionReader:
             return None
         name = collision_name_of(self.scene, placement, "plain")
         return self._read_pieces(placement.index, name, placement.node["mesh"], *self.scene.place_mesh(placement))
-
-    def _read_unity(self, placement: Placement) -> NodeCollision | None:
-        return self._read_plain(placement) if placement.index in self._colliding else None
 
     def _read_pieces(
         self, node: int, name: str | None, index: int, mesh: GltfMesh, linear: Floats, offset: Floats

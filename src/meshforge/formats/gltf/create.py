@@ -21,10 +21,9 @@ from meshforge.formats.gltf.edit_physics import PhysicsStyle, pose_keys
 from meshforge.formats.gltf.edit_styles import PlainStyle
 from meshforge.formats.gltf.mechanism import motion_of
 from meshforge.formats.gltf.physics import KHR
-from meshforge.formats.gltf.visuals import GAMMA
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.visuals import Rgba, read_visual_surfaces
+from meshforge.formats.visuals import Rgba, linear_color, read_visual_surfaces
 from meshforge.geometry import Floats, Ints
 from meshforge.symbolic import Asset, Geom, Opaque, Surface
 
@@ -101,7 +100,7 @@ class _Creator:
         return thing.name.removeprefix(f"{thing.body}/") if self.nodes else thing.name
 
     def _add_opaque(self, style: PlainStyle | PhysicsStyle, piece: Opaque) -> None:
-        """A piece as its triangles, or as a plane; one that is neither is told in the report."""
+        """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None and isinstance(style, PhysicsStyle):
             style.add_plane(piece, self._own_name(piece), self.nodes.get(piece.body))
         elif piece.surface is not None and len(piece.surface.faces):
@@ -195,8 +194,8 @@ def add_material(tree: Json, rgba: Rgba | None) -> int | None:
     """The number of a material of a colour, which is added where it is not there yet."""
     if rgba is None:
         return None
-    linear = [round(float(c), 6) for c in np.clip(rgba[:3], 0, 1) ** GAMMA]
-    wanted: Json = {"pbrMetallicRoughness": {"baseColorFactor": [*linear, float(rgba[3])], "metallicFactor": 0.0}}
+    color = [*linear_color(rgba), float(rgba[3])]
+    wanted: Json = {"pbrMetallicRoughness": {"baseColorFactor": color, "metallicFactor": 0.0}}
     if rgba[3] < 1:
         wanted["alphaMode"] = "BLEND"
     found: list[Json] = tree.setdefault("materials", [])

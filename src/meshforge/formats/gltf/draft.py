@@ -17,6 +17,7 @@ from meshforge.formats.meshfile.gltf_document import Json, entries, entry, exten
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
 
+_KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
 _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
 
 
@@ -76,7 +77,7 @@ class SceneDraft:
             children: list[Any] = self.node(holder).setdefault("children", [])
             children.insert(len(children) if at is None else at, index)
         elif entries(self.tree, "scenes"):
-            self._scene().setdefault("nodes", []).append(index)
+            entry(self.tree, "scenes", self.tree.get("scene", 0)).setdefault("nodes", []).append(index)
         return index
 
     def declare_extension(self, extension: str) -> None:
@@ -103,15 +104,14 @@ class SceneDraft:
     def add_surface_mesh(
         self, points: Floats, faces: Ints, name: str, material: int | None = None
     ) -> tuple[int, Floats]:
-        """The same of vertices (n, 3) and faces (m, 3)."""
+        """A new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that middle."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        return self.add_mesh(
-            {"name": name, "primitives": [self.build_primitive(points - middle, faces, material)]}
-        ), middle
+        primitive = self.build_primitive(points - middle, faces, material)
+        return self.add_mesh({"name": name, "primitives": [primitive]}), middle
 
     def build_primitive(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
         """A primitive of vertices (n, 3) and faces (m, 3), where they are."""
-        part: Json = {"attributes": {"POSITION": self.geometry.add_points(points)}}
+        part: Json = {"attributes": {"POSITION": self.geometry.add_vertex_data(points.astype("<f4"), bounds=True)}}
         part["indices"] = self.geometry.add_triangles(faces)
         return part if material is None else {**part, "material": material}
 
@@ -122,10 +122,9 @@ class SceneDraft:
         """
         mesh = copy.deepcopy(entry(self.scene.tree, "meshes", index))
         stays = np.isin(owner, list(kept))
-        starts = np.cumsum([0, *(len(patch.faces) for patch in self.scene.mesh(index).patches)])
-        whole = {
-            patch.index: (patch, start) for patch, start in zip(self.scene.mesh(index).patches, starts, strict=False)
-        }
+        patches = self.scene.mesh(index).patches
+        starts = np.cumsum([0, *(len(patch.faces) for patch in patches)])
+        whole = {patch.index: (patch, start) for patch, start in zip(patches, starts, strict=False)}
         parts = []
         for k, part in enumerate(mesh["primitives"]):
             if k not in whole:
@@ -152,7 +151,7 @@ class SceneDraft:
         return part
 
     def holder_of(self, body: int | None, source: int | None) -> int | None:
-        """The node below which a made hull goes, None for the root of the scene.
+        """The node below which a new hull goes, None for the root of the scene.
 
         body: the node that is its body; source: the node of the hull that it comes after, beside which it goes, or
         below which where that one is a body or is moved by an animation.
@@ -184,9 +183,6 @@ class SceneDraft:
         inverse = np.linalg.inv(self.scene.placements[holder].world)
         return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
 
-    def _scene(self) -> Json:
-        return entry(self.tree, "scenes", self.tree.get("scene", 0))
-
     def _remove_node(self, index: int) -> None:
         parent = self.scene.placements[index].parent
         holders = [(self.node(parent), "children")] if parent is not None else []
@@ -204,11 +200,8 @@ def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: G
     part["attributes"] = dict(part["attributes"])
     for name, values in attributes.items():
         accessor = entry(tree, "accessors", part["attributes"][name])
-        kind = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]]
-        rows = values.astype(kind)
-        part["attributes"][name] = geometry.add_vertex_data(
-            rows, bounds=name == "POSITION", normalized=bool(accessor.get("normalized"))
-        )
+        rows, normalized = values.astype(_KINDS[accessor["componentType"]]), bool(accessor.get("normalized"))
+        part["attributes"][name] = geometry.add_vertex_data(rows, bounds=name == "POSITION", normalized=normalized)
     extensions = {key: value for key, value in part["extensions"].items() if key != "KHR_draco_mesh_compression"}
     part.pop("extensions")
     if extensions:
@@ -235,11 +228,8 @@ class SceneReferences:
         targets = list(_animation_targets(tree))
         self.morphed = {node for node, what in targets if what == "weights"}
         self.animated = {node for node, what in targets if what != "weights"}
-        self.nodes = (
-            {node for node, _ in targets}
-            | set(_skin_joints(tree))
-            | set(_numbers_under(tree, ("node", "connectedNode")))
-        )
+        self.nodes = {node for node, _ in targets} | set(_skin_joints(tree))
+        self.nodes |= set(_numbers_under(tree, ("node", "connectedNode")))
         self.users: Counter[int] = Counter(_numbers_under(tree, ("mesh",)))
 
 

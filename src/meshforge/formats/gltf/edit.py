@@ -8,11 +8,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from meshforge.common import AssetError, file_digest, pluralize
+from meshforge.common import AssetError, pluralize
 from meshforge.formats.base import Output, note_renames
+from meshforge.formats.collision_meshes import refuse_changed_files
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls
 from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.colliders import collision_name_of
-from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord, name_hulls
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit_physics import PhysicsStyle
 from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
@@ -20,6 +22,7 @@ from meshforge.formats.gltf.mechanism import body_nodes
 from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.meshfile.gltf_document import report_damage
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.slots import name_element_pieces
 from meshforge.symbolic import Asset, Geom
 
 
@@ -28,14 +31,13 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
 
     Raises AssetError: a buffer changed since the asset was read, nothing would be left, or an animation is in the way.
     """
-    kept = {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
-    known = {piece for element in document.authored for piece in element.names}
-    made = [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
+    kept, known = names_to_keep(asset), {piece for element in document.authored for piece in element.names}
+    made = new_hulls(asset, known)
     with report_damage(str(asset.path)):
         scene = GltfScene.of(document.source, asset.path)
         if known <= kept and not made and Path(name).suffix.lower() == asset.path.suffix.lower():
             return Output(document.source, copies=find_companions(asset.path))
-        _refuse_changed(document, asset)
+        refuse_changed_files(document.digests, str(asset.path), "the buffer ")
         base = prepare_base(document.source, scene, name)
         if known <= kept and not made:
             return pack_scene(base, scene, None, name)
@@ -88,7 +90,7 @@ def _edit_node(style: EditStyle, element: NodeRecord, kept: list[int]) -> None:
 
 
 def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
-    """Add a made hull to its body."""
+    """Add a new hull to its body."""
     nodes = {name: node for node, name in document.bodies}
     bodies = {element.body for element in document.authored} | {"body"}
     if geom.body not in nodes and geom.body not in bodies:
@@ -105,16 +107,6 @@ def _note_hulls(style: EditStyle, made: Sequence[Geom]) -> list[str]:
         f"{pluralize(number, kind)} written as hull meshes: {style.lacks} {kind}"
         for kind, number in sorted(count.items())
     ]
-
-
-def _refuse_changed(document: GltfDocument, asset: Asset) -> None:
-    for path, digest in document.digests:
-        if not path.is_file() or file_digest(path) != digest:
-            raise AssetError(
-                f"the buffer {path.name} has changed since the asset was read",
-                where=str(asset.path),
-                remedy="Read the asset again.",
-            )
 
 
 def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
@@ -147,7 +139,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
     ]
     return {
         node: (body, read)
-        for node, body, read in zip(order, bodies, name_hulls(sources), strict=True)
+        for node, body, read in zip(order, bodies, name_element_pieces(sources), strict=True)
         if read != draft.expected[node]
     }
 

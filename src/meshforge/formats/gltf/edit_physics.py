@@ -1,4 +1,4 @@
-"""How an edit is written where a physics extension tells collision: colliders on nodes, and the shapes they refer
+"""How an edit is written where a physics extension marks collision: colliders on nodes, and the shapes they refer
 to."""
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ ExtensionPrimitive = Box | Sphere | Cylinder | Capsule
 class PhysicsStyle(EditStyle):
     """A hull is a node with a collider: a shape of the extension, or the hull of a mesh.
 
-    drawn: whether each made hull is shown by a mesh, beside those whose parent is.
+    drawn: whether each new hull is shown by a mesh, beside those whose parent is.
     """
 
     renames = True
@@ -53,19 +53,15 @@ class PhysicsStyle(EditStyle):
         mesh = collider_of(source, self.convention, draft.scene).mesh
         for at, k in enumerate(kept):
             own = element.names[k].removeprefix(f"{element.body}/")
-            parted = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, [k]), "name": own})
+            part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, [k]), "name": own})
             index = draft.add_node({"name": own}, element.node, at)
-            self._set_collider(
-                index,
-                source.node,
-                write_mesh_geometry(draft, self.convention, parted, None, hulled=False, like=source.node),
-            )
+            geometry = write_mesh_geometry(draft, self.convention, part, None, hulled=False, like=source.node)
+            self._set_collider(index, source.node, geometry)
             draft.expected[index] = (element.names[k],)
         _remove_collider(draft.node(element.node))
 
     def add_hull(self, geom: Geom, own: str, body: int | None, parent: NodeRecord | None) -> None:
-        draft = self.draft
-        holder = draft.holder_of(body, parent.node if parent else None)
+        draft, holder = self.draft, self.holder(body, parent)
         shape = draft.shape_in(geom.shape, holder)
         like = draft.scene.placements[parent.node].node if parent else {}
         drawn = self.drawn or is_drawn(like)
@@ -92,7 +88,8 @@ class PhysicsStyle(EditStyle):
         assert piece.plane is not None
         above = rigid_pose_of(self.draft.scene.placements[body]) if body is not None else Pose.identity()
         node = {"name": own, **pose_keys(above.inverse() @ piece.plane @ Z_TO_Y.inverse())}
-        self._add_node(node, False, body, {}, write_plane(self.draft), piece.name)
+        index = _append_entry(self.draft, SHAPES, "shapes", {"type": "plane", "plane": {}})
+        self._add_node(node, False, body, {}, {"geometry": {"shape": index}}, piece.name)
 
     def _add_mesh(
         self, node: Json, drawn: bool, holder: int | None, like: Json, mesh: int, name: str, *, hulled: bool = True
@@ -162,11 +159,6 @@ def pose_keys(pose: Pose) -> Json:
     return place if w == 1.0 else {**place, "rotation": [x, y, z, w]}
 
 
-def write_plane(draft: SceneDraft) -> Json:
-    """Write down an endless plane; what a collider has to say to mean it."""
-    return {"geometry": {"shape": _append_entry(draft, SHAPES, "shapes", {"type": "plane", "plane": {}})}}
-
-
 def write_shape(draft: SceneDraft, convention: Convention, shape: ExtensionPrimitive) -> Any:
     """Write down a shape; what a collider has to say to mean it."""
     match shape:
@@ -198,17 +190,12 @@ def write_mesh_geometry(
         entry: Json = {"type": "mesh", "mesh": {"mesh": mesh}}
         if hulled:
             entry["extensions"] = {KHR: {"convexHull": True}}
-        return {
-            "shape": _append_entry(
-                draft, OLD_SHAPES if OLD_SHAPES in _extensions_of(draft) else SHAPES, "shapes", entry
-            )
-        }
-    named = (
-        {"mesh": mesh}
-        if "mesh" in collider.get("geometry", {})
-        else {"node": _add_carrier(draft, mesh) if own is None else own}
-    )
-    return {"geometry": {**named, **({"convexHull": True} if hulled else {})}}
+        older = OLD_SHAPES in _extensions_of(draft)
+        return {"shape": _append_entry(draft, OLD_SHAPES if older else SHAPES, "shapes", entry)}
+    geometry: Json = {"mesh": mesh}
+    if "mesh" not in collider.get("geometry", {}):
+        geometry = {"node": _add_carrier(draft, mesh) if own is None else own}
+    return {"geometry": {**geometry, **({"convexHull": True} if hulled else {})}}
 
 
 def _add_carrier(draft: SceneDraft, mesh: int) -> int:

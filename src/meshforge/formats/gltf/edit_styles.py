@@ -15,6 +15,7 @@ from meshforge.formats.gltf.colliders import nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, material_without_texture
 from meshforge.formats.meshfile.gltf_document import entries, entry
+from meshforge.geometry import Floats
 from meshforge.symbolic import Geom, Opaque, Surface
 
 
@@ -44,14 +45,23 @@ class EditStyle(ABC):
     def add_hull(self, geom: Geom, own: str, body: int | None, parent: NodeRecord | None) -> None:
         """Add a hull; own: its name without the body; body: the node of that; parent: the node it comes after."""
 
+    def holder(self, body: int | None, parent: NodeRecord | None) -> int | None:
+        """The node below which a new hull goes."""
+        return self.draft.holder_of(body, parent.node if parent else None)
+
+    def add_mesh_node(self, name: str, mesh: tuple[int, Floats], holder: int | None, piece: str) -> None:
+        """Add a node that collides with a mesh, at its middle (3,); piece: the name of the hull or non-convex piece."""
+        node = {"name": name, "mesh": mesh[0], "translation": mesh[1].tolist()}
+        self.draft.expected[self.draft.add_node(node, holder)] = (piece,)
+
     def split_node(self, element: NodeRecord, kept: Sequence[int], mesh: int, own: Sequence[str]) -> list[int]:
         """Give a node that lost its mesh a child for each kept piece of that, ahead of others; own: their names."""
         draft, gone = self.draft, self.draft.remove_mesh(element.node)
         assert element.owner is not None  # only meshes have several pieces
         made: list[int] = []
         for k, name in zip(kept, own, strict=True):
-            parted = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
-            made.append(draft.add_node({"name": name, **gone, "mesh": parted}, element.node, at=len(made)))
+            part = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
+            made.append(draft.add_node({"name": name, **gone, "mesh": part}, element.node, at=len(made)))
             draft.expected[made[-1]] = (element.names[k],)
         return made
 
@@ -70,8 +80,8 @@ class PlainStyle(EditStyle):
         names = tuple(element.names[k] for k in kept)
         if len(kept) > 1 and list(kept) == list(range(len(kept))):
             assert element.owner is not None  # only meshes have several pieces
-            parted = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
-            draft.node(element.node)["mesh"] = draft.add_mesh(parted, mesh)
+            part = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
+            draft.node(element.node)["mesh"] = draft.add_mesh(part, mesh)
             draft.expected[element.node] = names
         else:
             node = draft.node(element.node)
@@ -83,20 +93,13 @@ class PlainStyle(EditStyle):
         draft, holder = self.draft, self.holder(body, parent)
         source = draft.scene.placements[parent.node].node if parent else {}
         material = material_without_texture(draft.scene.tree, source["mesh"]) if "mesh" in source else None
-        mesh, middle = draft.add_shape_mesh(draft.shape_in(geom.shape, holder), own, material)
-        node = draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, holder)
-        draft.expected[node] = (geom.name,)
-
-    def holder(self, body: int | None, parent: NodeRecord | None) -> int | None:
-        """The node below which a made hull goes."""
-        return self.draft.holder_of(body, parent.node if parent else None)
+        mesh = draft.add_shape_mesh(draft.shape_in(geom.shape, holder), own, material)
+        self.add_mesh_node(own, mesh, holder, geom.name)
 
     def add_opaque(self, piece: Opaque, surface: Surface, own: str, body: int | None) -> None:
         """Add a surface that is no hull."""
         points = self.draft.points_in(np.asarray(surface.vertices), body)
-        mesh, middle = self.draft.add_surface_mesh(points, surface.faces, own)
-        node = self.draft.add_node({"name": own, "mesh": mesh, "translation": middle.tolist()}, body)
-        self.draft.expected[node] = (piece.name,)
+        self.add_mesh_node(own, self.draft.add_surface_mesh(points, surface.faces, own), body, piece.name)
 
 
 class UnityStyle(PlainStyle):
@@ -128,8 +131,8 @@ class GodotStyle(EditStyle):
         if self._is_visible(element):
             base = self._strip_suffix(element)
             skinned = {key: draft.node(element.node)[key] for key in ("skin",) if key in draft.node(element.node)}
-            parted = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": f"{base}-colonly"})
-            node = draft.add_node({"name": f"{base}-colonly", "mesh": parted, **skinned}, element.node)
+            part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": f"{base}-colonly"})
+            node = draft.add_node({"name": f"{base}-colonly", "mesh": part, **skinned}, element.node)
             draft.expected[node] = names
         else:
             left = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
@@ -137,21 +140,15 @@ class GodotStyle(EditStyle):
             draft.expected[element.node] = names
 
     def add_hull(self, geom: Geom, own: str, body: int | None, parent: NodeRecord | None) -> None:
-        draft = self.draft
-        holder = draft.holder_of(body, parent.node if parent else None)
+        draft, holder = self.draft, self.holder(body, parent)
         base, tilde, number = own.rpartition("~")
         name = f"{strip_godot_suffix(base)}~{number}-convcolonly" if tilde else f"{strip_godot_suffix(own)}-convcolonly"
-        mesh, middle = draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name)
-        node = draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
-        draft.expected[node] = (geom.name,)
+        self.add_mesh_node(name, draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name), holder, geom.name)
 
     def _is_visible(self, element: NodeRecord) -> bool:
-        return self._kind(element) in ("col", "convcol")
-
-    def _kind(self, element: NodeRecord) -> str | None:
         node = self.draft.scene.placements[element.node].node
         names = (node.get("name"), entry(self.draft.scene.tree, "meshes", node["mesh"]).get("name"))
-        return next((kind for kind in map(godot_kind, names) if kind), None)
+        return next((kind for kind in map(godot_kind, names) if kind), None) in ("col", "convcol")
 
     def _strip_suffix(self, element: NodeRecord) -> str:
         """Take the suffix from the name of a node, or of its mesh; the name without it."""
@@ -178,12 +175,8 @@ class UnrealStyle(EditStyle):
         raise AssertionError("Unreal's nodes have one piece each")
 
     def add_hull(self, geom: Geom, own: str, body: int | None, parent: NodeRecord | None) -> None:
-        draft = self.draft
-        holder = draft.holder_of(body, parent.node if parent else None)
-        name = self._next_name(geom, parent)
-        mesh, middle = draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name)
-        node = draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
-        draft.expected[node] = (geom.name,)
+        draft, holder, name = self.draft, self.holder(body, parent), self._next_name(geom, parent)
+        self.add_mesh_node(name, draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name), holder, geom.name)
 
     def _next_name(self, geom: Geom, parent: NodeRecord | None) -> str:
         """The next name of a collision node of the mesh that the parent stands for."""

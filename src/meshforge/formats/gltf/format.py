@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
 from meshforge.formats.engine_names.base import CollisionNames, fallbacks_of
 from meshforge.formats.engine_names.godot_unity import GodotNames, UnityNames
 from meshforge.formats.engine_names.unreal import UnrealNames
@@ -31,46 +31,10 @@ _LISTS = {
 _ATTRIBUTES = {"COLOR_0": FeatureKind.VERTEX_COLORS, "TEXCOORD_0": FeatureKind.TEXTURE_COORDINATES}
 _LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
 
-HOLDS = frozenset(
-    {
-        FeatureKind.NAMES,
-        FeatureKind.BODIES,
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CYLINDERS,
-        FeatureKind.CAPSULES,
-        FeatureKind.OPAQUE,
-        FeatureKind.PLANES,
-        FeatureKind.MASSES,
-        FeatureKind.VISUALS,
-        FeatureKind.COLORS,
-    }
-)
-COULD = frozenset(
-    {
-        FeatureKind.JOINTS,
-        FeatureKind.BALL_JOINTS,
-        FeatureKind.FIXED_JOINTS,
-        FeatureKind.MATERIALS,
-        FeatureKind.VERTEX_COLORS,
-        FeatureKind.TEXTURES,
-        FeatureKind.TEXTURE_COORDINATES,
-        FeatureKind.CONTACT,
-        FeatureKind.PAIRS,
-        FeatureKind.CAMERAS,
-        FeatureKind.LIGHTS,
-        FeatureKind.ANIMATIONS,
-        FeatureKind.SKINS,
-    }
-)
-COULD_NAMED = COULD - {
-    FeatureKind.JOINTS,
-    FeatureKind.BALL_JOINTS,
-    FeatureKind.FIXED_JOINTS,
-    FeatureKind.CONTACT,
-    FeatureKind.PAIRS,
+_COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
+    *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.ANIMATIONS, FeatureKind.SKINS)
 }
-"""Those of them that are no physics, which names do not tell."""
+"""What a file can hold and `create` leaves out, but for physics, which names do not say."""
 
 
 class GltfFormat(Format):
@@ -79,10 +43,11 @@ class GltfFormat(Format):
     name: ClassVar[str] = "gltf"
     title: ClassVar[str] = "glTF"
     suffixes: ClassVar[tuple[str, ...]] = (".glb", ".gltf")
-
     up: ClassVar[Literal["y", "z"] | None] = "y"
-    holds: ClassVar[frozenset[FeatureKind]] = HOLDS
-    could: ClassVar[frozenset[FeatureKind]] = COULD
+    holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
+    could = _COULD_NAMED | {
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)
+    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -104,7 +69,7 @@ class EngineGltf(GltfFormat):
     """glTF whose collision an engine knows by name."""
 
     engine: ClassVar[CollisionNames]
-    could: ClassVar[frozenset[FeatureKind]] = COULD_NAMED
+    could = _COULD_NAMED
 
     def can_write_back(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
@@ -141,7 +106,7 @@ class GltfForUnity(EngineGltf):
 
 
 def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
-    """The features of a glTF file that its asset does not tell. Raises AssetError: what lists them is damaged."""
+    """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
     with report_damage(str(asset.path)):
         tree = GltfScene.of(document.source, asset.path).tree
         return [*_list_features(tree), *_list_missing_masses(tree, document, asset)]
@@ -155,25 +120,23 @@ def _list_features(tree: Json) -> Iterator[Feature]:
     for name, what in _ATTRIBUTES.items():
         yield Feature(what, unnamed=sum(name in part.get("attributes", {}) for part in parts))
     physics = extension(tree, _PHYSICS) or {}
-    yield Feature(
-        FeatureKind.CONTACT, unnamed=sum(len(entries(physics, k)) for k in ("physicsMaterials", "collisionFilters"))
-    )
-    yield Feature(FeatureKind.JOINTS, unnamed=sum(_is_joined(node) for node in entries(tree, "nodes")))
+    settings = [one for key in ("physicsMaterials", "collisionFilters") for one in entries(physics, key)]
+    yield Feature(FeatureKind.CONTACT, unnamed=len(settings))
+    nodes = entries(tree, "nodes")
+    joined = [
+        n for n in nodes if "joint" in (extension(n, _PHYSICS) or {}) or extension(n, "OMI_physics_joint") is not None
+    ]
+    yield Feature(FeatureKind.JOINTS, unnamed=len(joined))
 
 
 def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
     """The masses that the file says and the asset does not have."""
     known = {inertial.body for inertial in asset.mechanism.inertials}
-    told = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
-    reasons = {name: explain_missing_mass(motion) for name, motion in told.items() if "mass" in motion}
+    motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
+    reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}
     for reason in dict.fromkeys(reasons.values()):
         yield Feature(FeatureKind.MASSES, tuple(name for name, why in reasons.items() if why == reason), reason=reason)
 
 
-def _is_joined(node: Json) -> bool:
-    return "joint" in (extension(node, _PHYSICS) or {}) or extension(node, "OMI_physics_joint") is not None
-
-
 def _feature_of(what: FeatureKind, things: list[Any]) -> Feature:
-    names = tuple(str(thing["name"]) for thing in things if thing.get("name"))
-    return Feature(what, names, len(things) - len(names))
+    return feature_of(what, (str(thing.get("name") or "") for thing in things))

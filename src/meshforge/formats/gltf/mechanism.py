@@ -1,4 +1,4 @@
-"""The rigid bodies of a scene and their masses, as physics extensions tell them: about principal axes, in the frame
+"""The rigid bodies of a scene and their masses, as physics extensions say them: about principal axes, in the frame
 of a node."""
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ def read_motion(node: Json) -> Json:
     if "motion" in khr:
         return khr["motion"] if isinstance(khr["motion"], dict) else {}
     motion = omi.get("motion", omi)
-    told = motion.items() if isinstance(motion, dict) else ()
-    return {key: value for key, value in told if key not in _SIZES or numbers(motion, key, _SIZES[key], ()).any()}
+    own = motion.items() if isinstance(motion, dict) else ()
+    return {key: value for key, value in own if key not in _SIZES or numbers(motion, key, _SIZES[key], ()).any()}
 
 
 def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> Inertial | None:
@@ -54,11 +54,11 @@ def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> In
     None where it is endless, or where the file leaves that to the engine. Raises ValueError.
     """
     motion = read_motion(placement.node)
-    mass, told = number(motion, "mass", 0.0), _SIZES.keys() & motion.keys()
-    if mass <= 0 or not (hulls or told):
+    mass, has_inertia = number(motion, "mass", 0.0), bool(_SIZES.keys() & motion.keys())
+    if mass <= 0 or not (hulls or has_inertia):
         return None
     centre = placement.world @ np.array([*numbers(motion, "centerOfMass", 3, (0.0, 0.0, 0.0)), 1.0])
-    if not told:
+    if not has_inertia:
         return Inertial(body, mass, *inertia(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
     moments, axes = _principal_axes(motion)
     if moments.min() <= 0:
@@ -70,7 +70,7 @@ def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> In
 def explain_missing_mass(motion: Json) -> str:
     """Why a body that says its mass has none in the asset."""
     is_endless = number(motion, "mass", 0.0) <= 0 or _SIZES.keys() & motion.keys()
-    return "they or their inertia are endless" if is_endless else "no hull of these bodies tells their inertia"
+    return "they or their inertia are endless" if is_endless else "no hull of these bodies gives their inertia"
 
 
 def _principal_axes(motion: Json) -> tuple[Floats, Floats]:

@@ -19,7 +19,7 @@ from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.json_text import rewrite_json
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Ints
 
 _VERTICES, _INDICES = 34962, 34963  # targets of buffer views
 _TYPES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
@@ -136,11 +136,7 @@ class GeometryBuffer:
     @property
     def buffer(self) -> int:
         """The number of the buffer that holds the new bytes."""
-        return 0 if self.before is not None else self._own
-
-    @property
-    def _own(self) -> int:
-        return len(entries(self.tree, "buffers"))
+        return 0 if self.before is not None else len(entries(self.tree, "buffers"))
 
     @property
     def chunk(self) -> bytes:
@@ -152,10 +148,6 @@ class GeometryBuffer:
         """The accessor of triangles (m, 3)."""
         kind = "<u2" if faces.max(initial=0) < 65535 else "<u4"
         return self._add_accessor(faces.ravel().astype(kind)[:, None], _INDICES)
-
-    def add_points(self, points: Floats) -> int:
-        """The accessor of vertices (n, 3) in single precision."""
-        return self.add_vertex_data(points.astype("<f4"), bounds=True)
 
     def add_vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False, normalized: bool = False) -> int:
         """The accessor of a vertex attribute (n, k); bounds: with the least and the largest of each column."""

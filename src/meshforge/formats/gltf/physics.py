@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from meshforge.common import GeometryError
+from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere, convex_hull
+from meshforge.geometry import Box, Capsule, Cylinder, Pose, Sphere, convex_hull
 
 KHR, SHAPES, OLD_SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes", "KHR_collision_shapes"
 OMI, OMI_SHAPES, OMI_COLLIDER = "OMI_physics_body", "OMI_physics_shape", "OMI_collider"
@@ -22,20 +21,19 @@ _OMI_DEFAULT = (0.5, 2.0, 1.0)
 
 Z_TO_Y = Pose([[1, 0, 0], [0, 0, 1], [0, -1, 0]], np.zeros(3))
 """Takes the axis of our own shapes, Z, to that of glTF's."""
-_RING = 32  # corners of each end of a tapered cylinder
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Collider:
-    """What a node collides with: a shape of its own, or a mesh by its number, taken as one hull or as it is."""
+    """What a node collides with: a shape in its own space, or a mesh by its number, taken as one hull or as it is."""
 
-    shape: ExtensionShape | None = None
+    shape: CollisionPiece | None = None
     mesh: Any = None
     convex: bool = False
 
 
 def physics_extension_of(scene: GltfScene) -> Convention | None:
-    """The extension that the colliders of a file are told by: the first that any node of the scene uses."""
+    """The extension that marks the colliders of a file: the first that any node of the scene uses."""
     nodes = [placement.node for placement in scene.placements.values()]
     found: list[Convention] = ["khr", "omi", "omi collider"]
     return next((kind for kind in found if any(has_collider(node, kind, scene.tree) for node in nodes)), None)
@@ -118,37 +116,27 @@ def _require_object(owner: Json, key: str) -> Json:
     return found
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ExtensionShape:
-    """A shape, or None with the reason; taper: a shape that no engine has natively, made into a hull."""
-
-    shape: Shape | None
-    reason: str = ""
-    taper: bool = False
-    is_plane: bool = False
-
-
-def read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> ExtensionShape:
-    """The shape of a type with its parameters.
+def read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
+    """The shape of a type with its parameters; a tapered one, which no engine has natively, as a polytope.
 
     default: radius of cylinders and capsules, height of cylinders, height of capsules, which the specifications set
-    apart; a capsule with one `radius` (an older form) tells its whole height. Raises ValueError: no number.
+    apart; a capsule with one `radius` (an older form) says its whole height. Raises ValueError: no number.
     """
     match kind:
         case "box":
             size = numbers(own, "size", 3, (1.0, 1.0, 1.0))
-            return _build_solid("box", size, lambda: Box(Pose.identity(), size / 2))
+            return build_solid("box", size, lambda: Box(Pose.identity(), size / 2))
         case "sphere":
             radius = number(own, "radius", 0.5)
-            return _build_solid("sphere", np.array([radius]), lambda: Sphere(Pose.identity(), radius))
+            return build_solid("sphere", [radius], lambda: Sphere(Pose.identity(), radius))
         case "cylinder" | "capsule":
             return _build_round(kind, own, default)
         case "plane":
-            return ExtensionShape(None, "a plane has no end", is_plane=True)
-    return ExtensionShape(None, f"a shape of type {kind!r} is not known")
+            return CollisionPiece(None, "a plane has no end", plane=Z_TO_Y)
+    return CollisionPiece(None, f"a shape of type {kind!r} is not known")
 
 
-def _build_round(kind: str, own: Json, default: tuple[float, float, float]) -> ExtensionShape:
+def _build_round(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
     radius, of_cylinder, of_capsule = default
     if "radius" in own:
         top = bottom = number(own, "radius", radius)
@@ -156,34 +144,14 @@ def _build_round(kind: str, own: Json, default: tuple[float, float, float]) -> E
     else:
         top, bottom = number(own, "radiusTop", radius), number(own, "radiusBottom", radius)
         height = number(own, "height", of_cylinder if kind == "cylinder" else of_capsule)
-    sizes = np.array([max(top, bottom), height])
+    sizes = [max(top, bottom), height]
     if kind == "capsule" and abs(height) <= 1e-9 * sizes[0]:
-        return _build_solid("sphere", sizes[:1], lambda: Sphere(Pose.identity(), top))
+        return build_solid("sphere", sizes[:1], lambda: Sphere(Pose.identity(), top))
     if top == bottom:
         make = Cylinder if kind == "cylinder" else Capsule
-        return _build_solid(kind, sizes, lambda: make(Z_TO_Y, top, height / 2))
+        return build_solid(kind, sizes, lambda: make(Z_TO_Y, top, height / 2))
     if min(top, bottom) < 0:
-        return ExtensionShape(None, f"a {kind} of negative radius")
-    ends = [_end_points(kind, top, height / 2), _end_points(kind, bottom, -height / 2)]
-    found = _build_solid(kind, sizes, lambda: convex_hull(np.concatenate(ends)))
-    return ExtensionShape(found.shape, found.reason, taper=found.shape is not None)
-
-
-def _build_solid(kind: str, sizes: Floats, make: Callable[[], Shape]) -> ExtensionShape:
-    """The shape that `make` makes, unless it has no volume."""
-    if sizes.min() <= 0:
-        return ExtensionShape(None, f"a {kind} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
-    try:
-        return ExtensionShape(make())
-    except GeometryError as error:
-        return ExtensionShape(None, error.problem)
-
-
-def _end_points(kind: str, radius: float, height: float) -> Floats:
-    """Points (n, 3) of the disk or ball at a height."""
-    if radius == 0.0:
-        return np.array([[0.0, height, 0.0]])
-    if kind == "capsule":
-        return Sphere(Pose.of_translation([0.0, height, 0.0]), radius).vertices
-    angles = np.arange(_RING) * (2 * np.pi / _RING)
-    return np.column_stack([radius * np.cos(angles), np.full(_RING, height), radius * np.sin(angles)])
+        return CollisionPiece(None, f"a {kind} of negative radius")
+    ball = kind == "capsule"
+    ends = [end_points(top, height / 2, ball=ball, axis=1), end_points(bottom, -height / 2, ball=ball, axis=1)]
+    return build_solid(kind, sizes, lambda: convex_hull(np.concatenate(ends)))

@@ -1,26 +1,30 @@
-"""Reading a glTF file or GLB: from its bytes to an asset, with notes and other names of what collides."""
+"""Reading a glTF file or GLB: from its bytes to an asset, with what it shows, notes and other names of colliders."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote
 
 import numpy as np
 
-from meshforge.common import AssetError, file_digest, pluralize
-from meshforge.formats.collision_pieces import drop_repeats
+from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
+from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
 from meshforge.formats.companions import find_companions
-from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision
-from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord, name_hulls
+from meshforge.formats.engine_names.base import godot_kind, unreal_kind
+from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.mechanism import body_nodes, read_inertial, rigid_pose_of
 from meshforge.formats.gltf.physics import is_trigger
-from meshforge.formats.gltf.visuals import SceneSurfaces, visible_nodes
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
+from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Opaque, unique_names
+from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -51,21 +55,28 @@ def read_gltf(path: Path) -> Asset:
         fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
         notes = [*collect_notes(scene, reader.convention), *reader.notes]
         authored = record_nodes(sources, bodies)
-        said = [mentions_of_node(scene, source) for source in sources]
-        geoms = tuple(_build_geoms(authored, sources, said))
+        mentions = [mentions_of_node(scene, source) for source in sources]
+        pieces = (
+            [CollisionElement(element.body, element.names) for element in authored],
+            [s.parts for s in sources],
+            mentions,
+        )
+        geoms = geoms_of(*pieces)
         masses = tuple(_read_masses(scene, bodies, geoms))
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
+    moving = [Body(name, rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
+    owners = {node: name for node, (_, name) in bodies.items()}
     files, missing = _find_files(scene, path)
     return Asset(
         path=path,
         format="gltf",
-        bodies=_list_bodies(scene, bodies, fixed),
+        bodies=(*([Body(BODY, Pose.identity())] if fixed else []), *moving),
         geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
-        opaque=tuple(_build_opaque(authored, sources, said)),
-        visuals=_lazy_visuals(source, path, bodies, reader.convention),
+        opaque=opaque_of(*pieces),
+        visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
         files=files,
         missing=missing,
         notes=tuple(notes),
@@ -92,7 +103,7 @@ def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[in
     ]
     return tuple(
         NodeRecord(source.node, body, names, source.owner)
-        for source, body, names in zip(sources, own, name_hulls(named), strict=True)
+        for source, body, names in zip(sources, own, name_element_pieces(named), strict=True)
     )
 
 
@@ -108,44 +119,12 @@ def _has_fixed_parts(
     return not bodies or any(node not in bodies for node in nodes)
 
 
-def _list_bodies(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], fixed: bool) -> tuple[Body, ...]:
-    """The body of the root frame where something is part of it, then the rigid ones."""
-    moving = [Body(name, rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
-    return (*([Body(BODY, Pose.identity())] if fixed else []), *moving)
-
-
 def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
     for node, name in _nodes_of(bodies):
         hulls = [geom.shape for geom in geoms if geom.body == name]
         inertial = read_inertial(scene.placements[node], name, hulls)
         if inertial is not None:
             yield inertial
-
-
-def _build_geoms(
-    authored: Sequence[NodeRecord], sources: Sequence[NodeCollision], said: Sequence[Sequence[Mentions]]
-) -> Iterator[Geom]:
-    for element, source, words in zip(authored, sources, said, strict=True):
-        for name, part, own in zip(element.names, source.parts, words, strict=True):
-            if part.shape is not None:
-                yield Geom(name, element.body, part.shape, mentions=own)
-
-
-def _build_opaque(
-    authored: Sequence[NodeRecord], sources: Sequence[NodeCollision], said: Sequence[Sequence[Mentions]]
-) -> Iterator[Opaque]:
-    for element, source, words in zip(authored, sources, said, strict=True):
-        for name, part, own in zip(element.names, source.parts, words, strict=True):
-            if part.shape is None:
-                yield Opaque(name, element.body, part.reason, part.surface, source.plane, own)
-
-
-def _lazy_visuals(
-    source: bytes, path: Path, bodies: Mapping[int, tuple[int, str]], convention: Convention
-) -> SceneSurfaces | tuple[()]:
-    if convention == "plain":
-        return ()
-    return SceneSurfaces(source, path, {node: name for node, (_, name) in bodies.items()})
 
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -156,6 +135,74 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
     there = {(path.parent / key).resolve() for key in found}
     missing = [uri for uri in named if (path.parent / unquote(uri)).resolve() not in there]
     return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
+
+
+class SceneSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one."""
+
+    def __init__(self, source: bytes, path: Path, bodies: dict[int, str]) -> None:
+        self._source, self._path, self._bodies = source, path, bodies
+
+    def _make(self) -> list[Surface]:
+        found = []
+        try:
+            with report_damage(str(self._path)):
+                scene = GltfScene.of(self._source, self._path)
+                for index in visible_nodes(scene, convention_of(scene)):
+                    mesh, *place = scene.place_mesh(scene.placements[index])
+                    for part, rgba in split_by_color(scene, scene.placements[index].node["mesh"], mesh):
+                        surface = place_surface(part.vertices, part.faces, *place, self._bodies.get(index))
+                        found.append(replace(surface, rgba=rgba))
+        except MeshForgeError:
+            return []
+        return found
+
+
+def visible_nodes(scene: GltfScene, convention: Convention) -> list[int]:
+    """The nodes of meshes that are there to be seen; none where all meshes are taken for collision."""
+    if convention == "plain":
+        return []
+    colliding = nodes_below_colliders(scene) if convention == "unity" else frozenset()
+    return [
+        index
+        for index, placement in scene.placements.items()
+        if "mesh" in placement.node and index not in colliding and not _is_only_collision(scene, index, convention)
+    ]
+
+
+def _is_only_collision(scene: GltfScene, index: int, convention: Convention) -> bool:
+    node = scene.placements[index].node
+    names = [node.get("name"), entry(scene.tree, "meshes", node["mesh"]).get("name")]
+    if convention == "unreal":
+        return any(unreal_kind(name) for name in names)
+    kind = next((kind for kind in map(godot_kind, names) if kind), None)
+    return convention == "godot" and kind in ("colonly", "convcolonly")
+
+
+def split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[GltfMesh, Rgba | None]]:
+    """The triangles of a mesh, apart where its parts have colours of their own; None for those without one."""
+    parts = entries(entry(scene.tree, "meshes", mesh), "primitives")
+    colors = [_read_color(scene, parts[patch.index].get("material")) for patch in whole.patches]
+    if not len(whole.faces):
+        return
+    if len(set(colors)) == 1:
+        yield whole, colors[0]
+        return
+    start = 0
+    for patch, color in zip(whole.patches, colors, strict=True):
+        end = start + len(patch.points)
+        yield GltfMesh(whole.vertices[start:end], patch.faces, (patch,)), color
+        start = end
+
+
+def _read_color(scene: GltfScene, material: int | None) -> Rgba | None:
+    """The colour of a material; None where it has a texture, or says no colour."""
+    shading = {} if material is None else entry(scene.tree, "materials", material).get("pbrMetallicRoughness", {})
+    factor = shading.get("baseColorFactor")
+    if factor is None or "baseColorTexture" in shading or len(factor) != 4:
+        return None
+    red, green, blue = (np.clip(np.asarray(factor[:3], dtype=np.float64), 0, 1) ** (1 / GAMMA)).tolist()
+    return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
 
 
 def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
@@ -221,12 +268,9 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
     if skinned := sum("skin" in node for node in shown):
         yield f"{pluralize(skinned, 'skinned mesh', 'skinned meshes')} are taken in the pose that the file has"
-    if morphed := sum(_has_morph_targets(scene, node["mesh"]) for node in shown):
+    meshes = [entries(entry(tree, "meshes", node["mesh"]), "primitives") for node in shown]
+    if morphed := sum(any(part.get("targets") for part in parts) for parts in meshes):
         yield f"{pluralize(morphed, 'mesh', 'meshes')} with morph targets are taken without them"
     for name in entries(tree, "extensionsRequired"):
         if name not in (*_KNOWN, *_PHYSICS) and not str(name).startswith(_HARMLESS):
             yield f"the file asks for {name}, which is not known: its geometry may be meant otherwise"
-
-
-def _has_morph_targets(scene: GltfScene, mesh: object) -> bool:
-    return any(part.get("targets") for part in entries(entry(scene.tree, "meshes", mesh), "primitives"))

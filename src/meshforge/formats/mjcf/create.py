@@ -28,14 +28,17 @@ from meshforge.formats.mjcf.elements import (
     tag,
 )
 from meshforge.formats.mjcf.references import is_shown_whole
-from meshforge.formats.visuals import Rgba, visuals_of
+from meshforge.formats.visuals import Rgba, unreadable_visuals, visuals_of
 from meshforge.formats.xml import format_numbers
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Surface
 
+WORLD = "world"
+"""What MuJoCo calls the body that never moves; no other may have this name."""
+
 _REPAIRED = "moments of inertia that no rigid body has are replaced by their mean"
 _DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
-_COMPUTED = f"MuJoCo computes the masses that are not told, at {_DENSITY:g} kg/m^3"
+_COMPUTED = f"MuJoCo computes the masses that the file does not say, at {_DENSITY:g} kg/m^3"
 _LIGHT = f"moving bodies without a mass to speak of get {LIGHT_MASS:g} kg"
 _DEFAULTS = [
     b"  <default>",
@@ -47,18 +50,14 @@ _DEFAULTS = [
     b"    </default>",
     b"  </default>",
 ]
-
 _FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
-
-WORLD = "world"
-"""What MuJoCo calls the body that never moves; no other may have this name."""
 
 
 def create_mjcf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
-    geoms or meshes, one a file; opaque pieces and visuals geoms that do not collide.
+    geoms or meshes, one a file; non-convex pieces and visuals geoms that do not collide.
     """
     return _Creator(asset, Path(name).stem).build_output()
 
@@ -103,8 +102,9 @@ class _Creator:
                 yield entry
                 continue
             body, depth = entry
-            lead = b"  " * depth
-            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(self._pose(body))}, closed=False)
+            lead, place = b"  " * depth, self._place_of(body)
+            pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
+            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(pose)}, closed=False)
             yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
@@ -118,35 +118,25 @@ class _Creator:
             return ""
         return parent
 
-    def _pose(self, body: str) -> Pose:
-        """place_T_body."""
-        place = self._place_of(body)
-        return self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]
-
     def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
         """Joints, mass, geoms and visuals of a body."""
         top = not self._place_of(body)
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
-        yield from (
-            lead + text for text in self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own))
-        )
-        yield from (lead + self.made.make_hull(geom) for geom in own)
+        lines = [*self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own))]
+        lines += [self.made.make_hull(geom) for geom in own]
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
-        yield from (lead + text for piece in pieces if piece.plane for text in self.made.make_plane(piece, piece.plane))
-        yield from (lead + text for text in self.made.make_visuals(body))
-        yield from (
-            lead + text for piece in pieces if piece.surface for text in self.made.make_surface(piece, piece.surface)
-        )
+        lines += [text for piece in pieces if piece.plane for text in self.made.make_plane(piece, piece.plane)]
+        lines += self.made.make_visuals(body)
+        lines += [text for piece in pieces if piece.surface for text in self.made.make_surface(piece, piece.surface)]
+        yield from (lead + text for text in lines)
 
     def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
         parts = split_joint(joint, top, self.joint_names)
         if len(parts) > 1:
-            how = (
-                f"{join_names([part.name for part in parts])} together move as {joint.kind} {joint.name or joint.child}"
-            )
-            self.notes.setdefault(how, [])
+            names = join_names([part.name for part in parts])
+            self.notes.setdefault(f"{names} together move as {joint.kind} {joint.name or joint.child}", [])
         return parts
 
     def _mass_lines(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
@@ -174,8 +164,7 @@ class _Creator:
             if roots:
                 notes.append(
                     f"{pluralize(len(roots), 'body', 'bodies')} fixed to the world ({join_names(roots, 3)}): "
-                    "for one that "
-                    "moves freely, write <freejoint/> as the first thing in its <body>"
+                    "for one that moves freely, write <freejoint/> as the first thing in its <body>"
                 )
         return tuple(notes)
 
@@ -214,43 +203,36 @@ class NewGeomMaker:
                 continue
             if isinstance(seen.what, MjcfShape):
                 yield _visual_tag(geom_attributes(seen.what), seen.rgba)
-            elif isinstance(seen.what, str):
-                mesh = self.meshes.add_visual(seen.what, seen.scale)
-                yield _visual_tag(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
-            else:
-                file = self.meshes.files.add(f"{body}-visual", "", seen.what.vertices, seen.what.faces)
-                yield _visual_tag(
-                    mesh_geom_attributes(self.meshes.add_visual(file, np.ones(3)), Pose.identity()), seen.rgba
-                )
+                continue
+            file = seen.what
+            if not isinstance(file, str):
+                file = self.meshes.files.add(f"{body}-visual", "", file.vertices, file.faces)
+            mesh = self.meshes.add_visual(file, seen.scale)
+            yield _visual_tag(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
 
     def make_plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
         """An endless plane."""
         if not self.tree.is_static(piece.body):
-            self.lost.append(
-                Loss(FeatureKind.PLANES, (piece.name,), "MuJoCo has planes on bodies that do not move only")
-            )
+            why = "MuJoCo has planes on bodies that do not move only"
+            self.lost.append(Loss(FeatureKind.PLANES, (piece.name,), why))
             return
-        said = pose_attributes(self.poses[piece.body].inverse() @ plane)
-        yield tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **said})
+        place = pose_attributes(self.poses[piece.body].inverse() @ plane)
+        yield tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
     def make_surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
-        """An opaque surface to look at, where its body shows nothing else."""
+        """A non-convex surface to look at, where its body shows nothing else."""
         why = "MuJoCo would collide with the convex hull"
         if any(body == piece.body for body, _ in self.shown):
             self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
             return
         seen = self.files.add_visual(piece.name, surface, self.poses[piece.body])
-        assert seen is not None  # only files may be unreadable
-        assert isinstance(seen.what, str)
+        assert seen is not None and isinstance(seen.what, str)  # a surface becomes a file, which can be read
         self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
         yield _visual_tag(mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
 
     def losses(self) -> tuple[Loss, ...]:
         """What is lost, visuals without a file that can be read included."""
-        if not self.files.refused:
-            return tuple(self.lost)
-        refused = tuple(dict.fromkeys(self.files.refused))
-        return (Loss(FeatureKind.VISUALS, refused, "their files cannot be read"), *self.lost)
+        return (*unreadable_visuals(self.files.refused), *self.lost)
 
 
 def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:

@@ -41,7 +41,7 @@ class MjcfBody:
 
     name: as in the asset; parent: None for the world. source, start: its element, source -1 where it has none here.
     pose: root_T_body in the reference configuration; inertial: body_T_inertial; mass [kg]; inertia: (3,) moments about
-    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file tells them.
+    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file says them.
     """
 
     name: str
@@ -220,12 +220,12 @@ class _TreeReader:
         reference = include.attributes.get("file", "").strip()
         if not reference:
             raise AssetError("this <include> names no file", where=where)
-        path = self._find(reference, source)
+        folders = (self.main.parent, self.sources[source].path.parent)
+        candidates = [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]
+        path = next((path for path in candidates if path in self.files or is_file(path)), None)
         if path is None:
-            looked = " and ".join(dict.fromkeys(str(p) for p in self._list_candidates(reference, source)))
-            raise AssetError(
-                f"the included file {reference!r} is not there", where=where, remedy=f"Looked for {looked}."
-            )
+            remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
+            raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
             raise AssetError(
                 f"{reference!r} is included twice, or includes itself",
@@ -236,11 +236,3 @@ class _TreeReader:
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")
         return self._build_node(root, len(self.sources) - 1, depth + 1).children
-
-    def _find(self, reference: str, source: int) -> Path | None:
-        return next((p for p in self._list_candidates(reference, source) if p in self.files or is_file(p)), None)
-
-    def _list_candidates(self, reference: str, source: int) -> list[Path]:
-        """Where an included file may be: from the main file's folder, from that of the file which includes it."""
-        folders = (self.main.parent, self.sources[source].path.parent)
-        return [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]

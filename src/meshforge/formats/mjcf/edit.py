@@ -8,10 +8,11 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
+from meshforge.formats.companions import note_absolute
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
-from meshforge.formats.mjcf.edit_check import find_changed_masses, find_difference
+from meshforge.formats.mjcf.edit_check import find_changed_masses, find_differences
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
-from meshforge.formats.mjcf.edit_plan import MjcfPlan, OldGeom, is_edited
+from meshforge.formats.mjcf.edit_plan import MjcfPlan, NewGeom, OldGeom, is_edited
 from meshforge.formats.mjcf.elements import (
     has_inertial,
     inertial_tag_of_model,
@@ -72,7 +73,7 @@ def _check(edit: MjcfEdit, before: MjcfModel, mass: Mass) -> dict[str, str]:
         raise AssetError(
             f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
         ) from None
-    wrong = find_difference(before, after, edit.expected, masses=mass == "keep", is_whole=edit.is_whole)
+    wrong = next(find_differences(before, after, edit.expected, mass == "keep", edit.is_whole), None)
     if wrong is not None:
         raise AssetError(
             f"the edited file would differ from the authored one in more than the edit says: {wrong}",
@@ -95,7 +96,7 @@ def _build_output(
     files = dict(made)
     for place, text, source in included:
         if place is None:
-            notes.append(f"{source.reference!r} is an absolute reference: the file is used where it is, not copied")
+            notes.append(note_absolute(source.reference))
         else:
             files[place] = text
     return Output(texts[0], files, copies, tuple(notes), names)
@@ -113,8 +114,9 @@ class MjcfEdit:
         self.weighs: list[int] = []
         self.expected = plan.predict_geoms()
         taken = {geom.name for geom in authored.spec_geoms}
-        for slot in plan.new_slots():
-            _name_slot(slot, slot.names[0], taken)
+        for entry in self.expected:
+            if isinstance(entry, NewGeom):
+                _name_slot(entry.slot, entry.slot.names[0], taken)
 
     def build_texts(self) -> list[bytes]:
         """The bytes of each of the authored files, edited. Raises AssetError where one of them cannot be."""
@@ -132,12 +134,8 @@ class MjcfEdit:
             out.append(_edit_file(source.text, splices, k > 0) if splices else source.raw)
         return out
 
-    def read_back(self) -> MjcfModel:
-        """What MuJoCo makes of the texts. Raises AssetError where it refuses them."""
-        return read_model(self._build_tree(), self.is_whole)
-
     def read_back_unscaled(self) -> MjcfModel:
-        """The same with plain masses."""
+        """What MuJoCo makes of the texts with plain masses."""
         tree = self._build_tree()
         reading = read_model(tree, self.is_whole)
         return read_unscaled_model(tree, reading) if self.is_whole else reading
@@ -157,7 +155,7 @@ class MjcfEdit:
         Returns what MuJoCo makes of them, and the names that cannot be had, with what they read back as.
         """
         for _ in range(_ROUNDS):
-            after = self.read_back()
+            after = read_model(self._build_tree(), self.is_whole)
             misread = list(self._find_misread(after))
             taken = {geom.name for geom in (*after.spec_geoms, *self.authored.spec_geoms)}
             named = [_name_slot(slot, wanted, taken) for slot, wanted, _ in misread if slot is not None]

@@ -15,7 +15,6 @@ from meshforge.geometry import Floats, Shape
 if TYPE_CHECKING:
     import mujoco
 
-
 _OF_BODY = tuple(
     f"body_{name}"
     for name in (
@@ -60,20 +59,14 @@ _POSE = 1e-9  # relative: a pose through quaternions and frames
 MASS_FIELDS = ("body_mass", "body_inertia", "body_ipos", "body_iquat")
 
 
-def find_difference(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool = True
-) -> str | None:
-    """The first thing that an edited file says otherwise than it should, None where all is right.
+def find_differences(
+    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool
+) -> Iterator[str]:
+    """What an edited file says otherwise than it should.
 
     expected: the geoms of the edited model; masses: whether masses are to be as before; is_whole: whether both are
     of all that the file says, so that meshes stay which no geom uses any more.
     """
-    return next(_find_differences(before, after, expected, masses, is_whole), None)
-
-
-def _find_differences(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool
-) -> Iterator[str]:
     if after.model.ngeom != len(expected):
         yield f"{after.model.ngeom} geoms where {len(expected)} were expected"
         return
@@ -82,9 +75,8 @@ def _find_differences(
     number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, OldGeom)}
     yield from _compare_kept(before, after, number)
     yield from _compare_references(before.model, after.model, number)
-    yield from compare_new_geoms(
-        before, after, {k: entry for k, entry in enumerate(expected) if isinstance(entry, NewGeom)}
-    )
+    made = {k: entry for k, entry in enumerate(expected) if isinstance(entry, NewGeom)}
+    yield from _compare_new_geoms(before, after, made)
 
 
 def _compare_fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterator[str]:
@@ -106,12 +98,9 @@ def _compare_meshes(one: mujoco.MjModel, other: mujoco.MjModel, is_whole: bool) 
                 yield f"mesh {name!r}"
             continue
         m = other.mesh(name).id if name else k
-        vertices, now = (
-            slice(n.mesh_vertadr[i], n.mesh_vertadr[i] + n.mesh_vertnum[i]) for n, i in ((one, k), (other, m))
-        )
-        if not (
-            all(is_equal(one, other, f, k, m) for f in _OF_MESH) and is_equal(one, other, "mesh_vert", vertices, now)
-        ):
+        vertices = [slice(n.mesh_vertadr[i], n.mesh_vertadr[i] + n.mesh_vertnum[i]) for n, i in ((one, k), (other, m))]
+        is_kept = all(is_equal(one, other, field, k, m) for field in _OF_MESH)
+        if not (is_kept and is_equal(one, other, "mesh_vert", *vertices)):
             yield f"mesh {name!r}"
 
 
@@ -130,7 +119,7 @@ def _compare_kept(before: MjcfModel, after: MjcfModel, number: dict[int, int]) -
 
 def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict[int, int]) -> Iterator[str]:
     """Numbers of geoms, where other elements refer to them."""
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     geom, wraps = mujoco.mjtObj.mjOBJ_GEOM, (mujoco.mjtWrap.mjWRAP_SPHERE, mujoco.mjtWrap.mjWRAP_CYLINDER)
     kinds = {
@@ -150,14 +139,14 @@ def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict
 
 def _data_name(model: mujoco.MjModel, geom: int) -> str:
     """The mesh of a geom, or that it has none."""
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     data = int(model.geom_dataid[geom])
     of_mesh = model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_HFIELD
     return "" if data < 0 else str(model.mesh(data).name if of_mesh else model.hfield(data).name)
 
 
-def compare_new_geoms(before: MjcfModel, after: MjcfModel, made: dict[int, NewGeom]) -> Iterator[str]:
+def _compare_new_geoms(before: MjcfModel, after: MjcfModel, made: dict[int, NewGeom]) -> Iterator[str]:
     """What is not as it should be; made: the new geoms by their numbers after the edit."""
     shapes = MjcfShapes(after.model)
     origins = {name: pose.translation for name, pose in zip(after.body_names, after.body_poses, strict=True)}
@@ -195,8 +184,7 @@ def _face_normals(shape: Shape) -> Floats:
     a, b, c = (shape.vertices[shape.faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
-    unit: Floats = normals[lengths > 0] / lengths[lengths > 0][:, None]
-    return unit
+    return np.asarray(normals[lengths > 0] / lengths[lengths > 0][:, None])
 
 
 def is_equal(

@@ -17,15 +17,17 @@ from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.elements import geom_attributes, mesh_geom_attributes, tag
 from meshforge.formats.mjcf.engine import compile_model
 from meshforge.formats.mjcf.references import AssetFolders
-from meshforge.formats.mjcf.shapes import rotation_of
 from meshforge.formats.slots import Slot
 from meshforge.formats.xml import format_numbers, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, rotation_of_quaternion
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
-_GEOMETRY = ("type", "size", "pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale")
-"""The attributes that make up the geometry of a geom; all others are inherited."""
+_NOT_INHERITED = (
+    *("type", "size", "pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale"),
+    *("mass", "shellinertia"),
+)
+"""The attributes that make up the geometry and the mass of a geom; all others are inherited."""
 _FAR = 1000.0  # sizes away from the origin of its body, a mesh would lose digits in MuJoCo's single precision
 
 _NEUTRAL = {"scale": "1 1 1", "maxhullvert": "-1", "inertia": "convex"}
@@ -47,31 +49,31 @@ class HullGeomMaker:
         """The element of a hull that stands right after that of its parent, in the same frame."""
         name = self.context.class_of(parent)
         set_by_class = self.context.defaults_of(name)
-        said = self._geometry_attributes(geom, root_t_body, parent, self.context.body_t_frame(parent))
+        attributes = self._geometry_attributes(geom, root_t_body, parent, self.context.body_t_frame(parent))
         if "fromto" in set_by_class:
-            return self._spell_out_class(geom, parent, said, parent_volume)
-        said = self._settle_attributes(
-            geom, said, {**set_by_class, **_own_attributes(parent)}, set_by_class, parent_volume
+            return self._spell_out_class(geom, parent, attributes, parent_volume)
+        attributes = self._complete_attributes(
+            geom, attributes, {**set_by_class, **_own_attributes(parent)}, set_by_class, parent_volume
         )
         data = self.context.tree.sources[parent.source].text.data
-        changed = [key for key in (*_GEOMETRY, "mass", "shellinertia") if said.get(key) != parent.attributes.get(key)]
-        edits = tuple(set_attribute(data, parent.element, key, said.get(key), last=True) for key in changed)
+        changed = [key for key in _NOT_INHERITED if attributes.get(key) != parent.attributes.get(key)]
+        edits = tuple(set_attribute(data, parent.element, key, attributes.get(key), last=True) for key in changed)
         return Slot(geom.body, (geom.name,), None, parent.element, edits, copy=True)
 
     def make_apart(
         self, geom: Geom, root_t_body: Pose, body: MjcfNode, parent: MjcfNode | None, parent_volume: float
     ) -> Slot:
         """The element of a hull at the end of its body, with what it inherits from a parent that stands elsewhere."""
-        said = self._geometry_attributes(geom, root_t_body, parent, Pose.identity())
+        attributes = self._geometry_attributes(geom, root_t_body, parent, Pose.identity())
         if parent is None:
             set_by_class = self.context.defaults_of(self.context.class_inside(body))
             if "fromto" in set_by_class:
                 raise _fromto_error(geom, self.context, body)
-            said = self._settle_attributes(geom, said, set_by_class, set_by_class, 0.0)
+            attributes = self._complete_attributes(geom, attributes, set_by_class, set_by_class, 0.0)
             if set_by_class.get("contype") == "0" == set_by_class.get("conaffinity"):  # a class of visual geoms
-                said |= {"contype": "1", "conaffinity": "1"}
-            return Slot(geom.body, (geom.name,), text=tag("geom", said))
-        return self._spell_out_class(geom, parent, said, parent_volume)
+                attributes |= {"contype": "1", "conaffinity": "1"}
+            return Slot(geom.body, (geom.name,), text=tag("geom", attributes))
+        return self._spell_out_class(geom, parent, attributes, parent_volume)
 
     def _geometry_attributes(
         self, geom: Geom, root_t_body: Pose, parent: MjcfNode | None, body_t_frame: Pose
@@ -83,22 +85,22 @@ class HullGeomMaker:
             return geom_attributes(replace(shape, pose=frame_t_body @ body_t_root @ shape.pose))
         shape = shape.move(body_t_root)
         own = _own_attributes(parent) if parent else {}
-        said = {**(self.context.defaults_of(self.context.class_of(parent)) if parent else {}), **own}
+        attributes = {**(self.context.defaults_of(self.context.class_of(parent)) if parent else {}), **own}
         centre = _far_centre(shape)
         shape = shape.move(centre.inverse())
-        mesh = self.meshes.add(geom.name, shape, said.get("mesh"), said.get("shellinertia") == "true")
+        mesh = self.meshes.add(geom.name, shape, attributes.get("mesh"), attributes.get("shellinertia") == "true")
         return mesh_geom_attributes(mesh, frame_t_body @ centre)
 
-    def _settle_attributes(
+    def _complete_attributes(
         self,
         geom: Geom,
-        said: Mapping[str, str],
+        attributes: Mapping[str, str],
         inherited: Mapping[str, str],
         set_by_class: Mapping[str, str],
         parent_volume: float,
     ) -> dict[str, str]:
         """The attributes by which a geom has its geometry whatever its class sets, and its parent's density."""
-        found = dict(said)
+        found = dict(attributes)
         if "pos" in set_by_class:
             found.setdefault("pos", "0 0 0")
         if any(turn in set_by_class for turn in _TURNS):
@@ -112,22 +114,23 @@ class HullGeomMaker:
             found["size"] = " ".join(given + ["0"] * (count - len(given)))
         if "mass" in inherited and parent_volume > 0:
             found["mass"] = format_numbers([float(inherited["mass"]) * geom.shape.volume / parent_volume])
-        if said["type"] != "mesh" and "shellinertia" in inherited:
+        if attributes["type"] != "mesh" and "shellinertia" in inherited:
             found["shellinertia"] = inherited["shellinertia"]
-        if said["type"] == "mesh" and set_by_class.get("shellinertia") == "true":  # the mesh says so
+        if attributes["type"] == "mesh" and set_by_class.get("shellinertia") == "true":  # the mesh says so
             found["shellinertia"] = "false"
         return found
 
-    def _spell_out_class(self, geom: Geom, parent: MjcfNode, said: Mapping[str, str], parent_volume: float) -> Slot:
+    def _spell_out_class(
+        self, geom: Geom, parent: MjcfNode, attributes: Mapping[str, str], parent_volume: float
+    ) -> Slot:
         """A hull's element that spells out what its parent has from its class."""
         main = self.context.defaults_of(MAIN_CLASS)
         if "fromto" in main:
             raise _fromto_error(geom, self.context, parent)
         inherited = {**self.context.defaults_of(self.context.class_of(parent)), **_own_attributes(parent)}
-        settled = self._settle_attributes(geom, said, inherited, main, parent_volume)
-        dropped = (*_GEOMETRY, "mass", "shellinertia")
-        rest = {key: value for key, value in inherited.items() if key not in dropped and value != main.get(key)}
-        return Slot(geom.body, (geom.name,), text=tag("geom", {"class": MAIN_CLASS, **settled, **rest}))
+        complete = self._complete_attributes(geom, attributes, inherited, main, parent_volume)
+        rest = {key: value for key, value in inherited.items() if key not in _NOT_INHERITED and value != main.get(key)}
+        return Slot(geom.body, (geom.name,), text=tag("geom", {"class": MAIN_CLASS, **complete, **rest}))
 
 
 def _own_attributes(node: MjcfNode) -> dict[str, str]:
@@ -174,16 +177,16 @@ class HullMeshes:
         place = self._place_of(folder)
         self.files.taken |= self._stems_in(place)
         file = posixpath.basename(self.files.add(name, place, shape.vertices, shape.faces))
-        said = {"name": posixpath.splitext(file)[0], "file": f"{folder}{file}"}
+        attributes = {"name": posixpath.splitext(file)[0], "file": f"{folder}{file}"}
         if Path(self.folders.mesh).is_absolute():  # a file of the output has no name from there
             self.files.made.popitem()
-            said = {"name": said["name"], "vertex": format_numbers(shape.vertices.ravel())}
+            attributes = {"name": attributes["name"], "vertex": format_numbers(shape.vertices.ravel())}
         set_by_default = self.context.defaults_of(MAIN_CLASS, "mesh")
-        said |= {key: value for key, value in _NEUTRAL.items() if key in set_by_default}
+        attributes |= {key: value for key, value in _NEUTRAL.items() if key in set_by_default}
         if shell or shape.volume < _LEAST_VOLUME:
-            said["inertia"] = "shell"
-        self.elements.append(tag("mesh", said))
-        return said["name"]
+            attributes["inertia"] = "shell"
+        self.elements.append(tag("mesh", attributes))
+        return attributes["name"]
 
     def _find_first_folder(self) -> str:
         """The folder, as references have it, of the first mesh that lies with the main file, else the main file's."""
@@ -246,13 +249,13 @@ class ElementContext:
 
     def class_of(self, node: MjcfNode) -> str:
         """The default class of a geom: its own, or that of the children of what is around it."""
-        said = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.ancestors_of(node))]
-        return next((name for name in said if name), MAIN_CLASS)
+        classes = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.ancestors_of(node))]
+        return next((name for name in classes if name), MAIN_CLASS)
 
     def class_inside(self, node: MjcfNode) -> str:
         """The default class of what stands in an element without a class of its own."""
-        said = (n.attributes.get("childclass") for n in (node, *self.ancestors_of(node)))
-        return next((name for name in said if name), MAIN_CLASS)
+        classes = (n.attributes.get("childclass") for n in (node, *self.ancestors_of(node)))
+        return next((name for name in classes if name), MAIN_CLASS)
 
     def defaults_of(self, name: str, kind: str = "geom") -> dict[str, str]:
         """The attributes that a default class sets for a kind of element, those it inherits included."""
@@ -274,19 +277,19 @@ class ElementContext:
 
     def _compile_frames(self, frames: list[MjcfNode]) -> Pose:
         """MuJoCo's own answer for frames in one another, from a model of nothing else."""
-        said = [{k: v for k, v in f.attributes.items() if k not in ("name", "childclass")} for f in frames]
-        if not any(said):
+        attributes = [{k: v for k, v in f.attributes.items() if k not in ("name", "childclass")} for f in frames]
+        if not any(attributes):
             return Pose.identity()
         units: dict[str, str] = {}
         for node in self.tree.root.children:
             if node.tag == "compiler":
                 units |= {k: v for k, v in node.attributes.items() if k in ("angle", "eulerseq")}
-        opened = b"".join(tag("frame", attributes, closed=False) for attributes in said)
-        text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>"
-        model = compile_model(
-            Path("frames.xml"), {Path("frames.xml"): text % (tag("compiler", units), opened, b"</frame>" * len(said))}
-        )
-        return Pose(rotation_of(model.geom_quat[0]), model.geom_pos[0])
+        opened = b"".join(tag("frame", one, closed=False) for one in attributes)
+        inside = tag("compiler", units), opened, b"</frame>" * len(attributes)
+        main = Path("frames.xml")
+        text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>" % inside
+        model = compile_model(main, {main: text})
+        return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])
 
     def _add_classes(self, default: MjcfNode, chain: tuple[MjcfNode, ...] = ()) -> None:
         for child in default.children:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Container, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls
 from meshforge.formats.mjcf.document import GeomRecord, MjcfDocument, MjcfNode, MjcfTree
 from meshforge.formats.mjcf.edit_geoms import HullGeomMaker
 from meshforge.formats.mjcf.model import MjcfModel
@@ -49,14 +50,9 @@ class NewGeom:
 
 def is_edited(asset: Asset, document: MjcfDocument) -> bool:
     """Whether any hull is made, or gone."""
-    kept, owned = names_to_keep(asset), {name for authored in document.authored for name in authored.names}
+    kept, known = names_to_keep(asset), {name for authored in document.authored for name in authored.names}
     gone = any(names_to_remove(authored, kept) for authored in document.authored)
-    return gone or any(geom.parent is not None or geom.name not in owned for geom in asset.geoms)
-
-
-def names_to_keep(asset: Asset) -> set[str]:
-    """The names of the collision geoms that stay as they were."""
-    return {geom.name for geom in asset.geoms if geom.parent is None} | {opaque.name for opaque in asset.opaque}
+    return gone or bool(new_hulls(asset, known))
 
 
 def names_to_remove(authored: GeomRecord, kept: Container[str]) -> list[str]:
@@ -85,9 +81,8 @@ class MjcfPlan:
         self.made: dict[int, Geom] = {}
         self._shapes = MjcfShapes(reading.model)
         self._refuse_fixed(kept)
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in self.owner:
-                self._place_new(geom)
+        for geom in new_hulls(asset, self.owner):
+            self._place_new(geom)
 
     @property
     def bodies_to_change(self) -> list[str]:
@@ -113,10 +108,6 @@ class MjcfPlan:
                     found += [NewGeom(slot, self.made[id(slot)]) for slot in place.after]
             found += [NewGeom(slot, self.made[id(slot)]) for slot in self.ends.get(body, [])]
         return found
-
-    def new_slots(self) -> list[Slot]:
-        """The new elements."""
-        return [entry.slot for entry in self.predict_geoms() if isinstance(entry, NewGeom)]
 
     def build_splices(self, source: int, masses: Mapping[str, bytes]) -> list[Splice]:
         """The edits of one of the files; masses: the `<inertial>` of bodies whose elements hold nothing yet."""
@@ -184,7 +175,7 @@ class MjcfPlan:
         self.made[id(slot)] = geom
 
     def _body_of(self, geom: Geom) -> MjcfNode:
-        """The element of a made hull's body."""
+        """The element of a new hull's body."""
         body = self.body_node(geom.body)
         outer = (body, *self.maker.context.ancestors_of(body)) if body is not None else ()
         why = next((why for node in outer if (why := _obstacle_in(node))), "")
@@ -220,13 +211,13 @@ def _obstacle_in(node: MjcfNode) -> str:
 def geom_references(tree: MjcfTree) -> Iterator[tuple[str, MjcfNode]]:
     """The names of geoms that other elements refer to, each with such an element, in document order."""
     for node in tree.root.walk():
-        said = node.attributes
+        attributes = node.attributes
         for key in _PLAIN:
-            if said.get(key):
-                yield said[key], node
+            if attributes.get(key):
+                yield attributes[key], node
         for kind, key in _TYPED:
-            if said.get(kind) == "geom" and said.get(key):
-                yield said[key], node
+            if attributes.get(kind) == "geom" and attributes.get(key):
+                yield attributes[key], node
 
 
 def refuse_referenced(tree: MjcfTree, removed: Collection[tuple[str, str]]) -> None:

@@ -10,12 +10,12 @@ from typing import assert_never
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to, place_inertial
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.xml import Splice, escape, format_numbers, indent_of, newline_of, remove_element, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint, JointKind
 
 MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
@@ -38,8 +38,8 @@ FROM_GEOMS = "inertiafromgeom"
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
     """An element without children; closed: else only its start tag."""
-    said = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
-    return f"<{name}{said}{'/' if closed else ''}>".encode()
+    text = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
+    return f"<{name}{text}{'/' if closed else ''}>".encode()
 
 
 def geom_attributes(shape: MjcfShape) -> dict[str, str]:
@@ -76,12 +76,8 @@ def pose_attributes(pose: Pose) -> dict[str, str]:
 def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: Floats) -> dict[str, str]:
     """A mass [kg], its centre (3,), and the moments (3,) about axes that a quaternion (4,) w x y z turns."""
     turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": format_numbers(quaternion)}
-    return {
-        "pos": format_numbers(pos),
-        **turned,
-        "mass": format_numbers([mass]),
-        "diaginertia": format_numbers(diagonal),
-    }
+    weight = {"mass": format_numbers([mass]), "diaginertia": format_numbers(diagonal)}
+    return {"pos": format_numbers(pos), **turned, **weight}
 
 
 class MeshAssets:
@@ -112,9 +108,8 @@ class MeshAssets:
         return [b"  <asset>", *inside, b"  </asset>"] if inside else []
 
     def _add(self, file: str, attributes: dict[str, str]) -> str:
-        name = claim_name(
-            posixpath.splitext(posixpath.basename(file))[0].removeprefix(f"{self.files.stem}--"), self._names
-        )
+        stem = posixpath.splitext(posixpath.basename(file))[0]
+        name = claim_name(stem.removeprefix(f"{self.files.stem}--"), self._names)
         self._elements.append(tag("mesh", {"name": name, "file": file, **attributes}))
         return name
 
@@ -129,11 +124,8 @@ def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
             return []
         case "planar":
             across = perpendicular_to(joint.axis)
-            parts: list[tuple[str, JointKind, Floats]] = [
-                ("x", "prismatic", across),
-                ("y", "prismatic", np.cross(joint.axis, across)),
-            ]
-            parts.append(("turn", "revolute", joint.axis))
+            parts: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
+            parts += [("y", "prismatic", np.cross(joint.axis, across)), ("turn", "revolute", joint.axis)]
         case "floating" if not top:
             axes = np.eye(3)
             parts = [(name, "prismatic", axes[k]) for k, name in enumerate("xyz")]
@@ -169,12 +161,11 @@ def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
 
 def inertial_tag(inertial: Inertial, root_t_body: Pose) -> tuple[bytes, bool]:
     """The `<inertial>` of a body; and whether its moments had to be changed, being those of no rigid body."""
-    turn = root_t_body.rotation.T
-    moments, axes = _principal_axes(drop_rounding(turn @ inertial.inertia @ turn.T))
+    centre, tensor = place_inertial(inertial, root_t_body)
+    moments, axes = principal_axes(tensor)
     legal = _legal_moments(moments, inertial.mass)
-    centre = drop_rounding(turn @ (inertial.centre - root_t_body.translation), 1.0)
     quaternion = Pose(axes, np.zeros(3)).to_quaternion()
-    text = tag("inertial", inertial_attributes(inertial.mass, centre, quaternion, legal))
+    text = tag("inertial", inertial_attributes(inertial.mass, drop_rounding(centre, 1.0), quaternion, legal))
     return text, not np.allclose(legal, moments, rtol=_SLIGHT, atol=0)
 
 
@@ -184,18 +175,10 @@ def light_tag() -> bytes:
     return tag("inertial", inertial_attributes(LIGHT_MASS, np.zeros(3), np.array([1.0, 0, 0, 0]), moments))
 
 
-def _principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
-    """The principal moments (3,) and their axes, a rotation (3, 3); the given axes where these are principal."""
-    if not (inertia - np.diag(np.diag(inertia))).any():
-        return np.diag(inertia).copy(), np.eye(3)
-    moments, axes = np.linalg.eigh(inertia)
-    return moments, axes * (1.0 if np.linalg.det(axes) > 0 else -1.0)
-
-
 def _legal_moments(moments: Floats, mass: float) -> Floats:
     """Moments that a rigid body can have: positive, no one larger than the two others together.
 
-    Others become their mean, as MuJoCo has it where it is told to mend them.
+    Others become their mean, as MuJoCo has it where `balanceinertia` asks it to repair them.
     """
     largest = int(np.argmax(moments))
     others = float(moments.sum() - moments[largest])
@@ -203,33 +186,32 @@ def _legal_moments(moments: Floats, mass: float) -> Floats:
     if moments.min() > _LEAST_MOMENT and excess <= 0:
         return moments
     if moments.min() > _LEAST_MOMENT and excess <= _SLIGHT * moments[largest]:
-        mended = moments.copy()
-        mended[largest] = others * (1 - 1e-12)
-        return mended
+        repaired = moments.copy()
+        repaired[largest] = others * (1 - 1e-12)
+        return repaired
     return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass, _LEAST_MOMENT))
 
 
 def is_inertial_ignored(tree: MjcfTree) -> bool:
     """Whether the compiler settings say that every `<inertial>` is ignored."""
-    said = [n.attributes[FROM_GEOMS] for n in tree.root.children if n.tag == "compiler" and FROM_GEOMS in n.attributes]
-    return said[-1:] == ["true"]
+    settings = [c.attributes[FROM_GEOMS] for c in tree.root.each("compiler") if FROM_GEOMS in c.attributes]
+    return settings[-1:] == ["true"]
 
 
 def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
     """The edits, with their files, by which an `<inertial>` counts where there is one."""
     return [
         (node.source, set_attribute(tree.sources[node.source].text.data, node.element, FROM_GEOMS, "auto"))
-        for node in tree.root.children
-        if node.tag == "compiler" and node.attributes.get(FROM_GEOMS) == "true"
+        for node in tree.root.each("compiler")
+        if node.attributes.get(FROM_GEOMS) == "true"
     ]
 
 
 def inertial_tag_of_model(reading: MjcfModel, body: int) -> bytes:
     """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
     model = reading.model
-    mass, quaternion = float(model.body_mass[body]), model.body_iquat[body]
-    said = inertial_attributes(mass, model.body_ipos[body], quaternion, model.body_inertia[body])
-    return tag("inertial", said)
+    pos, quaternion, moments = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
+    return tag("inertial", inertial_attributes(float(model.body_mass[body]), pos, quaternion, moments))
 
 
 def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[int, Splice]]:
@@ -238,9 +220,8 @@ def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[i
     One that was ignored so far gives way.
     """
     data = tree.sources[node.source].text.data
-    gone = [
-        (old.source, remove_element(tree.sources[old.source].text.data, old.element)) for old in _inertials_of(node)
-    ]
+    texts = [source.text.data for source in tree.sources]
+    gone = [(old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node)]
     at = node.element.inside
     lead = indent_of(data, node.element.children[0].start)
     return [*gone, (node.source, Splice(at, at, (b"" if lead is None else newline_of(data) + lead) + text))]

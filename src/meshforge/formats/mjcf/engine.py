@@ -8,7 +8,7 @@ import os
 import re
 import threading
 import warnings as python_warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +22,6 @@ from meshforge.formats.xml import escape
 
 if TYPE_CHECKING:
     import mujoco
-
 
 _LOCK = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
 _LINE = re.compile(r"\bline (?:number=)?(\d+)", re.I)
@@ -61,42 +60,34 @@ def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujo
 def compile_text(tree: MjcfTree, flat: FlatText) -> EngineModel:
     """The model of a tree's text. Raises AssetError with MuJoCo's message."""
     warnings: list[str] = []
-    spec = _parse(tree, flat, warnings)
-    return _compile(tree, flat, spec, warnings)
+    return compile_spec(tree, flat, parse_text(tree, flat, warnings), warnings)
 
 
-def parse_text(tree: MjcfTree, flat: FlatText) -> mujoco.MjSpec:
-    """The spec of a tree's text, assets not yet read. Raises AssetError with MuJoCo's message."""
-    return _parse(tree, flat, [])
+def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
+    """The spec of a tree's text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
-
-def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> EngineModel:
-    """The model of a spec. Raises AssetError with MuJoCo's message."""
-    return _compile(tree, flat, spec, [])
-
-
-def _parse(tree: MjcfTree, flat: FlatText, warnings: list[str]) -> mujoco.MjSpec:
-    import mujoco
-
-    with _collect_warnings(warnings), _provide_files(tree, flat) as vfs:
+    with _collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
         try:
             return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
         except _failure_types() as error:
             raise _error_of(str(error), tree, flat) from None
 
 
-def _compile(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: list[str]) -> EngineModel:
+def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> EngineModel:
+    """The model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
     bodies = tuple(spec.bodies)
     geoms = geoms_of(bodies)
     _refuse_bad_poses(tree, flat, bodies, geoms)
-    with _collect_warnings(warnings), _provide_files(tree, flat) as vfs:
+    heard = list(warnings)
+    with _collect_warnings(heard), _provide_files(tree, flat) as vfs:
         try:
             model = spec.compile(vfs=vfs)
         except _failure_types() as error:
             raise _error_of(str(error), tree, flat) from None
-    told = tuple(dict.fromkeys(_clean_message(warning) for warning in warnings))
+    messages = tuple(dict.fromkeys(_clean_message(warning) for warning in heard))
     in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
-    return EngineModel(spec, model, *in_order, told)
+    return EngineModel(spec, model, *in_order, messages)
 
 
 def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
@@ -113,8 +104,8 @@ def _refuse_bad_poses(
             if problem := _describe_bad_pose(thing):
                 node = flat.node_at(thing.info)
                 where = tree.where(node) if node else str(tree.main.path)
-                told = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
-                raise AssetError(problem.format(told), where=where)
+                called = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
+                raise AssetError(problem.format(called), where=where)
 
 
 def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
@@ -126,7 +117,7 @@ def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
 
 
 def _failure_types() -> tuple[type[Exception], ...]:
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
 
@@ -134,7 +125,7 @@ def _failure_types() -> tuple[type[Exception], ...]:
 @contextmanager
 def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
     """The files that MuJoCo shall see instead of those on disk."""
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     with mujoco.MjVfs() as vfs:
         included = {source.path for source in tree.sources}
@@ -148,7 +139,7 @@ def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
 @contextmanager
 def _collect_warnings(warnings: list[str]) -> Iterator[None]:
     """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     with _LOCK, python_warnings.catch_warnings(record=True) as raised:
         python_warnings.simplefilter("always")
@@ -202,7 +193,7 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
     nodes: list[MjcfNode] = []
     parts: list[bytes] = []
     closing: list[tuple[MjcfNode, int]] = []
-    for node, depth, attributes in _walk_kept(tree.root, keep or _all_attributes):
+    for node, depth, attributes in _walk_kept(tree.root, keep or (lambda node: node.attributes)):
         while closing and closing[-1][1] >= depth:
             parts.append(b"</%s>" % closing.pop()[0].tag.encode())
         nodes.append(node)
@@ -220,10 +211,6 @@ def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode,
         if attributes is not None:
             yield node, depth, attributes
             waiting.extend((child, depth + 1) for child in reversed(node.children))
-
-
-def _all_attributes(node: MjcfNode) -> Mapping[str, str]:
-    return node.attributes
 
 
 def _start_tag(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
 from meshforge.formats.mjcf.create import create_mjcf
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode
 from meshforge.formats.mjcf.edit import write_mjcf
@@ -20,38 +20,6 @@ from meshforge.symbolic import Asset, Feature, FeatureKind
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
 """An XML text up to the tag of its first element."""
 
-HOLDS = frozenset(
-    {
-        FeatureKind.NAMES,
-        FeatureKind.BODIES,
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CYLINDERS,
-        FeatureKind.CAPSULES,
-        FeatureKind.ELLIPSOIDS,
-        FeatureKind.PLANES,
-        FeatureKind.JOINTS,
-        FeatureKind.BALL_JOINTS,
-        FeatureKind.MASSES,
-        FeatureKind.VISUALS,
-        FeatureKind.COLORS,
-    }
-)
-COULD = frozenset(
-    {
-        FeatureKind.MIMICS,
-        FeatureKind.TEXTURES,
-        FeatureKind.MATERIALS,
-        FeatureKind.CONTACT,
-        FeatureKind.PAIRS,
-        FeatureKind.CAMERAS,
-        FeatureKind.LIGHTS,
-        FeatureKind.SITES,
-        FeatureKind.COMMENTS,
-        FeatureKind.SKINS,
-        FeatureKind.KEYFRAMES,
-    }
-)
 _SECTIONS = {
     "actuator": FeatureKind.ACTUATORS,
     "sensor": FeatureKind.SENSORS,
@@ -71,7 +39,6 @@ _SETTINGS = ("option", "size", "visual", "statistic")
 _OTHERS = ("extension", "custom")
 _CONTACT = ("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin", "gap", "priority")
 _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature")
-_COMMENT = re.compile(rb"<!--")
 
 
 class MjcfFormat(Format):
@@ -82,8 +49,13 @@ class MjcfFormat(Format):
     is_description: ClassVar[bool] = True
     title: ClassVar[str] = "MJCF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
-    holds: ClassVar[frozenset[FeatureKind]] = HOLDS
-    could: ClassVar[frozenset[FeatureKind]] = COULD
+    holds = BODY_FEATURES | {
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
+    }
+    could = SCENE_FEATURES | {
+        *(FeatureKind.MIMICS, FeatureKind.PAIRS, FeatureKind.SITES, FeatureKind.SKINS, FeatureKind.KEYFRAMES),
+        FeatureKind.COMMENTS,
+    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.OPAQUE: "written as surfaces that do not collide"}
 
     def matches_head(self, head: bytes) -> bool:
@@ -109,32 +81,22 @@ class MjcfFormat(Format):
 
 
 def features_of(document: MjcfDocument) -> Iterator[Feature]:
-    """The features of an MJCF that its asset does not tell, as its elements say; those that classes set count once."""
+    """The features of an MJCF that its asset does not have, as its elements say; those that classes set count once."""
     root = document.tree.root
     for tag, what in _SECTIONS.items():
         yield _feature_of(what, [node for section in root.children if section.tag == tag for node in section.children])
     bodies = [node for world in root.children if world.tag == "worldbody" for node in world.walk()]
     for tag, what in _ELEMENTS.items():
         yield _feature_of(what, [node for node in bodies if node.tag == tag])
-    yield _feature_of(
-        FeatureKind.CONTACT,
-        [n for n in root.walk() if n.tag == "geom" and any(key in n.attributes for key in _CONTACT)],
-    )
-    yield _feature_of(FeatureKind.DYNAMICS, [n for n in root.walk() if n.tag == "joint" and _has_springs(n)])
+    for what, tag, keys in ((FeatureKind.CONTACT, "geom", _CONTACT), (FeatureKind.DYNAMICS, "joint", _DYNAMICS)):
+        yield _feature_of(what, [n for n in root.walk() if n.tag == tag and any(key in n.attributes for key in keys)])
     assets = [node for section in root.children if section.tag == "asset" for node in section.children]
     yield _feature_of(FeatureKind.MATERIALS, [node for node in assets if node.tag == "material"])
     yield _feature_of(FeatureKind.TEXTURES, [node for node in assets if node.tag == "texture"])
-    yield Feature(
-        FeatureKind.SETTINGS, tuple(dict.fromkeys(node.tag for node in root.children if node.tag in _SETTINGS))
-    )
-    yield Feature(FeatureKind.OTHERS, tuple(dict.fromkeys(node.tag for node in root.children if node.tag in _OTHERS)))
-    yield Feature(FeatureKind.COMMENTS, unnamed=sum(len(_COMMENT.findall(source.raw)) for source in document.sources))
-
-
-def _has_springs(node: MjcfNode) -> bool:
-    return any(key in node.attributes for key in _DYNAMICS)
+    for what, tags in ((FeatureKind.SETTINGS, _SETTINGS), (FeatureKind.OTHERS, _OTHERS)):
+        yield Feature(what, tuple(dict.fromkeys(node.tag for node in root.children if node.tag in tags)))
+    yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.raw.count(b"<!--") for source in document.sources))
 
 
 def _feature_of(what: FeatureKind, nodes: Iterable[MjcfNode]) -> Feature:
-    names = [node.attributes.get("name", "") for node in nodes]
-    return Feature(what, tuple(name for name in names if name), sum(not name for name in names))
+    return feature_of(what, (node.attributes.get("name", "") for node in nodes))

@@ -3,7 +3,7 @@ each geom is."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,15 +12,12 @@ import numpy as np
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
-from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses, rotation_of
-from meshforge.geometry import Pose
+from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
+from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import mujoco
-
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -60,20 +57,20 @@ class MjcfModel:
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
-        import mujoco
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         geoms, opaque = [], []
-        shapes, said = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
+        shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
                 continue
             part = shapes.part_of(k, pose)
             if part.shape is not None:
                 contact = contact_attributes(self.model, k)
-                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=said.of(k)))
+                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=mentions.of(k)))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane, said.of(k)))
+                opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))
         return tuple(geoms), tuple(opaque)
 
     @cached_property
@@ -90,7 +87,7 @@ class MjcfModel:
             source=node.source if node else -1,
             start=node.element.start if node else -1,
             pose=self.body_poses[k],
-            inertial=Pose(rotation_of(model.body_iquat[k]), model.body_ipos[k]),
+            inertial=Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k]),
             mass=float(model.body_mass[k]),
             inertia=model.body_inertia[k].copy(),
             explicit=bool(body.explicitinertial),
@@ -136,19 +133,11 @@ def read_mechanism(reading: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
     joints = [joint for k in range(1, reading.model.nbody) for joint in _read_joints(reading, k)]
     inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
-    return Mechanism(tuple(joints), tuple(inertials), _read_excludes(reading), _read_pairs(reading))
-
-
-def _read_excludes(reading: MjcfModel) -> tuple[tuple[str, str], ...]:
-    signatures = [int(signature) for signature in reading.model.exclude_signature]
-    return tuple(
-        (reading.body_names[s >> 16], reading.body_names[s & 0xFFFF]) for s in signatures
-    )  # as MuJoCo packs it
-
-
-def _read_pairs(reading: MjcfModel) -> tuple[tuple[str, str], ...]:
+    bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
+    excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
     geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
-    return tuple((reading.names[int(first)], reading.names[int(second)]) for first, second in geoms)
+    pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
+    return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
 
 
 def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:
@@ -215,7 +204,7 @@ class GeomMentions:
 
     @cached_property
     def _visual_names(self) -> dict[str, list[ShapeNames]]:
-        """What each body has to be looked at alone."""
+        """What each body shows that does not collide."""
         found: dict[str, list[ShapeNames]] = {}
         for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
             if not collides:

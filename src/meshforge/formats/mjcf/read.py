@@ -16,15 +16,14 @@ from meshforge.formats.mjcf.engine import EngineModel, FlatText, compile_text, f
 from meshforge.formats.mjcf.model import MjcfModel, read_mechanism
 from meshforge.formats.mjcf.reduce import reduce_model
 from meshforge.formats.mjcf.references import AssetFolders, find_files
-from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface, rotation_of
+from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
-from meshforge.geometry import Floats, Polytope
+from meshforge.geometry import Polytope, rotation_of_quaternion
 from meshforge.symbolic import Asset, Body
 
 if TYPE_CHECKING:
     import mujoco
-
 
 _LEVELS = 3  # folders above a fragment in which a file that includes it may lie
 _MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
@@ -89,10 +88,8 @@ def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str
     notes = [f"{refusal}; read for its collision geometry only"] if refusal else []
     notes += [f"MuJoCo refuses this file: {fault}" for fault in tree.faults]
     notes += [f"MuJoCo warns: {warning}" for warning in made.warnings]
-    if made.model.nflex:
-        notes.append(
-            f"{pluralize(int(made.model.nflex), 'flexible body', 'flexible bodies')}: no hulls, left as authored"
-        )
+    if flexible := int(made.model.nflex):
+        notes.append(f"{pluralize(flexible, 'flexible body', 'flexible bodies')}: no hulls, left as authored")
     return tuple(notes)
 
 
@@ -114,12 +111,10 @@ def _refuse_fragment(path: Path, root: Element) -> None:
         return
     homes = _find_models(path)
     if homes or tag == "mujocoinclude":
-        remedy = (
-            f"Open {join_names([str(home) for home in homes], 3)}, which "
-            f"{'includes' if len(homes) == 1 else 'include'} it."
-            if homes
-            else f"Open the file that includes it; none was found in its folder or the {_LEVELS} above."
-        )
+        remedy = f"Open the file that includes it; none was found in its folder or the {_LEVELS} above."
+        if homes:
+            verb = "includes" if len(homes) == 1 else "include"
+            remedy = f"Open {join_names([str(home) for home in homes], 3)}, which {verb} it."
         raise AssetError(f"is a part of a model, to be included by another file: <{tag}>", where=where, remedy=remedy)
     problem = f"is no MJCF: its root element is <{tag}>, not <mujoco>"
     raise AssetError(problem, where=where, remedy="It is a URDF: name it .urdf." if tag == "robot" else None)
@@ -162,8 +157,8 @@ def refuse_excess(tree: MjcfTree) -> None:
             copies += times
         if copies > _MOST_COPIES:
             raise AssetError(f"<replicate> makes more than {_MOST_COPIES:,} elements", where=tree.where(node))
-        if told := _describe_excess(node):
-            raise AssetError(f"this <{node.tag}> is too large to be made: {told}", where=tree.where(node))
+        if excess := _describe_excess(node):
+            raise AssetError(f"this <{node.tag}> is too large to be made: {excess}", where=tree.where(node))
         waiting.extend((child, times) for child in node.children)
 
 
@@ -204,7 +199,7 @@ class _Visuals:
     """The visuals of the geoms of one model."""
 
     def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
-        import mujoco
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
@@ -213,7 +208,7 @@ class _Visuals:
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 
     def of(self, k: int) -> Visual | None:
-        """What a geom shows, None where it is not to be seen; height fields and planes are opaque pieces already."""
+        """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
         model, body, pose = self.model, self.reading.body_of[k], self.reading.geom_poses[k]
         rgba, mesh = self._rgba(k), int(model.geom_dataid[k])
         is_mesh = mesh >= 0 and model.geom_type[k] != self.field
@@ -225,9 +220,9 @@ class _Visuals:
             return None
         if path := self._find_file(mesh):
             placed = pose @ mesh_frame(model, mesh).inverse()
-            refpos, refquat = self._reference(mesh)
-            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of(refquat).T
-            return Visual(body, path, linear, placed.translation - linear @ refpos, rgba)
+            first = self.meshes[mesh]  # its reference pose, by which its vertices are moved first of all
+            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
+            return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
         surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
         return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
 
@@ -244,7 +239,3 @@ class _Visuals:
             return None
         path = self.folders.find(self.reading.tree, node)
         return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None
-
-    def _reference(self, mesh: int) -> tuple[Floats, Floats]:
-        """The reference position (3,) and quaternion (4,) of a mesh, by which its vertices are moved first of all."""
-        return np.asarray(self.meshes[mesh].refpos), np.asarray(self.meshes[mesh].refquat)

@@ -26,7 +26,6 @@ from meshforge.formats.references import Resolver
 if TYPE_CHECKING:
     import mujoco
 
-
 _ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
 _NEEDED = {
     "mujoco": "model",
@@ -55,7 +54,6 @@ _NEEDED = {
 _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
 _FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
 _LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
-
 _FREE = ("freejoint", "joint")
 
 
@@ -78,13 +76,13 @@ class _Attempt:
     """How much is left out: all visual meshes or only missing ones; what stands for the authored masses."""
 
     all_visuals: bool
-    masses: Literal["said", "fixed", "none"]
+    masses: Literal["authored", "fixed", "none"]
 
     def keep(self, node: MjcfNode) -> Mapping[str, str] | None:
         """The attributes of an element that are needed, None where the element is not."""
         if node.tag in _WHOLE:
             return node.attributes
-        if node.tag == "inertial" and self.masses != "said":
+        if node.tag == "inertial" and self.masses != "authored":
             return _FIXED if self.masses == "fixed" else None
         if node.tag not in _NEEDED:
             return None
@@ -92,7 +90,7 @@ class _Attempt:
         return {name: value for name, value in node.attributes.items() if name in kept}
 
 
-_ATTEMPTS = (_Attempt(False, "said"), _Attempt(True, "said"))
+_ATTEMPTS = (_Attempt(False, "authored"), _Attempt(True, "authored"))
 
 
 def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> PartialModel:
@@ -125,7 +123,8 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
         weighing = [geom.id for geom in made.geoms if infos.get(geom.info)]
         return PartialModel(flat, made, stand_ins, frozenset(made.model.geom_bodyid[weighing].tolist()))
     if last.message != refusal.message:
-        refusal = AssetError(refusal.problem, where=refusal.where, remedy=f"Mended, it would meet: {last.message}")
+        remedy = f"Once that is fixed, the next problem is: {last.message}"
+        refusal = AssetError(refusal.problem, where=refusal.where, remedy=remedy)
     raise refusal
 
 
@@ -140,10 +139,10 @@ def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None
     if geoms:
         first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
         mesh = lost[first.meshname]
-        told = f"collision geom {first.name!r}" if first.name else "a collision geom"
+        called = f"collision geom {first.name!r}" if first.name else "a collision geom"
         others = f" (and {len(meshes) - 1} more like it)" if len(meshes) > 1 else ""
         raise AssetError(
-            f"the mesh {mesh.attributes['file']!r} of {told} of body {first.parent.name!r} is not there{others}",
+            f"the mesh {mesh.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
             where=tree.where(mesh),
             remedy=Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
         )
@@ -184,7 +183,7 @@ def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_vi
 
     Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
-    import mujoco
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
 
     lost = _find_missing_meshes(tree, flat, spec)
     infos = {}
@@ -238,7 +237,7 @@ def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
 
 def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     """A whole reading with masses before they are scaled to a total, and free bodies in their authored frames."""
-    if not any(_mass_settings(tree)):
+    if not any(map(_scales_masses, tree.root.walk())):
         return reading
     flat = flatten(tree)
     spec = parse_text(tree, flat)
@@ -246,13 +245,11 @@ def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     spec.compiler.alignfree = False
     for joint in spec.joints:
         joint.align = 0
-    made: EngineModel = compile_spec(tree, flat, spec)
-    return MjcfModel(tree, flat, made)
+    return MjcfModel(tree, flat, compile_spec(tree, flat, spec))
 
 
-def _mass_settings(tree: MjcfTree) -> list[bool]:
-    return [
-        (node.tag == "compiler" and ("settotalmass" in node.attributes or "alignfree" in node.attributes))
-        or (node.tag in _FREE and "align" in node.attributes)
-        for node in tree.root.walk()
-    ]
+def _scales_masses(node: MjcfNode) -> bool:
+    """Whether an element changes masses or the frames of free bodies."""
+    if node.tag == "compiler":
+        return bool({"settotalmass", "alignfree"} & node.attributes.keys())
+    return node.tag in _FREE and "align" in node.attributes

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, MeshForgeError, is_file, relative_name
-from meshforge.formats.companions import find_companions
+from meshforge.common import MeshForgeError, is_file, relative_name
+from meshforge.formats.companions import add_copy, find_companions, note_absolute
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.symbolic import Asset
@@ -40,10 +40,10 @@ class AssetFolders:
     def of(tree: MjcfTree) -> AssetFolders:
         mesh = texture = strip = ""
         for compiler in tree.root.each("compiler"):
-            said = compiler.attributes
-            mesh, texture = said.get("assetdir", mesh), said.get("assetdir", texture)
-            mesh, texture = said.get("meshdir", mesh), said.get("texturedir", texture)
-            strip = said.get("strippath", strip)
+            attributes = compiler.attributes
+            mesh, texture = attributes.get("assetdir", mesh), attributes.get("assetdir", texture)
+            mesh, texture = attributes.get("meshdir", mesh), attributes.get("texturedir", texture)
+            strip = attributes.get("strippath", strip)
         return AssetFolders(tree.main.path.parent, mesh, texture, strip == "true")
 
     def find(self, tree: MjcfTree, node: MjcfNode, attribute: str = "file") -> Path:
@@ -168,9 +168,9 @@ def output_places(tree: MjcfTree) -> list[str | None]:
     found: list[str | None] = [tree.main.path.name]
     main = tree.main.path.parent
     for source in tree.sources[1:]:
-        said = posixpath.normpath(source.reference.replace("\\", "/"))
-        from_main = Path(os.path.normpath(main / said)) == source.path
-        found.append(None if source.place is None else said if from_main else source.place)
+        place = posixpath.normpath(source.reference.replace("\\", "/"))
+        from_main = Path(os.path.normpath(main / place)) == source.path
+        found.append(None if source.place is None else place if from_main else source.place)
     return found
 
 
@@ -185,19 +185,14 @@ def list_copies(asset: Asset, tree: MjcfTree) -> tuple[dict[str, Path], list[str
         if place is None:
             far[path] = reference
             far |= dict.fromkeys(find_companions(path).values(), "")
-        elif found.setdefault(place, path) != path:
-            raise AssetError(
-                f"{found[place]} and {path} would both become {place!r}", where=str(path), remedy="Rename one of them."
-            )
         else:
-            for key, companion in find_companions(path).items():
-                found.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
+            add_copy(found, place, path)
     known = {*found.values(), *far, *(source.path for source in tree.sources)}
     for path in asset.files:  # those of sub-models and plugins
         if path not in known:
             found.setdefault(relative_name(path, tree.main.path.parent), path)
-    absolute = dict.fromkeys(said for said in far.values() if said)
-    return found, [f"{said!r} is an absolute reference: the file is used where it is, not copied" for said in absolute]
+    absolute = dict.fromkeys(reference for reference in far.values() if reference)
+    return found, [note_absolute(reference) for reference in absolute]
 
 
 def top_folder(document: MjcfDocument) -> Path:
@@ -229,7 +224,7 @@ def _locate_references(tree: MjcfTree) -> Iterator[tuple[str | None, Path, str]]
 def _absolute_references(path: Path) -> Iterator[tuple[str | None, Path, str]]:
     """The absolute references in a sub-model."""
     try:
-        yield from (said for said in _locate_references(read_tree(path)) if said[0] is None)
+        yield from (found for found in _locate_references(read_tree(path)) if found[0] is None)
     except MeshForgeError:  # of another format than MJCF
         return
 

@@ -8,7 +8,19 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Shape, Sphere, convex_hull
+from meshforge.geometry import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Floats,
+    Polytope,
+    Pose,
+    Shape,
+    Sphere,
+    convex_hull,
+    rotation_of_quaternion,
+)
 from meshforge.symbolic import Surface
 
 if TYPE_CHECKING:
@@ -24,7 +36,7 @@ class MjcfShapes:
 
     def part_of(self, geom: int, pose: Pose) -> CollisionPiece:
         """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
-        import mujoco
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         kinds = mujoco.mjtGeom
         kind = kinds(int(self.model.geom_type[geom]))
@@ -44,7 +56,7 @@ class MjcfShapes:
 
     def primitive_of(self, geom: int, pose: Pose) -> Shape | None:
         """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
-        import mujoco
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
 
         kinds = mujoco.mjtGeom
         size = self.model.geom_size[geom].astype(np.float64)
@@ -119,7 +131,7 @@ def body_poses(model: mujoco.MjModel) -> list[Pose]:
     """root_T_body of all bodies. In the reference configuration no joint displaces anything, so poses only chain."""
     poses = [Pose.identity()]
     for k in range(1, model.nbody):
-        parent_t_body = Pose(rotation_of(model.body_quat[k]), model.body_pos[k])
+        parent_t_body = Pose(rotation_of_quaternion(model.body_quat[k]), model.body_pos[k])
         poses.append(poses[int(model.body_parentid[k])] @ parent_t_body)
     return poses
 
@@ -127,23 +139,11 @@ def body_poses(model: mujoco.MjModel) -> list[Pose]:
 def geom_poses(model: mujoco.MjModel, bodies: list[Pose]) -> list[Pose]:
     """root_T_geom of all geoms; of a mesh, the frame in which MuJoCo keeps its vertices, at its principal axes."""
     return [
-        bodies[int(model.geom_bodyid[k])] @ Pose(rotation_of(model.geom_quat[k]), model.geom_pos[k])
+        bodies[int(model.geom_bodyid[k])] @ Pose(rotation_of_quaternion(model.geom_quat[k]), model.geom_pos[k])
         for k in range(model.ngeom)
     ]
 
 
 def mesh_frame(model: mujoco.MjModel, mesh: int) -> Pose:
     """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
-    return Pose(rotation_of(model.mesh_quat[mesh]), model.mesh_pos[mesh])
-
-
-def rotation_of(quaternion: Floats) -> Floats:
-    """The rotation (3, 3) of a quaternion w x y z of any length."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return Pose(rotation_of_quaternion(model.mesh_quat[mesh]), model.mesh_pos[mesh])

@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import (
+    LIGHT_INERTIAL,
     JointRules,
     KinematicChain,
     LinkJoint,
@@ -16,7 +17,7 @@ from meshforge.formats.kinematic_tree import (
     claim_name,
     drop_rounding,
 )
-from meshforge.formats.mesh_output import HullFiles, LinkVisual, VisualFiles
+from meshforge.formats.mesh_output import HullFiles, VisualFiles
 from meshforge.formats.sdf.document import CONFIG
 from meshforge.formats.sdf.edit import SdfElementMaker
 from meshforge.formats.sdf.elements import (
@@ -34,26 +35,25 @@ from meshforge.formats.sdf.elements import (
 )
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.formats.slots import Slot, assign_names, name_attribute_of
-from meshforge.formats.urdf.elements import LIGHT_INERTIAL
-from meshforge.formats.visuals import visuals_of
+from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.formats.xml import escape
 from meshforge.geometry import Pose, Shape
-from meshforge.symbolic import Asset, FeatureKind, JointKind, Opaque
-
-_VERSION = (1, 8)
-_KINDS: tuple[JointKind, ...] = ("fixed", "revolute", "prismatic", "ball", "floating")
-_LEAD = 3 * STEP
-_MAIN = "model.sdf"
+from meshforge.symbolic import Asset, FeatureKind, Opaque
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".gltf")
 """The mesh files that Gazebo reads."""
+
+_VERSION = (1, 8)
+_RULES = JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+_LEAD = 3 * STEP
+_MAIN = "model.sdf"
 
 
 def create_sdf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
-    become native shapes or mesh files, opaque pieces meshes as they are. `model.sdf` gets a `model.config` beside it.
+    become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.
     """
     return _Creator(asset, name).build_output()
 
@@ -68,34 +68,32 @@ class _Creator:
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
         self.renamed: dict[str, str] = {}
-        shown = visuals_of(asset)
-        self.visuals.gather(shown)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
+        visuals = visuals_of(asset)
+        self.visuals.gather(visuals)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
-        self.chain: KinematicChain = build_chain(asset, bare, JointRules(_KINDS, world=True))
+        self.chain: KinematicChain = build_chain(asset, bare, _RULES)
         self.links = self._link_names(bare)
         self.slots = self._build_slots()
-        self.shown = {link: self._build_visuals(link) for link in self.links}
+        self.visual_lines = {link: self._build_visuals(link) for link in self.links}
 
     def build_output(self) -> Output:
-        settled = assign_names([slot for own in self.slots.values() for slot in own])
-        names = {was: settled.pop(name, name) for was, name in self.renamed.items()} | settled
+        others = assign_names([slot for own in self.slots.values() for slot in own])
+        names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
         inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
-            still = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
-            inside += joint_lines(still, WORLD, self.links[WORLD])
+            fixed = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
+            inside += joint_lines(fixed, WORLD, self.links[WORLD])
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
         model = nest_with_name("model", self.model, *inside)
         head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
         main = b"\n".join([*head, *(STEP + line for line in model), b"</sdf>", b""])
-        if self.visuals.refused:
-            refused = tuple(dict.fromkeys(self.visuals.refused))
-            self.lost.append(Loss(FeatureKind.VISUALS, refused, "their files cannot be read"))
+        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
             made[CONFIG] = self._config_text()
-        return Output(main, made, self.visuals.copies, self._collect_notes(), names, (*self.chain.lost, *self.lost))
+        return Output(main, made, self.visuals.copies, self._collect_notes(), names, lost)
 
     def _link_names(self, bare: set[str]) -> dict[str, str]:
         """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
@@ -127,7 +125,7 @@ class _Creator:
             slot.body, slot.names = link, names
 
     def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
-        """The collision of an opaque piece; none where it has no surface."""
+        """The collision of a non-convex piece; none where it has no surface."""
         surface, link_t_root = piece.surface, root_t_link.inverse()
         if piece.plane is not None:
             plane = link_t_root @ piece.plane
@@ -147,17 +145,17 @@ class _Creator:
         count = 0
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:
-                shown = self.visuals.add_visual(body, visual, self.chain.frames[link])
-                if shown is not None:
-                    lines += visual_lines(f"visual{count}", shown, self._add_mesh(body, shown))
+                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
+                if placed is not None:
+                    lines += visual_lines(f"visual{count}", placed, self._add_mesh(body, placed.what))
                     count += 1
         return lines
 
-    def _add_mesh(self, body: str, shown: LinkVisual) -> str | None:
-        """The file of a shown shape that SDF lacks."""
-        if isinstance(shown.what, str | SdfShape) or not isinstance(shown.what, Shape):
+    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
+        """The file of a visual shape that SDF lacks."""
+        if isinstance(shape, str | SdfShape):
             return None
-        return self.maker.files.add(f"{body}-visual", "", shown.what.vertices, shown.what.faces)
+        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
 
     def _link_lines(self, link: str) -> list[bytes]:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
@@ -166,7 +164,7 @@ class _Creator:
         pose = Pose(frame.rotation, drop_rounding(frame.translation))
         inside = [pose_leaf(pose)]
         inside += inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
-        inside += self.shown[link]
+        inside += self.visual_lines[link]
         inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.to_bytes(b"").split(b"\n")]
         return nest_with_name("link", self.links[link], *inside)
 
@@ -186,7 +184,7 @@ class _Creator:
         return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
 
     def _collect_notes(self) -> tuple[str, ...]:
-        """What Gazebo makes of what is not told in the file."""
+        """What Gazebo makes of what the file does not say."""
         notes = list(self.chain.notes) + self.maker.notes
         renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
         if renamed:

@@ -21,7 +21,7 @@ OLDEST: Version = (1, 2)
 """The first with elements as they are now; 1.0 had attributes."""
 NEWEST: Version = (1, 12)
 AXIS_IN_JOINT: Version = (1, 5)
-"""From here on the axis of a joint is told in the joint's frame, not in the model's."""
+"""From here on the axis of a joint is given in the joint's frame, not in the model's."""
 RELATIVE_TO: Version = (1, 7)
 """From here on `relative_to` counts; before, `frame` said the same, and few readers took notice of it."""
 ROUND_SHAPES: Version = (1, 8)
@@ -52,7 +52,7 @@ _MOST_SCRIPTS = 1000  # files of one folder of material scripts
 
 
 def parse_version(text: str) -> Version | None:
-    """The version that a text tells, None where it tells none."""
+    """The version in a text, None where there is none."""
     found = _VERSION_TEXT.fullmatch(text)
     return (int(found[1]), int(found[2])) if found else None
 
@@ -204,14 +204,14 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
     if root.tag not in ("sdf", "gazebo"):
         remedy = "It is a URDF: name it .urdf, or convert it first." if root.tag == "robot" else None
         raise AssetError(f"is no SDF: its root element is <{root.tag}>, not <sdf>", where=place, remedy=remedy)
-    told = root.attributes.get("version", "")
-    version = parse_version(told)
+    text = root.attributes.get("version", "")
+    version = parse_version(text)
     if version is None:
-        problem = f"version={told!r} of this <sdf> is no version" if told else "this <sdf> tells no version"
+        problem = f"version={text!r} of this <sdf> is no version" if text else "this <sdf> has no version"
         raise AssetError(problem, where=place, remedy='Give it one, as in <sdf version="1.7">.')
     if not version >= OLDEST or version[0] != NEWEST[0]:
         known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
-        raise AssetError(f"SDF {told} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
+        raise AssetError(f"SDF {text} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
     return root, version
 
 
@@ -234,33 +234,23 @@ def references(root: Element) -> list[str]:
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
 
 
-def script_folders(root: Element) -> list[str]:
-    """The references of material scripts: folders, or files."""
-    scripts = (element for element in root.walk() if element.tag == "script")
-    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
-    return [text for text in found if text and not text.startswith(_BUILT_IN)]
-
-
 def _iterate_references(root: Element) -> Iterator[str]:
     for element in root.walk():
         if element.tag == "mesh":
             yield mesh_uri(element)
         elif element.tag in ("heightmap", "image"):
-            yield uri_of(element)
+            uri = element.first("uri")
+            yield uri.text if uri else ""
         elif element.tag in _MAPS and parse_numbers(element.text) is None:  # <diffuse> is a colour, too
             yield element.text
 
 
-def uri_of(element: Element) -> str:
-    """The `<uri>` of a height map or an image."""
-    uri = element.first("uri")
-    return uri.text if uri else ""
-
-
 def find_scripts(source: SdfSource) -> Iterator[tuple[str, Path]]:
-    """The files of material scripts: how a file refers to each, and where it is."""
+    """The files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
     root, _ = parse_root(source.text.data, str(source.path))
-    for reference in script_folders(root):
+    scripts = (element for element in root.walk() if element.tag == "script")
+    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
+    for reference in (text for text in found if text and not text.startswith(_BUILT_IN)):
         if (path := source.resolver.find(reference)) is not None:
             yield reference, path
             continue

@@ -11,7 +11,7 @@ from pathlib import Path
 from meshforge.common import AssetError, join_names, nearest_name, pluralize
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.collision_meshes import SourceMeshes
-from meshforge.formats.companions import find_companions
+from meshforge.formats.companions import add_copy, note_absolute
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.sdf.document import (
@@ -40,6 +40,8 @@ from meshforge.formats.slots import ElementPlan, Slot, assign_names, name_attrib
 from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, indent_of, newline_of
 from meshforge.geometry import Capsule, Ellipsoid, Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom
+
+_REMEDY = "Rename one of them, or put both under one folder."
 
 
 def write_sdf(asset: Asset, document: SdfDocument, name: str, mass: Mass) -> Output:
@@ -146,7 +148,7 @@ def _first_mesh_folder(root: Element, files: HullFiles) -> str:
 class SdfElementMaker:
     """Makes elements for one file; folder: a reference's folder for hulls whose parent has no mesh.
 
-    meshes: the files that the document refers to, where one may have to be parted.
+    meshes: the files that the document refers to, where one may have to be split.
     """
 
     data: bytes
@@ -218,7 +220,7 @@ def keep_masses(asset: Asset, document: SdfDocument, plan: ElementPlan) -> list[
             raise AssetError(
                 f"Gazebo computes the mass of link {body!r} of collisions that are not all hulls: it is not known here",
                 where=str(asset.path),
-                remedy="Leave it to the new collisions (--mass recompute), or tell it in the file.",
+                remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
             )
         lead = indent_of(plan.maker.data, element.start) or b""
         lines = inertial_lines(known[body], asset.body_poses[body])
@@ -228,7 +230,7 @@ def keep_masses(asset: Asset, document: SdfDocument, plan: ElementPlan) -> list[
 
 def list_copies(sources: Sequence[SdfSource], texts: Sequence[bytes], name: str) -> tuple[dict[str, Path], list[str]]:
     """The files, and notes on those that stay where they are; texts: of the sources as they are written; name: of the
-    main one, whose `model.config` goes along where that tells of a file of that name.
+    main one, whose `model.config` goes along where that names a file of that name.
 
     Raises AssetError where two of them would become one.
     """
@@ -236,21 +238,18 @@ def list_copies(sources: Sequence[SdfSource], texts: Sequence[bytes], name: str)
     notes = []
     for number, (source, text) in enumerate(zip(sources, texts, strict=True)):
         if source.place is None:
-            notes.append(f"{source.reference!r} is an absolute reference: the file is used where it is, not copied")
+            notes.append(note_absolute(source.reference))
             continue
         folder = posixpath.dirname(source.place)
         config = source.path.parent / CONFIG
         if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
-            _add_copy(copies, posixpath.join(folder, CONFIG), config)
+            add_copy(copies, posixpath.join(folder, CONFIG), config, _REMEDY)
         for reference, path in _find_references(source, text):
             place = source.resolver.place(reference)
             if place is None:
-                notes.append(f"{reference!r} is an absolute reference: the file is used where it is, not copied")
-                continue
-            _add_copy(copies, posixpath.normpath(posixpath.join(folder, place)), path)
-            for key, companion in find_companions(path).items():
-                beside = posixpath.join(folder, posixpath.dirname(place), key)
-                copies.setdefault(posixpath.normpath(beside), companion)
+                notes.append(note_absolute(reference))
+            else:
+                add_copy(copies, posixpath.normpath(posixpath.join(folder, place)), path, _REMEDY)
     return copies, notes
 
 
@@ -259,12 +258,3 @@ def _find_references(source: SdfSource, text: bytes) -> list[tuple[str, Path]]:
     root, _ = parse_root(XmlText.of(text).data, str(source.path))
     found = [(reference, source.resolver.find(reference)) for reference in references(root)]
     return [(reference, path) for reference, path in found if path is not None] + list(find_scripts(source))
-
-
-def _add_copy(copies: dict[str, Path], place: str, path: Path) -> None:
-    if copies.setdefault(place, path) != path:
-        raise AssetError(
-            f"{copies[place]} and {path} would both become {place!r}",
-            where=str(path),
-            remedy="Rename one of them, or put both under one folder.",
-        )

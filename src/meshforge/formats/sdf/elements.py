@@ -7,7 +7,7 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding
+from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.sdf.document import geometry_of
 from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, remove_element
@@ -20,12 +20,15 @@ STEP = b"  "
 
 _ENDLESS = (-1e16, 1e16)
 """Limits that stand for none, which PyBullet asks for."""
-_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def leaf(tag: str, text: str) -> bytes:
     """An element that holds a text."""
     return b"<%s>%s</%s>" % (tag.encode(), escape(text), tag.encode())
+
+
+def _number_leaf(tag: str, number: float) -> bytes:
+    return leaf(tag, format_numbers([number]))
 
 
 def nest(tag: str, *inside: bytes) -> list[bytes]:
@@ -46,12 +49,9 @@ def native_lines(shape: SdfShape) -> list[bytes]:
         case Ellipsoid():
             inside = [leaf("radii", format_numbers(shape.radii))]
         case Sphere():
-            inside = [leaf("radius", format_numbers([shape.radius]))]
+            inside = [_number_leaf("radius", shape.radius)]
         case Cylinder() | Capsule():
-            inside = [
-                leaf("radius", format_numbers([shape.radius])),
-                leaf("length", format_numbers([2 * shape.half_length])),
-            ]
+            inside = [_number_leaf("radius", shape.radius), _number_leaf("length", 2 * shape.half_length)]
         case _:
             assert_never(shape)
     return nest(shape.kind, *inside)
@@ -83,7 +83,7 @@ def replace_geometry(data: bytes, collision: Element, pose: Pose, kind: Sequence
 def replace_mesh_file(data: bytes, mesh: Element, reference: str) -> tuple[Splice, ...]:
     """The edits that give a copy of a mesh another file, of the same scale and place, which is used whole."""
     uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
-    assert uri is not None  # only meshes have pieces to be parted
+    assert uri is not None  # only meshes have several pieces
     new = Splice(uri.start, uri.end, leaf(uri.tag, reference))
     return (new, remove_element(data, submesh)) if submesh else (new,)
 
@@ -110,30 +110,22 @@ def joint_lines(made: LinkJoint, parent: str, child: str) -> list[bytes]:
     kind = joint.kind if joint else "fixed"
     inside = [leaf("parent", parent), leaf("child", child)]
     if joint and kind in ("revolute", "prismatic"):
-        limit = [
-            leaf(tag, format_numbers([v])) for tag, v in zip(("lower", "upper"), joint.limits or _ENDLESS, strict=True)
-        ]
-        limit += [leaf("effort", format_numbers([joint.effort]))] if joint.effort else []
-        limit += [leaf("velocity", format_numbers([joint.velocity]))] if joint.velocity else []
-        dynamics = [leaf("damping", format_numbers([joint.damping]))] if joint.damping else []
-        dynamics += [leaf("friction", format_numbers([joint.friction]))] if joint.friction else []
-        axis = [leaf("xyz", format_numbers(drop_rounding(made.axis)))]
-        axis += nest("limit", *limit) if limit else []
-        axis += nest("dynamics", *dynamics) if dynamics else []
-        inside += nest("axis", *axis)
+        lower, upper = joint.limits or _ENDLESS
+        most = (("effort", joint.effort), ("velocity", joint.velocity))
+        losses = (("damping", joint.damping), ("friction", joint.friction))
+        limit = [_number_leaf("lower", lower), _number_leaf("upper", upper)]
+        limit += [_number_leaf(tag, number) for tag, number in most if number]
+        dynamics = [_number_leaf(tag, number) for tag, number in losses if number]
+        axis = [leaf("xyz", format_numbers(drop_rounding(made.axis))), *nest("limit", *limit)]
+        inside += nest("axis", *axis, *(nest("dynamics", *dynamics) if dynamics else []))
     return nest_with_name("joint", made.name, *inside, more=b' type="%s"' % kind.encode())
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """The lines of an `<inertial>`, its axes those of the link."""
-    turn = root_t_link.rotation.T
-    m = drop_rounding(turn @ inertial.inertia @ turn.T)
-    moments = m[0, 0], m[0, 1], m[0, 2], m[1, 1], m[1, 2], m[2, 2]
-    tensor = nest("inertia", *(leaf(name, format_numbers([v])) for name, v in zip(_MOMENTS, moments, strict=True)))
-    centre = turn @ (inertial.centre - root_t_link.translation)
-    return nest(
-        "inertial", pose_leaf(Pose.of_translation(centre)), leaf("mass", format_numbers([inertial.mass])), *tensor
-    )
+    centre, tensor = place_inertial(inertial, root_t_link)
+    moments = nest("inertia", *(_number_leaf(name, value) for name, value in name_moments(tensor)))
+    return nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
 
 
 def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[bytes]:
@@ -149,5 +141,5 @@ def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[b
     if visual.rgba:
         color = format_numbers(visual.rgba)
         inside += nest("material", leaf("ambient", color), leaf("diffuse", color))
-        inside += [leaf("transparency", format_numbers([1 - visual.rgba[3]]))] if visual.rgba[3] < 1 else []
+        inside += [_number_leaf("transparency", 1 - visual.rgba[3])] if visual.rgba[3] < 1 else []
     return nest_with_name("visual", name, *inside)

@@ -3,13 +3,21 @@ visuals."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.base import (
+    BODY_FEATURES,
+    SCENE_FEATURES,
+    Format,
+    Mass,
+    Output,
+    ReadOptions,
+    feature_of,
+    feature_of_tags,
+)
 from meshforge.formats.sdf.create import VISUAL_SUFFIXES, create_sdf
 from meshforge.formats.sdf.document import SdfDocument, is_main_file, parse_root
 from meshforge.formats.sdf.edit import write_sdf
@@ -17,41 +25,6 @@ from meshforge.formats.sdf.frames import is_true
 from meshforge.formats.sdf.read import read_sdf
 from meshforge.formats.xml import Element
 from meshforge.symbolic import Asset, Feature, FeatureKind
-
-HOLDS = frozenset(
-    {
-        FeatureKind.NAMES,
-        FeatureKind.BODIES,
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CYLINDERS,
-        FeatureKind.CAPSULES,
-        FeatureKind.ELLIPSOIDS,
-        FeatureKind.OPAQUE,
-        FeatureKind.PLANES,
-        FeatureKind.JOINTS,
-        FeatureKind.BALL_JOINTS,
-        FeatureKind.FIXED_JOINTS,
-        FeatureKind.SPEEDS,
-        FeatureKind.MASSES,
-        FeatureKind.VISUALS,
-        FeatureKind.COLORS,
-    }
-)
-COULD = frozenset(
-    {
-        FeatureKind.MIMICS,
-        FeatureKind.CONTACT,
-        FeatureKind.DYNAMICS,
-        FeatureKind.SENSORS,
-        FeatureKind.SITES,
-        FeatureKind.CAMERAS,
-        FeatureKind.LIGHTS,
-        FeatureKind.MATERIALS,
-        FeatureKind.TEXTURES,
-        FeatureKind.COMMENTS,
-    }
-)
 
 _ELEMENTS = {
     "sensor": FeatureKind.SENSORS,
@@ -63,7 +36,6 @@ _OTHERS = ("plugin", "gripper", "audio_source", "audio_sink", "battery", "partic
 _SPRINGS = ("spring_stiffness", "spring_reference")
 _MAPS = ("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map", "environment_map")
 _SETTINGS = ("physics", "scene", "gravity", "magnetic_field", "atmosphere", "wind", "spherical_coordinates", "gui")
-_COMMENT = re.compile(rb"<!--")
 
 
 class SdfFormat(Format):
@@ -74,9 +46,14 @@ class SdfFormat(Format):
     is_description: ClassVar[bool] = True
     title: ClassVar[str] = "SDF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
-    holds: ClassVar[frozenset[FeatureKind]] = HOLDS
-    could: ClassVar[frozenset[FeatureKind]] = COULD
-    shown_files: ClassVar[tuple[str, ...]] = VISUAL_SUFFIXES
+    holds = BODY_FEATURES | {
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.OPAQUE, FeatureKind.PLANES),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS),
+    }
+    could = SCENE_FEATURES | {
+        *(FeatureKind.MIMICS, FeatureKind.DYNAMICS, FeatureKind.SENSORS, FeatureKind.SITES, FeatureKind.COMMENTS)
+    }
+    shown_files = VISUAL_SUFFIXES
 
     def is_main(self, path: Path) -> bool:
         return is_main_file(path)
@@ -97,7 +74,7 @@ class SdfFormat(Format):
 
 
 def features_of(document: SdfDocument) -> Iterator[Feature]:
-    """The features of an SDF with what it includes that its asset does not tell."""
+    """The features of an SDF, and of what it includes, that its asset does not have."""
     roots = [parse_root(source.text.data, "")[0] for source in document.sources]
     every = [element for root in roots for element in root.walk()]
     for tag, what in _ELEMENTS.items():
@@ -110,13 +87,11 @@ def features_of(document: SdfDocument) -> Iterator[Feature]:
     yield _feature_of(FeatureKind.MATERIALS, (s for m in every if m.tag == "material" for s in m.each("script")))
     maps = dict.fromkeys(e.text for e in every if e.tag in _MAPS and e.text and e.text != "__default__")
     yield Feature(FeatureKind.TEXTURES, tuple(maps))
-    yield _feature_of_tags(
-        FeatureKind.SETTINGS, [*(_static_models(roots)), *(e.tag for e in every if e.tag in _SETTINGS and e.children)]
-    )
-    yield _feature_of_tags(FeatureKind.OTHERS, [e.tag for e in every if e.tag in _OTHERS])
-    yield Feature(
-        FeatureKind.COMMENTS, unnamed=sum(len(_COMMENT.findall(source.text.data)) for source in document.sources)
-    )
+    static = ["static" for e in every if e.tag == "static" and is_true(e.text)]
+    settings = [e.tag for e in every if e.tag in _SETTINGS and e.children]
+    yield feature_of_tags(FeatureKind.SETTINGS, [*static, *settings])
+    yield feature_of_tags(FeatureKind.OTHERS, (e.tag for e in every if e.tag in _OTHERS))
+    yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.text.data.count(b"<!--") for source in document.sources))
 
 
 def _has_springs(axis: Element) -> bool:
@@ -126,17 +101,5 @@ def _has_springs(axis: Element) -> bool:
     )
 
 
-def _static_models(roots: Iterable[Element]) -> Iterator[str]:
-    """That models are static, once for each."""
-    for root in roots:
-        yield from ("static" for e in root.walk() if e.tag == "static" and is_true(e.text))
-
-
-def _feature_of_tags(what: FeatureKind, tags: list[str]) -> Feature:
-    names = tuple(dict.fromkeys(tags))
-    return Feature(what, names, len(tags) - len(names))
-
-
 def _feature_of(what: FeatureKind, elements: Iterable[Element]) -> Feature:
-    names = [element.attributes.get("name", "") for element in elements]
-    return Feature(what, tuple(name for name in names if name), sum(not name for name in names))
+    return feature_of(what, (element.attributes.get("name", "") for element in elements))

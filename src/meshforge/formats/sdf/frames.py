@@ -11,7 +11,7 @@ from meshforge.common import AssetError, nearest_name
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.sdf.document import Version
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.geometry import Floats, Pose
+from meshforge.geometry import Floats, Pose, rotation_of_quaternion
 
 MODEL = "__model__"
 WORLD = "world"
@@ -42,8 +42,8 @@ class SdfFrame:
 class ModelScope:
     """A model as it stands somewhere, or a world: what is named in it.
 
-    prefix: of the names of its bodies; source: the file it stands in, by its number; merged: whether it is poured into
-    the scope around it; through: of the names that are poured into this one, the scope they come from.
+    prefix: of the names of its bodies; source: the file it stands in, by its number; merged: whether its names are also
+    those of the scope around it; through: of the names that come from merged models, the scope they come from.
     """
 
     prefix: str
@@ -90,11 +90,6 @@ class ModelScope:
             return inner.frame, name, inner
         inside = self.frames[head].inside if tail and head in self.frames else None
         return (self.frames[head], tail, inside) if inside else None
-
-    def merge_names(self, inner: ModelScope) -> None:
-        """Make the names of a merged model known in this scope."""
-        for name in (*inner.frames, *inner.through):
-            self.through.setdefault(name, inner)
 
 
 def _refuse_unknown_name(scope: ModelScope, name: str, where: str) -> tuple[SdfFrame, str, ModelScope]:
@@ -179,8 +174,8 @@ def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...
 def read_values(element: Element, count: int, where: str) -> Floats:
     """The numbers (count,) that an element holds. Raises AssetError with `where:line`."""
     found = parse_numbers(element.text)
-    shown = element.text if len(element.text) <= _LONGEST else f"{element.text[:_LONGEST]}..."
-    given, place = f"<{element.tag}>{shown}</{element.tag}>", f"{where}:{element.line}"
+    text = element.text if len(element.text) <= _LONGEST else f"{element.text[:_LONGEST]}..."
+    given, place = f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}"
     if found is None or len(found) != count:
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
         raise AssetError(f"{given} does not hold {wanted}", where=place)
@@ -216,13 +211,7 @@ def _pose_from_quaternion(element: Element, where: str) -> Pose:
     if not element.text:
         return Pose.identity()
     found = read_values(element, 7, where)
-    length = float(np.linalg.norm(found[3:]))
-    if length == 0:
+    if np.linalg.norm(found[3:]) == 0:
         raise AssetError("the quaternion of this <pose> is zero", where=f"{where}:{element.line}")
-    x, y, z, w = found[3:] / length
-    rotation = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    return Pose(rotation, found[:3])
+    x, y, z, w = found[3:]
+    return Pose(rotation_of_quaternion([w, x, y, z]), found[:3])

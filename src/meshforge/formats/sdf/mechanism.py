@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, pluralize
+from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.sdf.document import AXIS_IN_JOINT
 from meshforge.formats.sdf.frames import WORLD, ModelScope, is_true, read_values, text_of
 from meshforge.formats.sdf.models import ModelTree, SdfLinks, pose_in_link
@@ -28,8 +29,7 @@ _KINDS: dict[str, tuple[JointKind, ...]] = {
 _ENDLESS = 1e15  # limits beyond mean none
 
 _DENSITY = 1000.0  # [kg/m^3], libsdformat's default
-_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_DEFAULTS = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+_UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
 @dataclass(slots=True)
@@ -42,21 +42,20 @@ class SdfJoints:
 
 
 def read_joints(composed: ModelTree, links: SdfLinks) -> SdfJoints:
-    """The joints of all models that make trees of their bodies; those that close rings are told."""
+    """The joints of all models that make trees of their bodies; a note names those that would close rings."""
     found = SdfJoints()
     parents: dict[str, str] = {}
-    passed: list[str] = []
-    taken: list[str] = []
+    unknown: list[str] = []
+    closing: list[str] = []
     for scope in composed.scopes():
         for element in scope.element.each("joint"):
             name = f"{scope.prefix}{element.attributes.get('name', '')}"
             type_ = element.attributes.get("type", "")
-            ends = [_find_body(scope, text_of(element, role), links) for role in ("parent", "child")]
-            parent, child = ends
+            parent, child = (_find_body(scope, text_of(element, role), links) for role in ("parent", "child"))
             if type_ not in _KINDS or parent is None or child is None or child == WORLD or parent == child:
-                passed.append(name)
+                unknown.append(name)
             elif child in parents or _is_below(parents, parent, child):
-                taken.append(name)
+                closing.append(name)
             else:
                 parents[child] = parent
                 found.joints += _read_joint_parts(scope, element, name, parent, child, links)
@@ -64,12 +63,9 @@ def read_joints(composed: ModelTree, links: SdfLinks) -> SdfJoints:
                     found.notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
     if any(joint.parent == WORLD for joint in found.joints):
         found.world = (Body(WORLD, Pose.identity()),)
-    if passed:
-        found.notes.append(f"{pluralize(len(passed), 'joint')} passed over, not understood ({join_names(passed, 3)})")
-    if taken:
-        found.notes.append(
-            f"{pluralize(len(taken), 'joint')} passed over, which would close a ring ({join_names(taken, 3)})"
-        )
+    for why, names in (("not understood", unknown), ("which would close a ring", closing)):
+        if names:
+            found.notes.append(f"{pluralize(len(names), 'joint')} passed over, {why} ({join_names(names, 3)})")
     return found
 
 
@@ -116,7 +112,7 @@ def _find_body(scope: ModelScope, name: str, links: SdfLinks) -> str | None:
 def _read_joint_parts(
     scope: ModelScope, element: Element, name: str, parent: str, child: str, links: SdfLinks
 ) -> Sequence[Joint]:
-    """The joints of a `<joint>`, one after another; its frame is that of the child unless it tells another."""
+    """The joints of a `<joint>`, one after another; its frame is that of the child unless it names another."""
     type_ = element.attributes["type"]
     own, where = element.attributes.get("name", ""), f"{scope.where}:{element.line}"
     try:
@@ -147,7 +143,7 @@ def _read_joint_parts(
 
 
 def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLinks) -> Floats:
-    """The direction of an axis, told in the joint's frame, or in the one that it names."""
+    """The direction (3,) of an axis in the root frame; given in the joint's frame, or the one that it names."""
     xyz = axis.first("xyz") if axis else None
     try:
         direction = unit_vector(read_values(xyz, 3, "")) if xyz else None
@@ -159,8 +155,7 @@ def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLi
         frame = xyz.attributes.get("expressed_in", "") or ("__model__" if in_model else "")
         if frame and scope.has(frame):
             turn = links.places.pose_of(scope, frame, scope.where).rotation
-    told: Floats = turn @ (np.array([0.0, 0.0, 1.0]) if direction is None else direction)
-    return told
+    return np.asarray(turn @ (np.array([0.0, 0.0, 1.0]) if direction is None else direction))
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:
@@ -189,7 +184,7 @@ def has_computed_mass(link: Element) -> bool:
 
 
 def read_masses(links: SdfLinks) -> Iterator[Inertial]:
-    """The masses that the file tells; one that is not understood is left out, it never fails."""
+    """The masses that the file says; one that is not understood is left out, it never fails."""
     for body, link in links.by_body.items():
         element = link.element.first("inertial")
         if element is None or has_computed_mass(link.element):
@@ -202,10 +197,8 @@ def read_masses(links: SdfLinks) -> Iterator[Inertial]:
         except MeshForgeError:
             pose = link.pose
         tensor = element.first("inertia")
-        moments = (_number_or(tensor, name, default) for name, default in zip(_MOMENTS, _DEFAULTS, strict=True))
-        xx, xy, xz, yy, yz, zz = moments
-        tensor_in = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        yield Inertial(body, mass, pose.translation, pose.rotation @ tensor_in @ pose.rotation.T)
+        moments = [_number_or(tensor, name, one) for name, one in zip(TENSOR_NAMES, _UNIT_TENSOR, strict=True)]
+        yield Inertial(body, mass, pose.translation, pose.rotation @ tensor_of_moments(moments) @ pose.rotation.T)
 
 
 def compute_masses(
@@ -227,8 +220,8 @@ def compute_masses(
         if found is None:
             continue
         mass, centre, tensor = found
-        told = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
-        share = told / mass if told > 0 and link.scope.version >= (1, 12) else 1.0
+        whole = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
+        share = whole / mass if whole > 0 and link.scope.version >= (1, 12) else 1.0
         yield Inertial(body, mass * share, centre, tensor * share)
 
 
@@ -244,6 +237,5 @@ def _sum_inertias(parts: Sequence[tuple[Geom, float]]) -> tuple[float, np.ndarra
 
 
 def _number_or(parent: Element | None, tag: str, default: float) -> float:
-    """The number of a child element, the default where there is none that can be read."""
-    found = parse_numbers(text_of(parent, tag))
-    return found[0] if found and len(found) == 1 else default
+    found = _read_number(parent, tag)
+    return default if found is None else found

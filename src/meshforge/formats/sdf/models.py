@@ -121,19 +121,20 @@ class _Composer:
                 self._add_include(scope, child, files)
         around.inner.append(scope)
         if merged:
-            around.merge_names(scope)
+            for known in (*scope.frames, *scope.through):
+                around.through.setdefault(known, scope)
         elif name:
             around.frames.setdefault(name, frame)
 
     def _frame_of(self, around: ModelScope, element: Element, include: Element | None, where: str) -> SdfFrame:
-        """The frame of a model in the scope around it; what an include tells goes before what the model does."""
+        """The frame of a model in the scope around it; what an include says goes before what the model does."""
         placement = element.attributes.get("placement_frame", "")
-        teller = element
+        owner = element
         if include is not None:
             placement = text_of(include, "placement_frame") or placement
             if include.first("pose") is not None:
-                teller, where = include, str(self.sources[around.source].path)
-        at = pose_of(teller, where)
+                owner, where = include, str(self.sources[around.source].path)
+        at = pose_of(owner, where)
         return SdfFrame(around, at.pose, at.base, f"{where}:{at.line}", placement=placement)
 
     def _refuse_too_many(self, around: ModelScope, element: Element, where: str) -> None:
@@ -142,11 +143,8 @@ class _Composer:
         while at.frame is not None:
             depth, at = depth + 1, at.frame.scope
         if self.count > _MOST_MODELS or depth > _DEEPEST:
-            problem = (
-                f"more than {_MOST_MODELS:,} models"
-                if self.count > _MOST_MODELS
-                else f"more than {_DEEPEST} models, one in another"
-            )
+            many = f"{_MOST_MODELS:,} models" if self.count > _MOST_MODELS else f"{_DEEPEST} models, one in another"
+            problem = f"more than {many}"
             raise AssetError(problem, where=f"{where}:{element.line}", remedy="No model is made of so many.")
 
     def _add_include(self, around: ModelScope, include: Element, files: list[Path]) -> None:
@@ -214,9 +212,9 @@ def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:
     if outer.place is None:
         return None
     folder = uri.rstrip("/")
-    for said in (f"{folder}/{path.name}", folder):
-        place = outer.resolver.place(said)
-        if place is not None and outer.resolver.find(said) == path:
+    for reference in (f"{folder}/{path.name}", folder):
+        place = outer.resolver.place(reference)
+        if place is not None and outer.resolver.find(reference) == path:
             return posixpath.normpath(posixpath.join(posixpath.dirname(outer.place), place))
     return None
 

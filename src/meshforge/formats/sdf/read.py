@@ -56,13 +56,13 @@ from meshforge.formats.sdf.shapes import (
     read_submesh,
     select_submesh,
 )
-from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.slots import name_elements
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.symbolic import Asset, Body, Mechanism, Mentions
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
-_HEAD_BYTES = 100_000  # bytes within which a file tells its unit
+_HEAD_BYTES = 100_000  # bytes within which a file says its unit
 
 
 def read_sdf(path: Path, options: ReadOptions) -> Asset:
@@ -77,13 +77,13 @@ def read_sdf(path: Path, options: ReadOptions) -> Asset:
     refuse_missing(use for use in uses if use)
     meshes = CollisionMeshes(select_submesh)
     parts = [read_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
-    authored = _name_elements(links.collisions, [len(own) for own in parts])
-    told = [
+    authored = name_elements(_by_link(links), [len(own) for own in parts])
+    mentions = [
         _collect_mentions(one, meshes.groups(use), own)
         for one, use, own in zip(links.collisions, uses, parts, strict=True)
     ]
-    geoms = geoms_of(authored, parts, told)
-    opaque = opaque_of(authored, parts, told)
+    geoms = geoms_of(authored, parts, mentions)
+    opaque = opaque_of(authored, parts, mentions)
     joints = read_joints(composed, links)
     elements = {name: one.element for one, own in zip(links.collisions, authored, strict=True) for name in own.names}
     masses = (*read_masses(links), *compute_masses(links, elements, geoms, opaque))
@@ -117,18 +117,15 @@ def _build_document(
     )
 
 
-def _name_elements(found: Sequence[SdfCollision], pieces: Sequence[int]) -> tuple[CollisionElement, ...]:
-    """The collisions with the names of their pieces, of which each has so many."""
-    own = [(one.link.body, one.element.attributes.get("name"), count) for one, count in zip(found, pieces, strict=True)]
-    return tuple(
-        CollisionElement(body, names) for (body, _, _), names in zip(own, name_element_pieces(own), strict=True)
-    )
+def _by_link(links: SdfLinks) -> list[tuple[str, Element]]:
+    """The collisions with the names of their links."""
+    return [(one.link.body, one.element) for one in links.collisions]
 
 
 def _mesh_uses(links: SdfLinks, composed: ModelTree) -> list[MeshUse | None]:
     """The mesh file of each collision, None where it has another geometry or none."""
     uses: list[MeshUse | None] = []
-    labels = _name_elements(links.collisions, [1] * len(links.collisions))
+    labels = name_elements(_by_link(links), [1] * len(links.collisions))
     for one, named in zip(links.collisions, labels, strict=True):
         kind = geometry_of(one.element)
         if kind is None or kind.tag != "mesh":
@@ -161,7 +158,7 @@ def read_visuals(links: SdfLinks, composed: ModelTree) -> VisualSurfaces:
 
 
 def _read_color(visual: Element) -> Rgba | None:
-    """The diffuse colour that a visual tells, as transparent as it says."""
+    """The diffuse colour of a visual, as transparent as it says."""
     found = parse_numbers(text_of(visual.first("material"), "diffuse"))
     if not found or len(found) not in (3, 4):
         return None
@@ -212,7 +209,7 @@ def mentions_of_element(link: Element, collision: Element) -> Mentions:
 
 
 def _names_of(element: Element) -> ShapeNames | None:
-    """The names of a collision or visual element; of a collision its own is not told, which its hulls have."""
+    """The names of a collision or visual element; of a collision without its own, which its hulls have."""
     kind = geometry_of(element)
     if kind is None:
         return None
@@ -225,48 +222,22 @@ def _names_of(element: Element) -> ShapeNames | None:
     return ShapeNames(shape, name, stem_of(reference), text_of(script, "name"))
 
 
-def collect_notes(composed: ModelTree, links: SdfLinks) -> tuple[str, ...]:
+def collect_notes(composed: ModelTree, links: SdfLinks) -> Iterator[str]:
     """Notes on worlds, older versions of a model, collisions without a shape, and what is decomposed when loaded."""
-    return (
-        *_note_worlds(composed),
-        *_note_newer_version(composed),
-        *_note_older_file(composed),
-        *_note_actors(composed),
-        *_note_shapes(links),
-    )
-
-
-def _note_worlds(composed: ModelTree) -> Iterator[str]:
+    root, path = composed.root, composed.sources[0].path
     if composed.worlds:
-        yield f"it is a world of {pluralize(len(composed.root.inner), 'model')}, which is only read"
-
-
-def _note_newer_version(composed: ModelTree) -> Iterator[str]:
-    if composed.root.version > NEWEST:
-        told, known = (".".join(map(str, version)) for version in (composed.root.version, NEWEST))
-        yield f"SDF {told} is newer than {known}: what is new in it is not understood"
-
-
-def _note_older_file(composed: ModelTree) -> Iterator[str]:
-    """A note where the folder's `model.config` names another file for newer versions."""
-    path = composed.sources[0].path
-    newest = None if is_main_file(path) else find_main_file(path.parent)
-    if newest is not None:
+        yield f"it is a world of {pluralize(len(root.inner), 'model')}, which is only read"
+    if root.version > NEWEST:
+        own, known = (".".join(map(str, version)) for version in (root.version, NEWEST))
+        yield f"SDF {own} is newer than {known}: what is new in it is not understood"
+    if not is_main_file(path) and (newest := find_main_file(path.parent)) is not None:
         yield f"{CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
-
-
-def _note_actors(composed: ModelTree) -> Iterator[str]:
-    lines = [e.line for e in composed.root.element.each("actor")]
-    if lines:
-        yield f"{pluralize(len(lines), 'actor')}, the first on line {lines[0]}: passed over"
-
-
-def _note_shapes(links: SdfLinks) -> Iterator[str]:
-    bare = [f"line {c.element.line}" for c in links.collisions if geometry_of(c.element) is None]
-    if bare:
+    if actors := [actor.line for actor in root.element.each("actor")]:
+        yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
+    kinds = [(collision.element.line, geometry_of(collision.element)) for collision in links.collisions]
+    if bare := [f"line {line}" for line, kind in kinds if kind is None]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
-    kinds = [geometry_of(collision.element) for collision in links.collisions]
-    cut = [k for k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
+    cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
     if cut:
         yield f"{pluralize(len(cut), 'mesh', 'meshes')} to be decomposed by Gazebo when loaded, shown as authored"
 

@@ -1,4 +1,4 @@
-"""The `<geometry>` of collisions and visuals as convex shapes and opaque pieces in the root frame."""
+"""The `<geometry>` of collisions and visuals as convex shapes and non-convex pieces in the root frame."""
 
 from __future__ import annotations
 

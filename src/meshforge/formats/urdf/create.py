@@ -9,12 +9,11 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.kinematic_tree import JointRules, KinematicChain, build_chain
+from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules, KinematicChain, build_chain
 from meshforge.formats.mesh_output import HullFiles, VisualFiles
 from meshforge.formats.slots import Slot, assign_names
 from meshforge.formats.urdf.edit import UrdfElementMaker
 from meshforge.formats.urdf.elements import (
-    LIGHT_INERTIAL,
     UNLIMITED_TRAVEL,
     build_collision,
     inertial_lines,
@@ -22,23 +21,23 @@ from meshforge.formats.urdf.elements import (
     mesh_tag,
     visual_lines,
 )
-from meshforge.formats.visuals import visuals_of
+from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.formats.xml import escape
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, FeatureKind, Opaque
 
-_LEAD = b"    "
-_RULES = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
-
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
+
+_LEAD = b"    "
+_RULES = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
-    become native shapes or mesh files, opaque pieces meshes as they are.
+    become native shapes or mesh files, non-convex pieces meshes as they are.
     """
     return _Creator(asset, Path(name).stem).build_output()
 
@@ -50,13 +49,13 @@ class _Creator:
         self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in VISUAL_SUFFIXES)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
-        shown = visuals_of(asset)
-        self.visuals.gather(shown)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
+        visuals = visuals_of(asset)
+        self.visuals.gather(visuals)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
         self.chain: KinematicChain = build_chain(asset, bare, _RULES)
         self.slots = self._build_slots()
-        self.shown = {link: self._build_visuals(link) for link in self.chain.frames}
+        self.visual_lines = {link: self._build_visuals(link) for link in self.chain.frames}
 
     def build_output(self) -> Output:
         names = assign_names([slot for own in self.slots.values() for slot in own])
@@ -64,10 +63,7 @@ class _Creator:
         links = [line for link in self.chain.frames for line in self._link_lines(link)]
         joints = [line for joint in self.chain.joints for line in joint_lines(joint)]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
-        if self.visuals.refused:
-            refused = tuple(dict.fromkeys(self.visuals.refused))
-            self.lost.append(Loss(FeatureKind.VISUALS, refused, "their files cannot be read"))
-        lost = (*self.chain.lost, *self.lost)
+        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
         return Output(main, dict(self.maker.files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
     def _build_slots(self) -> dict[str, list[Slot]]:
@@ -81,7 +77,7 @@ class _Creator:
         return slots
 
     def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
-        """The element of an opaque piece; none where it has no surface, or a flat one, which engines refuse."""
+        """The element of a non-convex piece; none where it has no surface, or a flat one, which engines refuse."""
         surface = piece.surface
         if surface is None or piece.plane is not None:
             return []
@@ -96,13 +92,13 @@ class _Creator:
         lines = []
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:
-                shown = self.visuals.add_visual(body, visual, self.chain.frames[link])
-                if shown is not None:
-                    lines += visual_lines(shown, self._add_mesh(body, shown.what))
+                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
+                if placed is not None:
+                    lines += visual_lines(placed, self._add_mesh(body, placed.what))
         return lines
 
     def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
-        """The file of a shown shape that URDF lacks."""
+        """The file of a visual shape that URDF lacks."""
         if isinstance(shape, str | Box | Cylinder | Sphere):
             return None
         return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
@@ -112,41 +108,32 @@ class _Creator:
         inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
         frame = self.chain.frames[link] if body else Pose.identity()
         inside = inertial_lines(inertial, frame) if inertial else []
-        inside += [*self.shown[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
+        inside += [*self.visual_lines[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
         if not inside:
             return [b'  <link name="%s"/>' % escape(link)]
         return [b'  <link name="%s">' % escape(link), *inside, b"  </link>"]
 
     def _collect_notes(self) -> tuple[str, ...]:
-        """What engines make of what is not told in the file."""
+        """What engines make of what the file does not say."""
         notes = list(self.chain.notes)
-        opaque = [
-            name for slots in self.slots.values() for slot in slots for name in slot.names if self._is_opaque(name)
-        ]
+        pieces = {piece.name for piece in self.asset.opaque}
+        opaque = [name for own in self.slots.values() for slot in own for name in slot.names if name in pieces]
         if opaque:
-            notes.append(f"of opaque pieces ({join_names(opaque, 3)}) engines take the convex hull")
-        unlimited = [
-            j.name for j in self.chain.joints if j.joint and j.joint.kind == "prismatic" and not j.joint.limits
-        ]
+            notes.append(f"of non-convex pieces ({join_names(opaque, 3)}) engines take the convex hull")
+        sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
+        unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:
             notes.append(
-                f"prismatic joints without limits ({join_names(unlimited, 3)}) are limited to "
-                f"{UNLIMITED_TRAVEL:g} m each way"
+                f"prismatic joints without limits ({unlimited}) are limited to {UNLIMITED_TRAVEL:g} m each way"
             )
         if self.chain.light:
-            notes.append(
-                f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body "
-                f"({join_names(self.chain.light, 3)})"
-            )
+            light = join_names(self.chain.light, 3)
+            notes.append(f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({light})")
         heavy = {*self.inertials, *self.chain.light, "world"}  # of that name, PyBullet knows that it has no mass
         weightless = [link for link in self.chain.frames if link not in heavy]
         if weightless:
             notes.append(
-                f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)}): PyBullet "
-                "takes 1 kg, "
-                "MuJoCo computes it from the hulls"
+                f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)}): PyBullet takes "
+                "1 kg, MuJoCo computes it from the hulls"
             )
         return tuple(notes)
-
-    def _is_opaque(self, name: str) -> bool:
-        return any(piece.name == name for piece in self.asset.opaque)

@@ -56,11 +56,6 @@ def references(robot: Element) -> list[str]:
     return list(dict.fromkeys(reference for reference in found if reference))
 
 
-def xacro_lines(robot: Element) -> list[int]:
-    """Where xacro elements stand that no one has expanded, which engines pass over."""
-    return [element.line for element in robot.walk() if element.tag.startswith("xacro:")]
-
-
 def read_floats(
     element: Element, attribute: str, count: int, where: str, default: tuple[float, ...] | None = None
 ) -> Floats:

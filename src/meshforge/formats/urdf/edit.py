@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import posixpath
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.common import AssetError
 from meshforge.formats.base import Output
 from meshforge.formats.collision_meshes import SourceMeshes
 from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.companions import find_companions
+from meshforge.formats.companions import add_copy, note_absolute
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.references import Resolver, placement
@@ -65,16 +63,9 @@ def _list_copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], l
         if path is None:  # made, or missing from the start
             continue
         if place is None:
-            notes.append(f"{reference!r} is an absolute reference: the file is used where it is, not copied")
-            continue
-        if copies.setdefault(place, path) != path:
-            raise AssetError(
-                f"{copies[place]} and {path} would both become {place!r}",
-                where=str(path),
-                remedy="Rename one of them, or put both under one package root.",
-            )
-        for key, companion in find_companions(path).items():
-            copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
+            notes.append(note_absolute(reference))
+        else:
+            add_copy(copies, place, path, "Rename one of them, or put both under one package root.")
     return copies, notes
 
 
@@ -82,7 +73,7 @@ def _list_copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], l
 class UrdfElementMaker:
     """Makes elements for one document; folder: a reference's folder for hulls whose parent has no mesh.
 
-    meshes: the files that the document refers to, where one may have to be parted.
+    meshes: the files that the document refers to, where one may have to be split.
     """
 
     data: bytes

@@ -6,12 +6,11 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding
+from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.urdf.document import geometry_of
-from meshforge.formats.visuals import Rgba
 from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, set_attribute
-from meshforge.geometry import Box, Cylinder, Floats, Pose, Sphere
+from meshforge.geometry import Box, Cylinder, Pose, Sphere
 from meshforge.symbolic import Inertial
 
 UrdfShape = Box | Cylinder | Sphere
@@ -19,22 +18,17 @@ UrdfShape = Box | Cylinder | Sphere
 
 UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
 _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
-LIGHT_INERTIAL = Inertial("", 1e-6, np.zeros(3), 1e-9 * np.eye(3))
-"""The mass of a link that stands for none, above what engines refuse."""
 
 
 def native_tag(shape: UrdfShape) -> bytes:
     """The element of a native shape, without its pose."""
     match shape:
         case Box():
-            return b'<box size="%s"/>' % _numbers_text(*2 * shape.half)
+            return b'<box size="%s"/>' % _text_of(*2 * shape.half)
         case Cylinder():
-            return b'<cylinder radius="%s" length="%s"/>' % (
-                _numbers_text(shape.radius),
-                _numbers_text(2 * shape.half_length),
-            )
+            return b'<cylinder radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
         case Sphere():
-            return b'<sphere radius="%s"/>' % _numbers_text(shape.radius)
+            return b'<sphere radius="%s"/>' % _text_of(shape.radius)
         case _:
             assert_never(shape)
 
@@ -46,20 +40,19 @@ def mesh_tag(reference: str) -> bytes:
 
 def origin_tag(pose: Pose) -> bytes:
     """The element of a pose, its numbers in full precision."""
-    return b'<origin xyz="%s" rpy="%s"/>' % (_numbers_text(*pose.translation), _numbers_text(*pose.to_rpy()))
+    return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
 
 
 def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> bytes:
     """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
-    lines = [
-        b"<collision>",
-        b"  " + origin_tag(pose),
-        b"  <geometry>",
-        b"    " + tag,
-        b"  </geometry>",
-        b"</collision>",
-    ]
-    return (line_end + lead).join(lines)
+    return (line_end + lead).join(
+        [b"<collision>", *(b"  " + line for line in _place_lines(pose, tag)), b"</collision>"]
+    )
+
+
+def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
+    """The lines of what collisions and visuals hold."""
+    return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 
 def replace_geometry(data: bytes, collision: Element, pose: Pose, tag: bytes) -> tuple[Splice, ...]:
@@ -70,7 +63,7 @@ def replace_geometry(data: bytes, collision: Element, pose: Pose, tag: bytes) ->
 
 
 def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) -> tuple[Splice, ...]:
-    """The same for a hull in a mesh file in metres: where the element has a mesh, its other attributes stay."""
+    """The edits that give a copy a mesh file in metres: where the element has a mesh, its other attributes stay."""
     kind = geometry_of(collision)
     if kind is None or kind.tag != "mesh":
         return replace_geometry(data, collision, pose, mesh_tag(reference))
@@ -81,7 +74,7 @@ def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) ->
 def replace_mesh_file(data: bytes, collision: Element, reference: str) -> tuple[Splice, ...]:
     """The edits that give a copy of a mesh collision another mesh file, of the same unit, scale and place."""
     kind = geometry_of(collision)
-    assert kind is not None  # only meshes have pieces to be parted
+    assert kind is not None  # only meshes have several pieces
     return (set_attribute(data, kind, "filename", reference),)
 
 
@@ -96,10 +89,6 @@ def _replace_origin(data: bytes, collision: Element, pose: Pose) -> Splice:
     return Splice(geometry.start, geometry.start, origin_tag(pose) + gap)
 
 
-def _numbers_text(*values: float) -> bytes:
-    return format_numbers(values).encode()
-
-
 def joint_lines(made: LinkJoint) -> list[bytes]:
     """The lines of a `<joint>`."""
     joint = made.joint
@@ -112,34 +101,28 @@ def joint_lines(made: LinkJoint) -> list[bytes]:
         b'    <child link="%s"/>' % escape(made.child),
     ]
     if kind in ("revolute", "prismatic", "planar"):
-        lines.append(b'    <axis xyz="%s"/>' % _vector_text(drop_rounding(made.axis)))
+        lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
     if joint and kind in ("revolute", "prismatic"):
         lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
-        range_ = (
-            b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_number_text(lower), _number_text(upper))
-        )
-        most = _number_text(joint.effort or _UNKNOWN_MAXIMUM), _number_text(joint.velocity or _UNKNOWN_MAXIMUM)
+        range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
+        most = _text_of(joint.effort or _UNKNOWN_MAXIMUM), _text_of(joint.velocity or _UNKNOWN_MAXIMUM)
         if range_ or joint.effort or joint.velocity:
             lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
     if joint and (joint.damping or joint.friction):
-        said = _number_text(joint.damping), _number_text(joint.friction)
-        lines.append(b'    <dynamics damping="%s" friction="%s"/>' % said)
+        losses = _text_of(joint.damping), _text_of(joint.friction)
+        lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
     return [*lines, b"  </joint>"]
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """The lines of an `<inertial>`, its axes those of the link."""
-    turn = root_t_link.rotation.T
-    m = drop_rounding(turn @ inertial.inertia @ turn.T)
-    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    moments = m[0, 0], m[0, 1], m[0, 2], m[1, 1], m[1, 2], m[2, 2]
-    said = b" ".join(b'%s="%s"' % (n.encode(), _number_text(v)) for n, v in zip(names, moments, strict=True))
-    centre = turn @ (inertial.centre - root_t_link.translation)
+    centre, tensor = place_inertial(inertial, root_t_link)
+    moments = b" ".join(b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in name_moments(tensor))
     return [
         b"    <inertial>",
         b"      " + origin_tag(Pose.of_translation(centre)),
-        b'      <mass value="%s"/>' % _number_text(inertial.mass),
-        b"      <inertia %s/>" % said,
+        b'      <mass value="%s"/>' % _text_of(inertial.mass),
+        b"      <inertia %s/>" % moments,
         b"    </inertial>",
     ]
 
@@ -153,26 +136,13 @@ def visual_lines(visual: LinkVisual, reference: str | None = None) -> list[bytes
         assert file is not None  # made for every shape that is not native
         pose, tag = visual.pose, mesh_tag(file)
         if not np.array_equal(visual.scale, np.ones(3)):
-            tag = tag[:-2] + b' scale="%s"/>' % _vector_text(visual.scale)
-    lines = [
-        b"    <visual>",
-        b"      " + origin_tag(pose),
-        b"      <geometry>",
-        b"        " + tag,
-        b"      </geometry>",
-    ]
-    return [*lines, *([_material_line(visual.rgba)] if visual.rgba else []), b"    </visual>"]
+            tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
+    inside = _place_lines(pose, tag)
+    if visual.rgba:  # a material named by its numbers: equal names must be equal colours
+        color = _text_of(*visual.rgba)
+        inside.append(b'<material name="rgba %s"><color rgba="%s"/></material>' % (color, color))
+    return [b"    <visual>", *(b"      " + line for line in inside), b"    </visual>"]
 
 
-def _material_line(rgba: Rgba) -> bytes:
-    """A colour, named by its numbers: equal names must be equal colours."""
-    text = format_numbers(rgba)
-    return b'      <material name="rgba %s"><color rgba="%s"/></material>' % (text.encode(), text.encode())
-
-
-def _number_text(value: float) -> bytes:
-    return format_numbers([value]).encode()
-
-
-def _vector_text(values: Floats) -> bytes:
+def _text_of(*values: float) -> bytes:
     return format_numbers(values).encode()

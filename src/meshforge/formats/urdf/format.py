@@ -3,13 +3,12 @@ visuals."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.base import BODY_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
 from meshforge.formats.urdf.create import VISUAL_SUFFIXES, create_urdf
 from meshforge.formats.urdf.document import UrdfDocument, parse_robot
 from meshforge.formats.urdf.edit import write_urdf
@@ -17,33 +16,8 @@ from meshforge.formats.urdf.read import read_urdf
 from meshforge.formats.xml import Element, XmlText
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
-HOLDS = frozenset(
-    {
-        FeatureKind.NAMES,
-        FeatureKind.BODIES,
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CYLINDERS,
-        FeatureKind.OPAQUE,
-        FeatureKind.JOINTS,
-        FeatureKind.FIXED_JOINTS,
-        FeatureKind.SPEEDS,
-        FeatureKind.MASSES,
-        FeatureKind.VISUALS,
-        FeatureKind.COLORS,
-    }
-)
-COULD = frozenset(
-    {FeatureKind.MIMICS, FeatureKind.CONTACT, FeatureKind.COMMENTS, FeatureKind.MATERIALS, FeatureKind.TEXTURES}
-)
-INSTEAD = {
-    FeatureKind.CAPSULES: "written as triangles",
-    FeatureKind.ELLIPSOIDS: "written as triangles",
-    FeatureKind.BALL_JOINTS: "written as three joints that turn about one point",
-}
-
 _KNOWN_TAGS = ("link", "joint", "material")
-_COMMENT = re.compile(rb"<!--")
+_JOINT_SETTINGS = ("safety_controller", "calibration")
 
 
 class UrdfFormat(Format):
@@ -54,10 +28,16 @@ class UrdfFormat(Format):
     is_description: ClassVar[bool] = True
     title: ClassVar[str] = "URDF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
-    holds: ClassVar[frozenset[FeatureKind]] = HOLDS
-    could: ClassVar[frozenset[FeatureKind]] = COULD
-    instead: ClassVar[Mapping[FeatureKind, str]] = INSTEAD
-    shown_files: ClassVar[tuple[str, ...]] = VISUAL_SUFFIXES
+    holds = BODY_FEATURES | {FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS}
+    could = frozenset(
+        {FeatureKind.MIMICS, FeatureKind.CONTACT, FeatureKind.COMMENTS, FeatureKind.MATERIALS, FeatureKind.TEXTURES}
+    )
+    instead: ClassVar[Mapping[FeatureKind, str]] = {
+        FeatureKind.CAPSULES: "written as triangles",
+        FeatureKind.ELLIPSOIDS: "written as triangles",
+        FeatureKind.BALL_JOINTS: "written as three joints that turn about one point",
+    }
+    shown_files = VISUAL_SUFFIXES
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         return read_urdf(path, options)
@@ -75,26 +55,18 @@ class UrdfFormat(Format):
 
 
 def features_of(document: UrdfDocument) -> Iterator[Feature]:
-    """The features of a URDF that its asset does not tell."""
+    """The features of a URDF that its asset does not have."""
     data = XmlText.of(document.source).data
     robot = parse_robot(data, "")
     joints = list(robot.each("joint"))
     yield Feature(FeatureKind.MIMICS, tuple(_name_of(joint) for joint in joints if joint.first("mimic")))
-    yield Feature(
-        FeatureKind.TEXTURES, tuple(dict.fromkeys(e.attributes.get("filename", "") for e in _textures(robot)))
-    )
+    textures = (e.attributes.get("filename", "") for e in robot.walk() if e.tag == "texture")
+    yield Feature(FeatureKind.TEXTURES, tuple(dict.fromkeys(textures)))
     yield Feature(FeatureKind.CONTACT, tuple(_name_of(link) for link in robot.each("link") if link.first("contact")))
     others = [child.tag for child in robot.children if child.tag not in _KNOWN_TAGS]
-    others += [
-        part.tag for joint in joints for part in joint.children if part.tag in ("safety_controller", "calibration")
-    ]
-    kinds = tuple(dict.fromkeys(others))
-    yield Feature(FeatureKind.OTHERS, kinds, len(others) - len(kinds))
-    yield Feature(FeatureKind.COMMENTS, unnamed=len(_COMMENT.findall(data)))
-
-
-def _textures(robot: Element) -> Iterator[Element]:
-    return (element for element in robot.walk() if element.tag == "texture")
+    others += [part.tag for joint in joints for part in joint.children if part.tag in _JOINT_SETTINGS]
+    yield feature_of_tags(FeatureKind.OTHERS, others)
+    yield Feature(FeatureKind.COMMENTS, unnamed=data.count(b"<!--"))
 
 
 def _name_of(element: Element) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
+from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.urdf.document import read_floats, read_origin
 from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose
@@ -22,7 +23,7 @@ _KINDS: dict[str, JointKind] = {
     "planar": "planar",
     "spherical": "ball",  # of Bullet
 }
-_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_X = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +126,6 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
     parent, child = (_end_link(element, role) for role in ("parent", "child"))
     type_ = element.attributes.get("type", "fixed")
     pose = links.poses[child]
-    axis = unit_vector(_read_vector(element.first("axis"), "xyz", (1.0, 0.0, 0.0)))
     limit, dynamics = element.first("limit"), element.first("dynamics")
     return Joint(
         element.attributes.get("name", ""),
@@ -133,7 +133,7 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
         parent,
         child,
         pose.translation,
-        pose.rotation @ (np.array([1.0, 0.0, 0.0]) if axis is None else axis),
+        pose.rotation @ _read_axis(element.first("axis")),
         _read_limits(limit) if type_ in ("revolute", "prismatic") else None,
         damping=_read_number(dynamics, "damping") or 0.0,
         friction=_read_number(dynamics, "friction") or 0.0,
@@ -164,8 +164,7 @@ def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | No
     except AssetError:
         pose = root_t_link
     tensor = element.first("inertia")
-    xx, xy, xz, yy, yz, zz = (_read_number(tensor, moment) or 0.0 for moment in _MOMENTS)
-    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    inertia = tensor_of_moments(_read_number(tensor, name) or 0.0 for name in TENSOR_NAMES)
     return Inertial(name, mass, pose.translation, pose.rotation @ inertia @ pose.rotation.T)
 
 
@@ -179,10 +178,10 @@ def _read_number(element: Element | None, attribute: str) -> float | None:
         return None
 
 
-def _read_vector(element: Element | None, attribute: str, default: tuple[float, float, float]) -> Floats:
-    if element is None:
-        return np.array(default)
+def _read_axis(axis: Element | None) -> Floats:
+    """The unit direction (3,) of an `<axis>`; X where there is none that can be read."""
     try:
-        return read_floats(element, attribute, 3, "", default)
+        direction = unit_vector(read_floats(axis, "xyz", 3, "", _X)) if axis else None
     except AssetError:
-        return np.array(default)
+        direction = None
+    return np.array(_X) if direction is None else direction

@@ -13,7 +13,6 @@ from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.collision_pieces import (
-    CollisionElement,
     CollisionPiece,
     ShapeNames,
     collect_mentions,
@@ -24,7 +23,7 @@ from meshforge.formats.collision_pieces import (
 from meshforge.formats.companions import find_companions
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver
-from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.slots import name_elements
 from meshforge.formats.urdf.document import (
     UrdfDocument,
     collisions,
@@ -33,7 +32,6 @@ from meshforge.formats.urdf.document import (
     read_floats,
     read_origin,
     references,
-    xacro_lines,
 )
 from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.urdf.shapes import read_mesh_scale, read_parts, read_primitive
@@ -42,8 +40,7 @@ from meshforge.formats.xml import Element, XmlText
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Mentions
 
-LinkCollisions = Sequence[tuple[str, Element]]
-"""The name of the link and the element of each `<collision>`."""
+LinkCollisions = Sequence[tuple[str, Element]]  # of each `<collision>` the name of its link, and the element
 
 
 def read_urdf(path: Path, options: ReadOptions) -> Asset:
@@ -62,36 +59,28 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     uses = _mesh_uses(found, resolver, where)
     refuse_missing(use for use in uses if use)
     parts = read_parts(found, uses, links, meshes, where)
-    authored = _name_elements(found, [len(own) for own in parts])
-    told = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
+    authored = name_elements(found, [len(own) for own in parts])
+    mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
     files, missing = _find_files(robot, resolver)
     return Asset(
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=geoms_of(authored, parts, told),
+        geoms=geoms_of(authored, parts, mentions),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=opaque_of(authored, parts, told),
+        opaque=opaque_of(authored, parts, mentions),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
-        notes=collect_notes(robot, links, found),
+        notes=tuple(collect_notes(robot, links, found)),
         mechanism=read_mechanism(robot, links),
     )
 
 
-def _name_elements(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tuple[CollisionElement, ...]:
-    """The collision elements with the names of their pieces, of which each has so many."""
-    own = [(link, c.attributes.get("name"), count) for (link, c), count in zip(found, pieces, strict=True)]
-    return tuple(
-        CollisionElement(link, names) for (link, _, _), names in zip(own, name_element_pieces(own), strict=True)
-    )
-
-
-def _mesh_uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: str) -> list[MeshUse | None]:
+def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[MeshUse | None]:
     """The mesh file of each collision element, None where it has another geometry or none."""
     uses: list[MeshUse | None] = []
-    for element, (_, collision) in zip(_name_elements(found, [1] * len(found)), found, strict=True):
+    for element, (_, collision) in zip(name_elements(found, [1] * len(found)), found, strict=True):
         kind = geometry_of(collision)
         is_mesh = kind is not None and kind.tag == "mesh"
         reference = kind.attributes.get("filename", "").strip() if kind else ""
@@ -101,17 +90,17 @@ def _mesh_uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: 
 
 
 def _collect_mentions(
-    found: Sequence[tuple[str, Element]],
+    found: LinkCollisions,
     links: UrdfLinks,
     groups: Sequence[Sequence[str | None]],
     parts: Sequence[Sequence[CollisionPiece]],
 ) -> list[list[Mentions]]:
     """What else is said of each piece of each collision element."""
-    told = []
+    mentions = []
     for (link, collision), named, own in zip(found, groups, parts, strict=True):
         common = mentions_of_element(links.elements[link], collision)
-        told.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
-    return told
+        mentions.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
+    return mentions
 
 
 def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -143,14 +132,14 @@ def read_visuals(
 
 
 def _read_colors(robot: Element, where: str) -> dict[str, Rgba]:
-    """The colours of materials by their names, wherever in the file they are told."""
+    """The colours of materials by their names, wherever in the file they stand."""
     materials = (element for element in robot.walk() if element.tag == "material" and "name" in element.attributes)
-    told = ((material.attributes["name"], _read_color(material, {}, where)) for material in materials)
-    return {name: color for name, color in told if color is not None}
+    found = ((material.attributes["name"], _read_color(material, {}, where)) for material in materials)
+    return {name: color for name, color in found if color is not None}
 
 
 def _read_color(material: Element | None, named: Mapping[str, Rgba], where: str) -> Rgba | None:
-    """The colour that a material tells, or else the one of its name."""
+    """The colour that a material says, or else the one of its name."""
     if material is None:
         return None
     color = material.first("color")
@@ -182,17 +171,12 @@ def _read_visual(link: str, element: Element, pose: Pose, resolver: Resolver, wh
 def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
     own = _names_of(collision)
-    return collect_mentions(own, list(_visual_names(link))) if own else ()
-
-
-def _visual_names(link: Element) -> Iterator[ShapeNames]:
-    for visual in link.each("visual"):
-        if named := _names_of(visual):
-            yield named
+    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
+    return collect_mentions(own, shown) if own else ()
 
 
 def _names_of(element: Element) -> ShapeNames | None:
-    """The names of a collision or visual element; of a collision its own is not told, which its hulls have."""
+    """The names of a collision or visual element; of a collision without its own, which its hulls have."""
     kind = geometry_of(element)
     if kind is None:
         return None
@@ -205,37 +189,19 @@ def _names_of(element: Element) -> ShapeNames | None:
     return ShapeNames(shape, name, stem_of(reference), material.attributes.get("name", "") if material else "")
 
 
-def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> tuple[str, ...]:
+def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> Iterator[str]:
     """Notes on links without a parent, xacro, and collision elements that engines pass over."""
-    return (*_note_roots(links), *_note_xacro(robot), *_note_stray_collisions(robot, found), *_note_shapes(found))
-
-
-def _note_roots(links: UrdfLinks) -> Iterator[str]:
     if len(links.roots) > 1:
         yield (
-            f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the "
-            "origin, as "
-            "MuJoCo does; PyBullet cannot load such a file"
+            f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the origin, "
+            "as MuJoCo does; PyBullet cannot load such a file"
         )
-
-
-def _note_xacro(robot: Element) -> Iterator[str]:
-    if lines := xacro_lines(robot):
-        yield f"{pluralize(len(lines), 'xacro element')} not expanded, the first on line {lines[0]}: passed over"
-
-
-def _note_stray_collisions(robot: Element, found: LinkCollisions) -> Iterator[str]:
-    """A note on collisions in elements that engines do not know."""
+    if xacro := [element.line for element in robot.walk() if element.tag.startswith("xacro:")]:
+        yield f"{pluralize(len(xacro), 'xacro element')} not expanded, the first on line {xacro[0]}: passed over"
     known = {id(collision) for _, collision in found}
-    lines = [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]
-    if lines:
-        yield (
-            f"{pluralize(len(lines), 'collision')} in no link, the first on line {lines[0]}: passed over, as by engines"
-        )
-
-
-def _note_shapes(found: LinkCollisions) -> Iterator[str]:
-    """Notes on collisions without a shape, or with more than the one that counts."""
+    if stray := [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]:
+        strays = f"{pluralize(len(stray), 'collision')} in no link"
+        yield f"{strays}, the first on line {stray[0]}: passed over, as by engines"
     for link, collision in found:
         place = f"a collision of link {link!r} on line {collision.line} has"
         shapes = [len(geometry.children) for geometry in collision.each("geometry")]

@@ -1,4 +1,4 @@
-"""The `<geometry>` of collisions and visuals as convex shapes and opaque pieces in the root frame."""
+"""The `<geometry>` of collisions and visuals as convex shapes and non-convex pieces in the root frame."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 
 _LEAST_SCALE = 1e-12  # a factor that is taken for zero
-
 _UP = (0.0, 0.0, 1.0)
 
 

@@ -55,7 +55,7 @@ def is_drawn(prim: Any) -> bool:
 
 def is_seen(scene: UsdStage, prim: Any) -> bool:
     """Whether a prim is geometry that renders: visible, and of the default or the render purpose."""
-    from pxr import UsdGeom
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
     if not prim.IsA(UsdGeom.Gprim) or is_drawn(prim):
         return False
@@ -102,7 +102,7 @@ class StageBodies:
         return self.names.get(path, BODY)
 
     def of_joint(self, prim: Any) -> str:
-        """The same for a prim that a joint holds, which shows nothing yet."""
+        """The name of the body that a joint holds by a prim; it does not count as used, since it may show nothing."""
         own = body_of(self.scene, prim)
         return self.names.get(str(own.GetPath()), BODY) if own else BODY
 
@@ -123,13 +123,6 @@ def _is_body(scene: UsdStage, prim: Any) -> bool:
     return own is not None and own == prim
 
 
-def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
-    """The names of the pieces of prims; of each its own name and how many pieces it has: `#k` for one of several."""
-    each = [[base] if count == 1 else [f"{base}#{k}" for k in range(count)] for base, count in bases]
-    unique = iter(unique_names(name for names in each for name in names))
-    return [tuple(next(unique) for _ in names) for names in each]
-
-
 def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
     """Names and values of what is authored on a prim, its physics material by path, in order of name."""
     found = {}
@@ -145,7 +138,7 @@ def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
 
 def physics_material(prim: Any) -> Any:
     """The material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
-    from pxr import UsdShade
+    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
 
     material, relationship = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     return material.GetPrim() if material and relationship else None
@@ -176,7 +169,7 @@ def _has_physics_material(prim: Any) -> bool:
 
 
 def _copy_property(spec: Any, source: Any) -> None:
-    from pxr import Sdf, Usd
+    from pxr import Sdf, Usd  # lazy: an optional package, and 0.3 s
 
     if isinstance(source, Usd.Relationship):
         made = Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
@@ -189,7 +182,7 @@ def _copy_property(spec: Any, source: Any) -> None:
 
 def apply_schemas(spec: Any, names: Iterable[str]) -> None:
     """Put applied schemas before those that a spec prepends already."""
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
     wanted = [name for name in dict.fromkeys(names) if name not in old.GetAddedOrExplicitItems()]

@@ -100,7 +100,7 @@ class CrateBytes:
         return b"".join(parts)
 
     def _unpack_block(self, start: int, end: int, most: int) -> bytes:
-        import lz4.block
+        import lz4.block  # lazy: an optional package
 
         room = min(most, _DENSEST * (end - start) + 64)
         self.allowance.take(room // _COST)
@@ -252,7 +252,7 @@ class _Value:
             read()
 
     def _read_held(self) -> int:
-        """A value that is told where it lies."""
+        """A value, by the place where it lies."""
         self._jump()
         return self.file.read_number()
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.gltf.visuals import GAMMA
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.usd.colliders import apply_schemas
 from meshforge.formats.usd.document import BODY, export_layer, is_crate_wanted, pack_usdz
@@ -28,13 +27,12 @@ from meshforge.formats.usd.prims import (
     write_mass,
 )
 from meshforge.formats.usd.stage import usd
-from meshforge.formats.visuals import Rgba, Visual, visuals_of
+from meshforge.formats.visuals import Rgba, Visual, linear_color, unreadable_visuals, visuals_of
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, Geom, Inertial, Joint, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, Inertial, Joint, Opaque, Surface
 
 _ROOT = PrimSpace(np.eye(3), np.zeros(3))
 _LIGHT = 1e-3  # [kg] of a link that stands between joints; engines cannot do with much less beside others
-
 _WORLDS = (BODY, "world")
 
 
@@ -48,15 +46,9 @@ def create_usd(asset: Asset, name: str) -> Output:
         return _Creator(asset, PurePosixPath(name)).build_output()
 
 
-@dataclass(frozen=True, slots=True)
-class _MetricUnits:
-    metres: float = 1.0
-    kilograms: float = 1.0
-
-
 class _Creator:
     def __init__(self, asset: Asset, name: PurePosixPath) -> None:
-        from pxr import Sdf
+        from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
         self.asset, self.name = asset, name
         self.links = StageLinks.of(asset)
@@ -68,7 +60,9 @@ class _Creator:
         self.drawn = not len(asset.visuals)
 
     def build_output(self) -> Output:
-        self._write_header()
+        self.layer.defaultPrim = self.root.name
+        for key, value in (("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0), ("upAxis", "Z")):
+            self.layer.pseudoRoot.SetInfo(key, value)
         for link, pose in self.links.poses.items():
             self._add_body(link, pose)
         for geom in self.asset.geoms:
@@ -82,13 +76,8 @@ class _Creator:
         main = pack_usdz({f"{stem}.usdc": main}) if suffix == ".usdz" else main
         return Output(main, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
 
-    def _write_header(self) -> None:
-        self.layer.defaultPrim = self.root.name
-        for key, said in (("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0), ("upAxis", "Z")):
-            self.layer.pseudoRoot.SetInfo(key, said)
-
     def _add_body(self, link: str, pose: Pose) -> None:
-        spec = add_prim(self.root, free_prim_name(link, self._child_names(self.root)), "Xform")
+        spec = add_prim(self.root, self._free_name(self.root, link), "Xform")
         set_place(spec, pose.translation, pose.rotation)
         apply_schemas(spec, ["PhysicsRigidBodyAPI"])
         self.bodies[link] = spec
@@ -96,7 +85,7 @@ class _Creator:
         if link in self.links.between:
             inertial = Inertial(link, _LIGHT, pose.translation, _LIGHT * 1e-3 * np.eye(3))
         if inertial is not None and inertial.mass > 0:
-            write_mass(spec, inertial, self._space(link), _MetricUnits())
+            write_mass(spec, inertial, self._space(link))
 
     def _add_hull(self, geom: Geom) -> None:
         holder, name = self._find_holder(geom.name, geom.body)
@@ -113,11 +102,9 @@ class _Creator:
             self.names[geom.name] = read
 
     def _add_opaque(self, piece: Opaque) -> None:
-        """A piece as its triangles, or as a plane; one that is neither is told in the report."""
+        """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
-            spec = add_prim(
-                self.root, free_prim_name(piece.name.rsplit("/", 1)[-1], self._child_names(self.root)), "Plane"
-            )
+            spec = add_prim(self.root, self._free_name(self.root, piece.name.rsplit("/", 1)[-1]), "Plane")
             set_place(spec, piece.plane.translation, piece.plane.rotation)
             mark_collider(spec, None)
             return
@@ -137,7 +124,7 @@ class _Creator:
                 own = "_".join([*above[k:], own])
                 break
             holder = found or add_prim(holder, free_prim_name(part, ()), "Scope")
-        return holder, free_prim_name(own, self._child_names(holder))
+        return holder, self._free_name(holder, own)
 
     def _add_visuals(self) -> None:
         refused = []
@@ -145,22 +132,19 @@ class _Creator:
             surfaces = [s for s in (visual.surfaces() if isinstance(visual, Visual) else [visual]) if len(s.faces)]
             holder = self.bodies.get(body, self.root)
             for surface in surfaces:
-                add_visual(
-                    holder, free_prim_name("visual", self._child_names(holder)), surface, visual.rgba, self._space(body)
-                )
+                add_visual(holder, self._free_name(holder, "visual"), surface, visual.rgba, self._space(body))
             if not surfaces:
                 refused.append(body)
-        if refused:
-            self.lost.append(Loss(FeatureKind.VISUALS, tuple(dict.fromkeys(refused)), "their files cannot be read"))
+        self.lost += unreadable_visuals(refused)
 
     def _add_joints(self) -> None:
         paths = {link: str(spec.path) for link, spec in self.bodies.items()}
         joints = [j for j in self.links.joints if not (j.kind == "floating" and j.parent not in paths)]
         if not joints:
             return
-        holder = add_prim(self.root, free_prim_name("joints", self._child_names(self.root)), "Scope")
+        holder = add_prim(self.root, self._free_name(self.root, "joints"), "Scope")
         for joint in joints:
-            name = free_prim_name(joint.name or f"{joint.child}_joint", self._child_names(holder))
+            name = self._free_name(holder, joint.name or f"{joint.child}_joint")
             spec = add_joint(holder, name, joint, paths, dict(self.links.poses))
             if joint.kind == "fixed" and joint.parent not in paths and self._has_children(joint.child):
                 apply_schemas(spec, ["PhysicsArticulationRootAPI"])
@@ -179,8 +163,7 @@ class _Creator:
         if loose:
             yield (
                 f"{pluralize(len(loose), 'body', 'bodies')} free to fall ({join_names(loose, 3)}): for one that "
-                "stands fast, "
-                "join it to the world with a PhysicsFixedJoint"
+                "stands fast, join it to the world with a PhysicsFixedJoint"
             )
         many = [
             joint.name or joint.child
@@ -197,14 +180,16 @@ class _Creator:
         return PrimSpace(pose.rotation, pose.translation) if pose else _ROOT
 
     @staticmethod
-    def _child_names(spec: Any) -> list[str]:
-        return [child.name for child in spec.nameChildren]
+    def _free_name(holder: Any, wanted: str) -> str:
+        return free_prim_name(wanted, [child.name for child in holder.nameChildren])
 
 
 @dataclass(frozen=True, slots=True)
 class StageLinks:
-    """poses: root_T_link of each rigid body of the stage; joints: one for each pair; between: links that stand for no
-    body, between several joints of one.
+    """The rigid bodies of a new stage, and what joins them.
+
+    poses: root_T_link of each; joints: one for each pair; between: links that stand for no body, between several
+    joints of one.
     """
 
     poses: Mapping[str, Pose]
@@ -233,13 +218,12 @@ class StageLinks:
 
 def add_visual(holder: Any, name: str, surface: Surface, rgba: Rgba | None, space: PrimSpace) -> None:
     """A mesh that is seen and does not collide, with its display colour."""
-    from pxr import Gf, Vt
+    from pxr import Gf, Vt  # lazy: an optional package, and 0.3 s
 
     spec = add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
     color = rgba or surface.rgba
     if color is None:
         return
-    linear = [round(float(c), 6) for c in np.clip(color[:3], 0, 1) ** GAMMA]
-    set_value(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray([Gf.Vec3f(*linear)]))
+    set_value(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray([Gf.Vec3f(*linear_color(color))]))
     if color[3] < 1:
         set_value(spec, "primvars:displayOpacity", "FloatArray", Vt.FloatArray([float(color[3])]))

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from meshforge.formats.usd.crate import CRATE_MARK
 from meshforge.symbolic import Document
 
 BODY = "body"
 """The name of the body of all collision that is part of no rigid body."""
-
-CRATE_MARK = b"PXR-USDC"
 
 _ALIGNMENT = 64
 _HEADER = 30  # bytes of a local header before the name
@@ -25,7 +24,7 @@ _PADDING = 0x1986  # the id of the extra field that holds nothing
 
 @dataclass(frozen=True, slots=True)
 class PrimRecord:
-    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and opaque ones.
+    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and non-convex ones.
 
     fixed: why no edit can change it, empty where one can.
     """

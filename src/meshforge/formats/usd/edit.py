@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.common import AssetError, file_digest
+from meshforge.common import AssetError
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.collision_pieces import CollisionPiece
+from meshforge.formats.collision_meshes import change_error, refuse_changed_files
+from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.usd.colliders import StageBodies, physics_material
 from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
 from meshforge.formats.usd.edit_stage import UsdEdit
@@ -33,18 +34,17 @@ _DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Output:
     """The files of an asset that was read from a USD file; without an edit, its own bytes.
 
-    Raises AssetError: a file changed since the asset was read, or the edit cannot be told in its root layer.
+    Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
     """
     suffix = PurePosixPath(name).suffix.lower()
-    kept = {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
     known = {piece for element in document.authored for piece in element.names}
-    edited = not known <= kept or any(g.parent is not None or g.name not in known for g in asset.geoms)
+    edited = not known <= names_to_keep(asset) or bool(new_hulls(asset, known))
     copies, far = _list_copies(asset)
     if not edited and suffix == asset.path.suffix.lower():
         return Output(document.source, copies=copies, notes=tuple(far))
     _refuse_changed(asset, document)
     with usd(str(asset.path)):
-        from pxr import Sdf
+        from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
         scene = UsdStage.open(asset.path)
         layer = Sdf.Layer.CreateAnonymous(".usda")
@@ -64,7 +64,7 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
 
 def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
     """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
-    from pxr import Sdf, Tf
+    from pxr import Sdf, Tf  # lazy: an optional package, and 0.3 s
 
     after = layer.ExportToString()
     if is_crate(source):
@@ -139,7 +139,7 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     """The files that the layers of an asset refer to by absolute paths."""
     with usd(str(asset.path)):
-        from pxr import UsdUtils
+        from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
 
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
         texts = [text for layer in layers for kind in UsdUtils.ExtractExternalReferences(str(layer)) for text in kind]
@@ -147,22 +147,15 @@ def _find_absolute_references(asset: Asset) -> frozenset[Path]:
 
 
 def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
-    for path, digest in document.digests:
-        if not path.is_file() or file_digest(path) != digest:
-            raise _change_error(path, asset)
+    """Raise AssetError where the root layer, or one beside it, is not what it was when the asset was read."""
+    refuse_changed_files(document.digests, str(asset.path))
     if not asset.path.is_file() or asset.path.read_bytes() != document.source:
-        raise _change_error(asset.path, asset)
-
-
-def _change_error(path: Path, asset: Asset) -> AssetError:
-    return AssetError(
-        f"{path.name} has changed since the asset was read", where=str(asset.path), remedy="Read the asset again."
-    )
+        raise change_error(asset.path.name, str(asset.path))
 
 
 def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
-    """Author the masses of the bodies that an edit changed, where their colliders told them; notes on those unknown."""
-    from pxr import Sdf
+    """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     notes = []
     for path, name in edit.bodies.names.items():
@@ -173,14 +166,13 @@ def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
         if found is None:
             notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
         else:
-            write_mass(
-                Sdf.CreatePrimInLayer(edit.layer, path), found, PrimSpace(*edit.scene.placement(prim)), edit.scene
-            )
+            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), PrimSpace(*edit.scene.placement(prim))
+            write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
     return notes
 
 
 def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
-    """What a body weighs by all that its stage tells, colliders included; None where a volume is not known."""
+    """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
     pieces = [(source, _solids_of(source.parts)) for source in sources]
     solids = [(source, shapes) for source, shapes in pieces if shapes]
     if not solids or any(shapes is None for _, shapes in pieces):
@@ -201,13 +193,13 @@ def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision
 
 
 def _has_full_mass(scene: UsdStage, prim: Any) -> bool:
-    """Whether a body tells its mass, centre and inertia itself."""
+    """Whether a body says its mass, centre and inertia itself."""
     mass = read_number(scene, prim, "physics:mass") or 0.0
     return mass > 0 and centre_of(scene, prim) is not None and moments_of(scene, prim) is not None
 
 
 def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
-    """The solids of a prim's pieces, of closed opaque ones too; None where one has no volume that is known."""
+    """The solids of a prim's pieces, of closed non-convex ones too; None where one has no volume that is known."""
     found: list[Shape] = []
     for part in parts:
         if part.shape is not None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, pluralize
-from meshforge.formats.collision_pieces import CollisionPiece
+from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.usd.colliders import (
     COLLISION,
     MESH_COLLISION,
@@ -26,9 +26,8 @@ from meshforge.formats.usd.read import PrimCollision
 from meshforge.formats.usd.stage import UsdStage
 from meshforge.symbolic import Asset, Geom
 
-_GROUP_MEMBERS = "collection:colliders:includes"
-
 _GROUP_PREFIX = "collection:colliders:"
+_GROUP_MEMBERS = f"{_GROUP_PREFIX}includes"
 _OWN = ("physics:collisionEnabled", "physics:simulationOwner", "physics:approximation")
 
 
@@ -49,17 +48,16 @@ class UsdEdit:
     _hulled: Counter[str] = field(default_factory=Counter)
 
     def run(self, asset: Asset, sources: Sequence[PrimCollision]) -> None:
-        """Bring the layer to hold just the geoms and opaque pieces of an asset. Raises AssetError."""
-        kept = {g.name for g in asset.geoms if g.parent is None} | {o.name for o in asset.opaque}
+        """Bring the layer to hold just the geoms and non-convex pieces of an asset. Raises AssetError."""
+        kept = names_to_keep(asset)
         for element, source in zip(self.document.authored, sources, strict=True):
             staying = [k for k, name in enumerate(element.names) if name in kept]
             if len(staying) < len(element.names):
                 self._remove(element, source, staying)
         known = {name: k for k, element in enumerate(self.document.authored) for name in element.names}
-        for geom in asset.geoms:
-            if geom.parent is not None or geom.name not in known:
-                parent = known.get(geom.parent or "")
-                self._add_hull(geom, None if parent is None else sources[parent])
+        for geom in new_hulls(asset, known):
+            parent = known.get(geom.parent or "")
+            self._add_hull(geom, None if parent is None else sources[parent])
 
     @property
     def notes(self) -> list[str]:
@@ -70,9 +68,8 @@ class UsdEdit:
         ]
         if number := self._how["deactivated"]:
             verb = "is" if number == 1 else "are"
-            found.append(
-                f"{pluralize(number, 'prim')} of other layers {verb} switched off (active = false), not removed"
-            )
+            prims = f"{pluralize(number, 'prim')} of other layers"
+            found.append(f"{prims} {verb} switched off (active = false), not removed")
         if number := self._how["stripped"]:
             verb = "stays" if number == 1 else "stay"
             found.append(f"{pluralize(number, 'prim')} {verb}, to be seen, and no longer collide")
@@ -123,7 +120,7 @@ class UsdEdit:
 
     def _find_holder(self, parent: PrimCollision | None, body: str) -> tuple[Any, PrimSpace]:
         """The spec below which a new prim goes, and the space that it is put in."""
-        from pxr import Sdf
+        from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
         prim = self._find_holding_prim(parent, body)
         while not prim.IsPseudoRoot() and not _is_regular(self.scene, prim):
@@ -155,7 +152,7 @@ class UsdEdit:
 
     def _join_groups(self, parent: str, made: Any) -> None:
         """Make a new prim a member of the collision groups that name its parent."""
-        from pxr import Sdf
+        from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
         for group in self.scene.stage.Traverse():
             if group.GetTypeName() == "PhysicsCollisionGroup":
@@ -184,7 +181,7 @@ def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> s
 
     Raises AssetError: something else refers to the prim that would go.
     """
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     make_instances_editable(layer, prim)
     if physics and (is_seen(scene, prim) or has_other_content(prim)):
@@ -203,7 +200,7 @@ def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> s
 
 def make_instances_editable(layer: Any, prim: Any) -> None:
     """Make the instances around a prim their own, so that it can be edited alone."""
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     for instance in instances_around(prim):
         Sdf.CreatePrimInLayer(layer, instance.GetPath()).SetInfo("instanceable", False)
@@ -211,7 +208,7 @@ def make_instances_editable(layer: Any, prim: Any) -> None:
 
 def has_other_content(prim: Any) -> bool:
     """Whether a prim is a body, or has others below it besides parts of its own surface."""
-    from pxr import UsdPhysics
+    from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
 
     children = [child.GetTypeName() for child in prim.GetAllChildren()]
     return prim.HasAPI(UsdPhysics.RigidBodyAPI) or any(kind != "GeomSubset" for kind in children)
@@ -219,16 +216,15 @@ def has_other_content(prim: Any) -> bool:
 
 def _remove_schemas(layer: Any, prim: Any) -> None:
     """Take the collision schemas from a prim, and what they say."""
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     applied = prim.GetPrimTypeInfo().GetAppliedAPISchemas()
     gone = [n for n in applied if n in (COLLISION, MESH_COLLISION) or (n.startswith("Physx") and "Collision" in n)]
     path = prim.GetPath()
     spec = Sdf.CreatePrimInLayer(layer, path)
     old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
-    elsewhere = {
-        name for other in prim.GetPrimStack()[_count_own_specs(prim, layer) :] for name in _schemas_added_by(other)
-    }
+    others = prim.GetPrimStack()[_count_own_specs(prim, layer) :]
+    elsewhere = {name for other in others for name in _schemas_added_by(other)}
     for name in ("explicitItems", "prependedItems", "appendedItems", "addedItems"):
         left = [item for item in getattr(old, name) if item not in gone]
         if left != list(getattr(old, name)):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
 from meshforge.formats.usd.create import create_usd
 from meshforge.formats.usd.document import UsdDocument
 from meshforge.formats.usd.edit import write_usd
@@ -17,41 +17,6 @@ from meshforge.formats.usd.read import read_usd
 from meshforge.formats.usd.stage import UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
-HOLDS = frozenset(
-    {
-        FeatureKind.NAMES,
-        FeatureKind.BODIES,
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CYLINDERS,
-        FeatureKind.CAPSULES,
-        FeatureKind.OPAQUE,
-        FeatureKind.PLANES,
-        FeatureKind.JOINTS,
-        FeatureKind.BALL_JOINTS,
-        FeatureKind.FIXED_JOINTS,
-        FeatureKind.MASSES,
-        FeatureKind.VISUALS,
-        FeatureKind.COLORS,
-    }
-)
-COULD = frozenset(
-    {
-        FeatureKind.MATERIALS,
-        FeatureKind.TEXTURES,
-        FeatureKind.TEXTURE_COORDINATES,
-        FeatureKind.VERTEX_COLORS,
-        FeatureKind.CONTACT,
-        FeatureKind.PAIRS,
-        FeatureKind.ACTUATORS,
-        FeatureKind.DYNAMICS,
-        FeatureKind.CAMERAS,
-        FeatureKind.LIGHTS,
-        FeatureKind.ANIMATIONS,
-        FeatureKind.SKINS,
-        FeatureKind.COMMENTS,
-    }
-)
 _TYPES = {
     "Material": FeatureKind.MATERIALS,
     "Camera": FeatureKind.CAMERAS,
@@ -70,8 +35,14 @@ class UsdFormat(Format):
     title: ClassVar[str] = "USD"
     suffixes: ClassVar[tuple[str, ...]] = (".usda", ".usd", ".usdc", ".usdz")
     up: ClassVar[Literal["y", "z"] | None] = "z"
-    holds: ClassVar[frozenset[FeatureKind]] = HOLDS
-    could: ClassVar[frozenset[FeatureKind]] = COULD
+    holds = BODY_FEATURES | {
+        *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
+    }
+    could = SCENE_FEATURES | {
+        *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.PAIRS, FeatureKind.ACTUATORS),
+        *(FeatureKind.DYNAMICS, FeatureKind.ANIMATIONS, FeatureKind.SKINS, FeatureKind.COMMENTS),
+    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -90,7 +61,7 @@ class UsdFormat(Format):
 
 
 def features_of(asset: Asset) -> list[Feature]:
-    """The features of a USD file that its asset does not tell."""
+    """The features of a USD file that its asset does not have."""
     with usd(str(asset.path)):
         return list(_list_features(UsdStage.open(asset.path)))
 
@@ -106,7 +77,7 @@ def _list_features(scene: UsdStage) -> Iterator[Feature]:
             found.setdefault(what, []).append(prim.GetName())
         count.update(_features_of_attributes(prim))
     for what, names in found.items():
-        yield Feature(what, tuple(dict.fromkeys(names)), len(names) - len(set(names)))
+        yield feature_of_tags(what, names)
     for what, number in count.items():
         yield Feature(what, unnamed=number)
 

@@ -17,7 +17,6 @@ _MOST_PRIMS = 1_000_000
 _MOST_LAYERS = 10_000
 
 PACKAGE_MARK = b"PK\x03\x04"
-
 TEXT_MARK = b"#usda"
 _QUIET = re.compile(rb'"""(?:[^\\]|\\.)*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|@[^@\n]*@|#[^\n]*', re.S)
 _PATH = re.compile(rb"<[^<>\n]*>")
@@ -43,6 +42,8 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
 
     To be used within `usd`.
     """
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
     layers: dict[str, Any] = {}
     waiting = [(path, data)]
     while waiting:
@@ -51,19 +52,13 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
         if key in layers:
             continue
         refuse_harmful(content, str(file))
-        layers[key] = _open_layer(file)
+        layers[key] = Sdf.Layer.FindOrOpen(str(file))
         if not content.lstrip().startswith(TEXT_MARK):
             _refuse_broken(layers[key], str(file))
         if len(layers) > _MOST_LAYERS:
             raise AssetError(f"it refers to more than {_MOST_LAYERS:,} layers", where=str(path))
         waiting += _read_references(layers[key], file)
     _PrimCounter(layers, str(path)).refuse_many(str(path.absolute()))
-
-
-def _open_layer(file: Path) -> Any:
-    from pxr import Sdf
-
-    return Sdf.Layer.FindOrOpen(str(file))
 
 
 def _refuse_broken(layer: Any, where: str) -> None:
@@ -190,7 +185,6 @@ def refuse_deep_text(data: bytes, where: str) -> None:
     """Raise AssetError where brackets lie in brackets too often, in strings as well, or a path has too many steps."""
     quiet = _QUIET.findall(data)
     plain = _QUIET.sub(b"", data)
-    if any(bracket_depth(part) > DEEPEST for part in (plain, *quiet)) or any(
-        path.count(b"/") > DEEPEST for path in _PATH.findall(plain)
-    ):
+    is_deep = any(bracket_depth(part) > DEEPEST for part in (plain, *quiet))
+    if is_deep or any(path.count(b"/") > DEEPEST for path in _PATH.findall(plain)):
         raise AssetError(f"it is nested more than {DEEPEST} deep", where=where, remedy=NEEDLESS)

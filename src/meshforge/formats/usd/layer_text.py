@@ -80,7 +80,7 @@ class _Patcher:
             if key not in new.own:
                 yield (*_span_with_line(self.text, *source.own[key]), "")
         if added:
-            at = max((end for _, end in source.own.values()), default=source.open + 1)
+            at = self._end_of_own(source)
             yield at, at, "".join(f"\n{lead}{text}" for text in added)
 
     def _patch_children(self, source: TextBlock, old: TextBlock, new: TextBlock, lead: str) -> Iterator[TextSplice]:
@@ -182,18 +182,13 @@ class _Scanner:
         if self._peek() == "(":
             self._skip_bracket()
         root.open = self.places[self.at - 1][1] - 1 if self.at else -1
-        while self._skip_blanks() and self.at < len(self.words):
-            self._scan_entry(root)
+        self._skip_blanks()
+        while self.at < len(self.words):
+            scan = self._scan_prim if self._peek() in _SPECIFIERS else self._scan_statement
+            scan(root)
+            self._skip_blanks()
         root.end = self.length + 1
         return root
-
-    def _scan_entry(self, block: TextBlock) -> None:
-        """A prim, a variant set, or a property."""
-        word = self._peek()
-        if word in _SPECIFIERS:
-            self._scan_prim(block)
-        else:
-            self._scan_statement(block)
 
     def _scan_prim(self, block: TextBlock) -> None:
         stack = [block]
@@ -264,10 +259,9 @@ class _Scanner:
             if depth == 0:
                 return
 
-    def _skip_blanks(self) -> bool:
+    def _skip_blanks(self) -> None:
         while self._peek() in ("\n", ";"):
             self.at += 1
-        return True
 
     def _peek(self) -> str:
         return self.words[self.at] if self.at < len(self.words) else ""

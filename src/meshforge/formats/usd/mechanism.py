@@ -11,7 +11,7 @@ import numpy as np
 from meshforge.formats.usd.colliders import StageBodies
 from meshforge.formats.usd.document import BODY
 from meshforge.formats.usd.stage import UsdStage, rotation_of
-from meshforge.geometry import Floats, Pose, Shape, inertia
+from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 
 _KINDS: dict[str, JointKind] = {
@@ -23,9 +23,7 @@ _KINDS: dict[str, JointKind] = {
 _AXES = {"X": np.eye(3)[0], "Y": np.eye(3)[1], "Z": np.eye(3)[2]}
 _TURNS = {"rotX": "X", "rotY": "Y", "rotZ": "Z"}
 _SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
-
 _FREEDOMS = (*_TURNS, *_SLIDES)
-
 _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
@@ -33,12 +31,11 @@ def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) 
     """Joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left out."""
     if not bodies.prims:
         return Mechanism()
-    hulls: dict[str, list[Any]] = {}
+    hulls: dict[str, list[Shape]] = {name: [] for name in (BODY, *bodies.names.values())}
     for geom in geoms:
-        hulls.setdefault(geom.body, []).append(geom.shape)
-    found = (
-        read_inertial(scene, prim, bodies.names[p], hulls.get(bodies.names[p], [])) for p, prim in bodies.prims.items()
-    )
+        hulls[geom.body].append(geom.shape)
+    named = [(prim, bodies.names[path]) for path, prim in bodies.prims.items()]
+    found = (read_inertial(scene, prim, name, hulls[name]) for prim, name in named)
     inertials = tuple(inertial for inertial in found if inertial is not None)
     joints = _keep_trees(joint for prim in joint_prims(scene) if (joint := _read_joint(scene, prim, bodies)))
     bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
@@ -46,7 +43,7 @@ def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) 
 
 
 def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
-    """The pairs of bodies that are filtered; pairs of colliders, or with articulations, are not told."""
+    """The pairs of bodies that are filtered; pairs of colliders, or with articulations, are left out."""
     found = []
     for path, prim in bodies.prims.items():
         relationship = prim.GetRelationship("physics:filteredPairs")
@@ -57,7 +54,7 @@ def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
 
 def joint_prims(scene: UsdStage) -> list[Any]:
     """The prims that are joints and switched on."""
-    from pxr import UsdPhysics
+    from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
 
     found = [prim for prim in scene.prims() if prim.IsA(UsdPhysics.Joint)]
     return [prim for prim in found if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
@@ -104,7 +101,7 @@ def _read_end(scene: UsdStage, prim: Any, side: str, bodies: StageBodies) -> tup
         linear, offset = scene.placement(target)
     place, turn = (scene.get(prim.GetAttribute(f"physics:local{what}{side}")) for what in ("Pos", "Rot"))
     at = linear @ np.array(place or (0, 0, 0), dtype=np.float64) + offset
-    rotation = root_t_end.rotation @ (rotation_of_quaternion(turn) if turn is not None else np.eye(3))
+    rotation = root_t_end.rotation @ _rotation_of_value(turn)
     return body, Pose(rotation_of(rotation), at)
 
 
@@ -120,7 +117,7 @@ def _read_freedom(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats,
 
 
 def _read_free_axis(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats, tuple[float, float] | None]:
-    """The same of a joint of six degrees of freedom, by the limits on each; low above high locks one."""
+    """What `_read_freedom` returns, of a joint of six degrees by the limits on each; low above high locks one."""
     bounds = {
         name: tuple(read_number(scene, prim, f"limit:{name}:physics:{e}") for e in ("low", "high"))
         for name in _FREEDOMS
@@ -181,7 +178,7 @@ def _keep_trees(joints: Iterable[Joint]) -> list[Joint]:
 def read_inertial(scene: UsdStage, prim: Any, body: str, hulls: Sequence[Shape]) -> Inertial | None:
     """What a body weighs by what it says itself; hulls: of the body, whose inertia it has where it says none.
 
-    None where it leaves its mass to the density of its colliders, or where nothing tells its inertia.
+    None where it leaves its mass to the density of its colliders, or where nothing says its inertia.
     """
     mass = read_number(scene, prim, "physics:mass")
     if mass is None or mass <= 0:
@@ -218,22 +215,13 @@ def moments_of(scene: UsdStage, prim: Any) -> Floats | None:
     axes = scene.get(prim.GetAttribute("physics:principalAxes"))
     if moments is None or not np.isfinite(moments).all() or min(moments) <= 0:
         return None
-    turn = scene.pose(prim).rotation @ (rotation_of_quaternion(axes) if axes is not None else np.eye(3))
+    turn = scene.pose(prim).rotation @ _rotation_of_value(axes)
     unit = scene.kilograms * scene.metres**2
     return np.asarray(turn @ np.diag(np.array(moments, dtype=np.float64) * unit) @ turn.T)
 
 
-def rotation_of_quaternion(quaternion: Any) -> Floats:
-    """The rotation (3, 3) of a quaternion of the library; none at all for one that is zero."""
-    w, (x, y, z) = float(quaternion.GetReal()), map(float, quaternion.GetImaginary())
-    length = float(np.linalg.norm([w, x, y, z]))
-    if not np.isfinite(length) or length == 0:
-        return np.eye(3)
-    w, x, y, z = w / length, x / length, y / length, z / length
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+def _rotation_of_value(quaternion: Any) -> Floats:
+    """The rotation (3, 3) of a quaternion of the library; none at all for None, and for one that is zero."""
+    parts = np.zeros(4) if quaternion is None else np.array([quaternion.GetReal(), *quaternion.GetImaginary()], float)
+    length = np.linalg.norm(parts)
+    return rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)

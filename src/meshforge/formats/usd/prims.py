@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import drop_rounding
+from meshforge.formats.kinematic_tree import drop_rounding, perpendicular_to
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import rotation_of
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint, JointKind
 
 _SHEAR = 1e-9
@@ -55,7 +55,7 @@ class PrimSpace:
 
 def add_prim(holder: Any, name: str, kind: str) -> Any:
     """A new prim in a layer below the spec of another one, under a name that no child of it has."""
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     return Sdf.PrimSpec(holder, name, Sdf.SpecifierDef, kind)
 
@@ -73,18 +73,17 @@ def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
 
 def set_value(spec: Any, name: str, kind: str, default: Any, *, uniform: bool = False) -> None:
     """Author an attribute of a type of `Sdf.ValueTypeNames`."""
-    from pxr import Sdf
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
-    attribute = spec.attributes.get(name) or Sdf.AttributeSpec(
-        spec, name, getattr(Sdf.ValueTypeNames, kind), variability
-    )
+    value_type = getattr(Sdf.ValueTypeNames, kind)
+    attribute = spec.attributes.get(name) or Sdf.AttributeSpec(spec, name, value_type, variability)
     attribute.default = default
 
 
 def set_place(spec: Any, translation: Floats, rotation: Floats | None = None, scales: Floats | None = None) -> None:
     """Author where a prim is, in the order translate, orient, scale; what is none is left out."""
-    from pxr import Gf
+    from pxr import Gf  # lazy: an optional package, and 0.3 s
 
     order = []
     at = drop_rounding(translation)
@@ -131,7 +130,7 @@ def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | 
 
 def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpace) -> Any:
     """The prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are finest."""
-    from pxr import Vt
+    from pxr import Vt  # lazy: an optional package, and 0.3 s
 
     local = space.to_local(points)
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
@@ -170,7 +169,7 @@ def _add_cube(spec: Any, at: Floats, turn: Floats, sides: Floats) -> Any:
 
 
 def _set_extent(spec: Any, low: Floats, high: Floats) -> None:
-    from pxr import Gf, Vt
+    from pxr import Gf, Vt  # lazy: an optional package, and 0.3 s
 
     set_value(spec, "extent", "Float3Array", Vt.Vec3fArray([Gf.Vec3f(*map(float, low)), Gf.Vec3f(*map(float, high))]))
 
@@ -202,19 +201,14 @@ def _joint_frame(joint: Joint, child: Pose) -> tuple[str, Pose]:
     for name, unit in zip("XYZ", np.eye(3), strict=True):
         if joint.kind not in ("planar", "floating") and np.allclose(local, unit, atol=1e-9):
             return name, Pose(child.rotation, joint.anchor)
-    return "Z", Pose(child.rotation @ _rotation_onto(local), joint.anchor)
-
-
-def _rotation_onto(axis: Floats) -> Floats:
-    """A rotation (3, 3) that takes Z onto a unit vector (3,)."""
-    side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    side = side / np.linalg.norm(side)
-    return np.column_stack([side, np.cross(axis, side), axis])
+    side = perpendicular_to(local)
+    turn = np.column_stack([side, np.cross(local, side), local])  # takes Z onto the axis
+    return "Z", Pose(child.rotation @ turn, joint.anchor)
 
 
 def _add_end(spec: Any, side: int, path: str | None, pose: Pose) -> None:
     """One end of a joint: the body, none for the world, and the frame of the joint there."""
-    from pxr import Gf, Sdf
+    from pxr import Gf, Sdf  # lazy: an optional package, and 0.3 s
 
     if path is not None:
         target = Sdf.RelationshipSpec(spec, f"physics:body{side}", False)
@@ -237,35 +231,18 @@ def _add_drive(spec: Any, joint: Joint) -> None:
         set_value(spec, f"drive:{drive}:physics:maxForce", "Float", joint.effort)
 
 
-class StageUnits(Protocol):
-    """What a stage measures in."""
-
-    @property
-    def metres(self) -> float: ...
-    @property
-    def kilograms(self) -> float: ...
-
-
-def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, unit: StageUnits) -> None:
-    """Write a mass on the prim of a body, in its own space and in the units of the stage."""
-    from pxr import Gf
+def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, metres: float = 1.0, kilograms: float = 1.0) -> None:
+    """Write a mass on the prim of a body, in its own space and in the units of the stage: so many [m], [kg]."""
+    from pxr import Gf  # lazy: an optional package, and 0.3 s
 
     centre = drop_rounding(body.to_local(inertial.centre[None])[0], 1.0)
     turn = rotation_of(body.linear).T
-    moments, axes = _principal_axes(drop_rounding(turn @ inertial.inertia @ turn.T))
-    moments = moments / (unit.kilograms * unit.metres**2)
+    moments, axes = principal_axes(drop_rounding(turn @ inertial.inertia @ turn.T))
+    moments = moments / (kilograms * metres**2)
     apply_schemas(spec, ["PhysicsMassAPI"])
-    set_value(spec, "physics:mass", "Float", inertial.mass / unit.kilograms)
+    set_value(spec, "physics:mass", "Float", inertial.mass / kilograms)
     set_value(spec, "physics:centerOfMass", "Point3f", Gf.Vec3f(*centre.tolist()))
     if moments.min() > 0:
         w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
         set_value(spec, "physics:diagonalInertia", "Float3", Gf.Vec3f(*moments.tolist()))
         set_value(spec, "physics:principalAxes", "Quatf", Gf.Quatf(w, x, y, z))
-
-
-def _principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
-    """The principal moments (3,) and their axes, a rotation (3, 3); the given axes where these are principal."""
-    if not (inertia - np.diag(np.diag(inertia))).any():
-        return np.diag(inertia).copy(), np.eye(3)
-    moments, axes = np.linalg.eigh(inertia)
-    return moments, axes * np.sign(np.linalg.det(axes))

@@ -10,8 +10,14 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
-from meshforge.formats.collision_pieces import CollisionPiece, drop_repeats, place_surface
-from meshforge.formats.gltf.visuals import GAMMA
+from meshforge.formats.collision_pieces import (
+    CollisionElement,
+    CollisionPiece,
+    drop_repeats,
+    name_pieces,
+    opaque_of,
+    place_surface,
+)
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.usd.colliders import (
     COLLISION,
@@ -22,15 +28,14 @@ from meshforge.formats.usd.colliders import (
     has_schema,
     is_collider,
     is_seen,
-    name_pieces,
 )
 from meshforge.formats.usd.document import PrimRecord, UsdDocument
 from meshforge.formats.usd.guard import refuse_harmful_layers
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
 from meshforge.formats.usd.stage import UsdStage, usd
-from meshforge.formats.visuals import LazySurfaces, Rgba
-from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface
+from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
+from meshforge.symbolic import Asset, Geom, Mentions, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
@@ -56,14 +61,14 @@ def read_usd(path: Path) -> Asset:
     Raises AssetError: damaged, more than memory holds, or there is nothing in it.
     """
     source = read_content(path)
-    with usd(str(path)) as told:
+    with usd(str(path)) as complaints:
         refuse_harmful_layers(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
-    with usd(str(path)):  # which tells of missing files once more
+    with usd(str(path)):  # which complains about missing files once more
         files, missing = find_files(path)
     asset = replace(asset, files=files, missing=missing)
-    return _with_complaints(asset, told)
+    return _with_complaints(asset, complaints)
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
@@ -73,7 +78,13 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     sources = list(read_collisions(scene, bodies, physics, notes))
     authored = record_prims(sources, bodies)
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
-    geoms = tuple(_build_geoms(authored, sources))
+    mentions = [mentions_of_prim(source.prim) for source in sources]
+    geoms = tuple(_build_geoms(authored, sources, mentions))
+    opaque = opaque_of(
+        [CollisionElement(element.body, element.names) for element in authored],
+        [source.parts for source in sources],
+        [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
+    )
     mechanism = read_mechanism(scene, bodies, geoms)
     return Asset(
         path=scene.path,
@@ -81,7 +92,7 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
         bodies=bodies.list_bodies(),
         geoms=geoms,
         document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
-        opaque=tuple(_build_opaque(authored, sources)),
+        opaque=opaque,
         visuals=visuals,
         notes=(*collect_notes(scene, physics), *notes),
         mechanism=mechanism,
@@ -91,7 +102,7 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
 
 def read_collisions(scene: UsdStage, bodies: StageBodies, physics: bool, notes: list[str]) -> Iterator[PrimCollision]:
     """All prims with collision, in the order of the stage."""
-    from pxr import UsdGeom
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
     for prim in scene.prims():
         if prim.IsA(UsdGeom.PointInstancer):
@@ -110,41 +121,34 @@ def record_prims(sources: Sequence[PrimCollision], bodies: StageBodies) -> tuple
     )
 
 
-def _build_geoms(authored: Sequence[PrimRecord], sources: Sequence[PrimCollision]) -> Iterator[Geom]:
-    for element, source in zip(authored, sources, strict=True):
-        said, contact = mentions_of_prim(source.prim), contact_attributes(source.prim)
+def _build_geoms(
+    authored: Sequence[PrimRecord], sources: Sequence[PrimCollision], mentions: Sequence[Mentions]
+) -> Iterator[Geom]:
+    for element, source, own in zip(authored, sources, mentions, strict=True):
+        contact = contact_attributes(source.prim)
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
-                yield Geom(name, element.body, part.shape, contact=contact, mentions=said)
+                yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
 
 
-def _build_opaque(authored: Sequence[PrimRecord], sources: Sequence[PrimCollision]) -> Iterator[Opaque]:
-    for element, source in zip(authored, sources, strict=True):
-        said = mentions_of_prim(source.prim)
-        for name, part in zip(element.names, source.parts, strict=True):
-            if part.shape is None:
-                yield Opaque(name, element.body, part.reason, part.surface, part.plane, said)
-
-
-def _with_complaints(asset: Asset, told: Sequence[str]) -> Asset:
+def _with_complaints(asset: Asset, complaints: Sequence[str]) -> Asset:
     """The asset with what the library complained about; an asset of nothing with complaints is refused."""
-    if told and not asset.geoms and not asset.opaque:
-        raise AssetError(f"nothing in it collides; USD says: {told[0]}", where=str(asset.path))
-    more = [f"and {len(told) - 3} complaints more of USD"] if len(told) > 3 else []
-    return replace(asset, notes=(*asset.notes, *(f"USD says: {text}" for text in told[:3]), *more))
+    if complaints and not asset.geoms and not asset.opaque:
+        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(asset.path))
+    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
+    return replace(asset, notes=(*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more))
 
 
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside the main one that are there, in order of mention, and the references that lead nowhere."""
-    from pxr import UsdUtils
+    from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
 
     layers, assets, unresolved = UsdUtils.ComputeAllDependencies(str(path))
     places = [*(layer.realPath for layer in layers), *assets]
     own = path.resolve()
     found = [file for file in map(_file_of, places) if file is not None and file.resolve() != own]
-    return tuple(dict.fromkeys(found)), tuple(
-        dict.fromkeys(text.removeprefix(f"{path.absolute().parent}/") for text in unresolved)
-    )
+    missing = (text.removeprefix(f"{path.absolute().parent}/") for text in unresolved)
+    return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(missing))
 
 
 def digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
@@ -164,7 +168,7 @@ def _file_of(place: Any) -> Path | None:
 
 def mentions_of_prim(prim: Any) -> Mentions:
     """What is said of a prim with collision."""
-    from pxr import UsdShade
+    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
 
     found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
@@ -190,11 +194,8 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     if not physics:
         yield "no prim is marked as collision: all that is seen is taken for it, so that edits change what is seen"
     prims = list(scene.prims())
-    off = [
-        p.GetName()
-        for p in prims
-        if has_schema(p, COLLISION) and not has_schema(p, TRIGGER) and not is_collider(scene, p)
-    ]
+    solid = [prim for prim in prims if has_schema(prim, COLLISION) and not has_schema(prim, TRIGGER)]
+    off = [prim.GetName() for prim in solid if not is_collider(scene, prim)]
     if off:
         yield f"{pluralize(len(off), 'collider')} switched off are left as they are ({join_names(off, 3)})"
     triggers = sum(has_schema(prim, TRIGGER) for prim in prims)
@@ -248,7 +249,7 @@ def _read_surfaces(scene: UsdStage, path: str, body: str) -> Iterator[Surface]:
 
 def _read_color(scene: UsdStage, prim: Any) -> Rgba | None:
     """The colour of a prim as screens show it: of its preview surface, else its display colour where that is one."""
-    from pxr import UsdGeom, UsdShade
+    from pxr import UsdGeom, UsdShade  # lazy: an optional package, and 0.3 s
 
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     surface = material.ComputeSurfaceSource()[0] if material else None

@@ -1,24 +1,22 @@
-"""The collision of a prim as convex shapes and opaque pieces in the root frame, as engines take it; of a point
+"""The collision of a prim as convex shapes and non-convex pieces in the root frame, as engines take it; of a point
 instancer, all its instances as one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.formats.collision_pieces import CollisionPiece, place_pieces, place_surface
+from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
 from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
 from meshforge.formats.usd.colliders import COLLISION, has_schema
 from meshforge.formats.usd.stage import UsdStage, rotation_of
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, convex_hull, split_pieces
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, split_pieces
 
 _FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
 _LEAST = 1e-100  # of any stretch; below, its square is zero
 _SHEAR = 1e-6
-_RING = 32  # corners of each end of a cone or a tapered cylinder
 _TO_Z = {
     "X": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
     "Y": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
@@ -28,7 +26,7 @@ _TO_Z = {
 WHOLE = ("convexHull", "boundingCube", "boundingSphere")
 """The approximations that make one shape of a mesh, whatever its pieces."""
 
-_MOST_TRIANGLES = 2_000_000  # triangles of all instances together; beyond, they are told and not shown
+_MOST_TRIANGLES = 2_000_000  # triangles of all instances together; beyond, they are named and not shown
 _REASON = "many at once by a point instancer, which is not edited"
 
 
@@ -41,11 +39,8 @@ def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPi
     if kind == "Mesh":
         return _parts_of_mesh(scene, prim, linear, offset)
     if kind == "Plane":
-        return [
-            CollisionPiece(
-                None, "a plane has no end", plane=Pose(rotation_of(linear) @ _axis_rotation(scene, prim), offset)
-            )
-        ]
+        plane = Pose(rotation_of(linear) @ _axis_rotation(scene, prim), offset)
+        return [CollisionPiece(None, "a plane has no end", plane=plane)]
     return [_read_primitive(scene, prim, kind, linear, offset, notes)]
 
 
@@ -55,7 +50,7 @@ def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -
         mesh = read_mesh(scene, prim)
         if len(mesh.faces) and np.abs(mesh.vertices[np.unique(mesh.faces)]).max() > FARTHEST:
             return [CollisionPiece(None, "its coordinates are out of all bounds")]
-        how = approximation_of(scene, prim)
+        how = str(scene.get(prim.GetAttribute("physics:approximation")) or "none")
         if how in WHOLE and len(mesh.faces):
             return [_build_whole(how, mesh.vertices[np.unique(mesh.faces)], linear, offset)]
         found = split_pieces(mesh.vertices, mesh.faces, name=str(prim.GetPath()))
@@ -64,11 +59,6 @@ def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -
             return [CollisionPiece(None, error.problem, place_surface(mesh.vertices, mesh.faces, linear, offset))]
         return [CollisionPiece(None, error.problem)]
     return place_pieces(found, linear, offset)
-
-
-def approximation_of(scene: UsdStage, prim: Any) -> str:
-    """The token of a mesh's approximation, `none` where it says none."""
-    return str(scene.get(prim.GetAttribute("physics:approximation")) or "none")
 
 
 def _build_whole(how: str, points: Floats, linear: Floats, offset: Floats) -> CollisionPiece:
@@ -114,10 +104,10 @@ def _build_primitive(
     match kind:
         case "Cube":
             sides = size("size") * scales
-            return _build_solid(kind, sides, lambda: Box(Pose(_proper_rotation(turn), offset), sides / 2))
+            return build_solid(kind, sides, lambda: Box(Pose(_proper_rotation(turn), offset), sides / 2))
         case "Sphere":
             radius = size("radius") * float(scales.max())
-            return _build_solid(kind, [radius], lambda: Sphere(pose, radius))
+            return build_solid(kind, [radius], lambda: Sphere(pose, radius))
         case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
             return _build_round(kind, pose, _radii(kind, size) * float(wide.max()), size("height") * long / 2)
     return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
@@ -135,35 +125,14 @@ def _build_round(kind: str, pose: Pose, radii: Floats, half: float) -> Collision
     capsule, (bottom, top) = kind.startswith("Capsule"), radii
     sizes = [float(radii.max()), 2 * half]
     if capsule and bottom == top and half <= 1e-9 * bottom:
-        return _build_solid("sphere", sizes[:1], lambda: Sphere(pose, float(bottom)))
+        return build_solid("sphere", sizes[:1], lambda: Sphere(pose, float(bottom)))
     if bottom == top:
         make = Capsule if capsule else Cylinder
-        return _build_solid(kind, sizes, lambda: make(pose, float(bottom), half))
+        return build_solid(kind, sizes, lambda: make(pose, float(bottom), half))
     if radii.min() < 0:
         return CollisionPiece(None, f"a {kind} of negative radius")
-    ends = np.concatenate([_end_points(bottom, -half, capsule), _end_points(top, half, capsule)])
-    return _build_solid(kind, sizes, lambda: convex_hull(pose.apply(ends)))
-
-
-def _end_points(radius: float, height: float, ball: bool) -> Floats:
-    """Points (n, 3) of the disk or ball at a height."""
-    if radius == 0:
-        return np.array([[0.0, 0.0, height]])
-    if ball:
-        return np.asarray(Sphere(Pose.of_translation([0.0, 0.0, height]), radius).vertices)
-    angles = np.arange(_RING) * (2 * np.pi / _RING)
-    return np.column_stack([radius * np.cos(angles), radius * np.sin(angles), np.full(_RING, height)])
-
-
-def _build_solid(kind: str, sizes: Sequence[float] | Floats, make: Any) -> CollisionPiece:
-    """The shape that `make` makes, unless it has no volume."""
-    if not np.isfinite(sizes).all() or min(sizes) <= 0:
-        return CollisionPiece(None, f"a {kind.lower()} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
-    try:
-        shape: Shape = make()
-    except GeometryError as error:
-        return CollisionPiece(None, error.problem)
-    return CollisionPiece(shape)
+    ends = [end_points(r, at, ball=capsule, axis=2) for r, at in ((bottom, -half), (top, half))]
+    return build_solid(kind, sizes, lambda: convex_hull(pose.apply(np.concatenate(ends))))
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
@@ -191,7 +160,7 @@ def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
 
     Raises GeometryError: its counts and indices do not fit together, or a coordinate is not finite.
     """
-    from pxr import UsdGeom
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
     mesh = UsdGeom.Mesh(prim)
     points = np.asarray(scene.get(mesh.GetPointsAttr()) or [], dtype=np.float64).reshape(-1, 3)
@@ -224,15 +193,13 @@ def triangulate(corners: Ints, counts: Ints, holes: Ints) -> Ints:
 
 def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[str]) -> CollisionPiece | None:
     """All instances of the prototypes that collide; None where none does."""
-    from pxr import Usd, UsdGeom
+    from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
 
     kinds = UsdGeom.PointInstancer(instancer)
     roots = [scene.stage.GetPrimAtPath(path) for path in kinds.GetPrototypesRel().GetForwardedTargets()]
     predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-    shapes = [
-        _prototype_surface(scene, root, Usd.PrimRange(root, predicate) if root else (), physics, notes)
-        for root in roots
-    ]
+    below = [Usd.PrimRange(root, predicate) if root else () for root in roots]
+    shapes = [_prototype_surface(scene, *prototype, physics, notes) for prototype in zip(roots, below, strict=True)]
     if all(shape is None for shape in shapes):
         return None
     at = np.asarray(kinds.ComputeInstanceTransformsAtTime(scene.time, scene.time), dtype=np.float64).reshape(-1, 4, 4)
@@ -250,7 +217,7 @@ def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[s
 
 def _prototype_surface(scene: UsdStage, root: Any, below: Any, physics: bool, notes: list[str]) -> RawSurface | None:
     """What collides of a prototype, where the instancer puts it, in units of the stage."""
-    from pxr import UsdGeom
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
     if not root:
         return None

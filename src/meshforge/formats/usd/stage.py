@@ -7,7 +7,7 @@ import re
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -21,7 +21,7 @@ _LOCK = threading.RLock()
 """Layers are shared in a process: while one asset is edited in memory, nobody may read it."""
 _STAGE = re.compile(r"\s*\((?:instantiating|recomposing) stage on stage .*\)\s*$", re.S)
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError)
-_REMEDY = "Mend the file, or export it anew."
+_REMEDY = "Repair the file, or export it anew."
 _INSIDE = re.compile(r"\bpxrInternal\w*::|@anon:0x[0-9a-f]+:[^@]*@,?")  # the library's names for parts of its own
 _LONGEST = 300  # characters of a complaint in a message
 
@@ -31,8 +31,8 @@ _CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
 def require_usd(where: str) -> None:
     """Raise AssetError where a package is not installed."""
     try:
-        import lz4.block  # noqa: F401 (these fail here, with the remedy, rather than later)
-        import pxr.Usd  # noqa: F401
+        import lz4.block  # noqa: F401  # lazy: an optional package; fails here, with the remedy, rather than later
+        import pxr.Usd  # noqa: F401  # lazy: an optional package, and 0.3 s
     except ImportError as error:
         problem = f"USD files need the packages usd-core and lz4, and {error.name} is not installed"
         raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
@@ -45,14 +45,14 @@ def usd(where: str) -> Iterator[list[str]]:
     Raises AssetError at `where`, with its first complaint, where it gives up.
     """
     require_usd(where)
-    from pxr import Tf, UsdUtils
+    from pxr import Tf, UsdUtils  # lazy: an optional package, and 0.3 s
 
-    told: list[str] = []
+    complaints: list[str] = []
     with _LOCK:
         delegate = UsdUtils.CoalescingDiagnosticDelegate()
         try:
-            with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and told
-                yield told
+            with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and reported
+                yield complaints
         except Tf.ErrorException as error:
             problem = f"USD cannot read it: {_first_comment(error.args, where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from None
@@ -60,21 +60,21 @@ def usd(where: str) -> Iterator[list[str]]:
             problem = f"this USD file is damaged: {shorten(str(error), where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from error
         finally:
-            said = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
-            told += dict.fromkeys(said)
+            found = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
+            complaints += dict.fromkeys(found)
             del delegate
 
 
 def shorten(text: str, where: str) -> str:
-    """A complaint in one line, of a long one the beginning; files are told from the folder of the asset."""
+    """A complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
     line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
 
 
 def _first_comment(errors: tuple[object, ...], where: str) -> str:
     """The commentary of the first of the library's errors."""
-    said = [_text_of(error) for error in errors]
-    return shorten(next((text for text in said if text), "it gives no reason"), where)
+    texts = (_text_of(error) for error in errors)
+    return shorten(next((text for text in texts if text), "it gives no reason"), where)
 
 
 def _text_of(complaint: object) -> str:
@@ -91,12 +91,11 @@ class UsdStage:
 
     stage: Any
     path: Path
-    _placed: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)
 
     @staticmethod
     def open(path: Path) -> UsdStage:
         """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
-        from pxr import Usd
+        from pxr import Usd  # lazy: an optional package, and 0.3 s
 
         scene = UsdStage(Usd.Stage.Open(str(path)), path)
         if not np.isfinite(scene.metres) or scene.metres <= 0:
@@ -106,7 +105,7 @@ class UsdStage:
     @cached_property
     def metres(self) -> float:
         """The metres of the stage's unit."""
-        from pxr import UsdGeom
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
         said = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
         return float(UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
@@ -114,31 +113,31 @@ class UsdStage:
     @cached_property
     def kilograms(self) -> float:
         """The kilograms of the stage's unit of mass."""
-        from pxr import UsdPhysics
+        from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
 
         return float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
 
     @property
     def up(self) -> Literal["y", "z"]:
-        from pxr import UsdGeom
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
         return "z" if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else "y"
 
     @cached_property
     def time(self) -> Any:
-        from pxr import Usd
+        from pxr import Usd  # lazy: an optional package, and 0.3 s
 
         return Usd.TimeCode.EarliestTime()
 
     @cached_property
     def _cache(self) -> Any:
-        from pxr import UsdGeom
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
         return UsdGeom.XformCache(self.time)
 
     def prims(self) -> Iterator[Any]:
         """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
-        from pxr import Usd, UsdGeom
+        from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
 
         predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
         below = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
