@@ -104,10 +104,6 @@ def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
     return [tuple(next(unique) for _ in names) for names in each]
 
 
-ElementPieces = Sequence[Sequence[CollisionPiece]]
-"""The pieces of each element, in order."""
-
-
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
     pieces = _iterate_pieces(authored, parts, mentions)
