@@ -53,7 +53,8 @@ export function viewerExtensions(name: string): Extension {
   return [syntaxColors, theme, EditorView.contentAttributes.of({ "aria-label": name, spellcheck: "false" })];
 }
 
-function complete(context: CompletionContext, bare: boolean): CompletionResult | null {
+/** What may be put where one types; null where nothing is to be offered. */
+export function complete(context: CompletionContext, bare: boolean): CompletionResult | null {
   const { language } = useLanguage.getState();
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
@@ -89,7 +90,8 @@ function underline(view: EditorView, marks: readonly Mark[]): void {
   );
 }
 
-function diagnostic(doc: Text, { line, column, message }: Mark): Diagnostic {
+/** A mark as the editor underlines it: to the end of its word, or the sign before it at the end of a line. */
+export function diagnostic(doc: Text, { line, column, message }: Mark): Diagnostic {
   const row = doc.line(Math.min(Math.max(line, 1), doc.lines));
   const at = Math.min(Math.max(column - 1, 0), row.length);
   const word = /^(?:"[^"]*"?|[\p{L}\p{N}_]+|\S)/u.exec(row.text.slice(at))?.[0].length ?? 0;

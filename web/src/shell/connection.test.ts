@@ -1,0 +1,172 @@
+// The token of the address, why there is no connection, and where one was before the page was loaded again.
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+class Storage {
+  readonly kept = new Map<string, string>();
+  getItem = (key: string) => this.kept.get(key) ?? null;
+  setItem = (key: string, value: string) => void this.kept.set(key, value);
+}
+
+interface Socket {
+  onopen: () => void;
+  onclose: () => void;
+  onmessage: (message: { data: string }) => void;
+}
+
+let storage: Storage;
+let socket: Socket;
+
+/** The modules as a page has them that was just loaded. */
+async function load() {
+  vi.resetModules();
+  const [connection, http, project, workspace, help] = await Promise.all([
+    import("./connection"),
+    import("../server/http"),
+    import("../store/project"),
+    import("../store/workspace"),
+    import("../store/sample.test-help"),
+  ]);
+  return { ...connection, ...http, ...project, ...workspace, ...help };
+}
+
+/** Answers the question whether the server is there; nothing else is to be had of it. */
+function answer(status: number): void {
+  const gone = '{"message":"no such asset","where":null,"remedy":null,"conflict":false}';
+  const respond = (path: string) => (path === "api/language" ? new Response("{}", { status }) : new Response(gone, { status: 404 }));
+  vi.stubGlobal("fetch", async (path: string) => respond(path));
+}
+
+const hello = (page: Awaited<ReturnType<typeof load>>, change: object = {}) => {
+  const cards = ["a", "b"].map((asset) => page.sampleCard({ asset }));
+  const { project, history, program } = page.emptyProject;
+  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, lesson: null, learning: false, reach: [], jobs: [], tour: false, engines: [], ...change };
+  socket.onmessage({ data: JSON.stringify(event) });
+};
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  storage = new Storage();
+  vi.stubGlobal("sessionStorage", storage);
+  vi.stubGlobal("document", { baseURI: "http://host/" });
+  vi.stubGlobal("WebSocket", function (this: Socket) {
+    // eslint-disable-next-line @typescript-eslint/no-this-alias
+    socket = this;
+  });
+  answer(200);
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe("the token", () => {
+  const open = (address: string) => {
+    const replaced: string[] = [];
+    vi.stubGlobal("location", { href: address });
+    vi.stubGlobal("history", { replaceState: (_state: unknown, _title: string, url: URL) => replaced.push(url.href) });
+    return replaced;
+  };
+
+  it("is taken from the address, out of sight, and kept for the tab", async () => {
+    const replaced = open("http://host/?token=secret&x=1");
+    const page = await load();
+    page.takeToken();
+    expect(page.address("ws")).toBe("ws?token=secret");
+    expect(replaced).toEqual(["http://host/?x=1"]);
+    open("http://host/?x=1");
+    const again = await load();
+    again.takeToken();
+    expect(again.address("ws")).toBe("ws?token=secret");
+  });
+
+  it("of the address counts more than the one that was kept", async () => {
+    storage.setItem("meshforge.token", "old");
+    open("http://host/?token=new");
+    const page = await load();
+    page.takeToken();
+    expect(page.address("ws")).toBe("ws?token=new");
+  });
+
+  it("is empty where there is none", async () => {
+    open("http://host/");
+    const page = await load();
+    page.takeToken();
+    expect(page.address("ws")).toBe("ws?token=");
+  });
+});
+
+describe("without a connection", () => {
+  it("the page knows that it is lost, where the server answers again or not at all", async () => {
+    const page = await load();
+    page.connect();
+    socket.onclose();
+    await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("lost"));
+  });
+
+  it.each([401, 403])("the page knows that the server is another one by its answer %i", async (status) => {
+    answer(status);
+    const page = await load();
+    page.connect();
+    socket.onclose();
+    await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("refused"));
+  });
+
+  it("the page is open again as soon as the server answers", async () => {
+    const page = await load();
+    page.connect();
+    socket.onclose();
+    socket.onopen();
+    await Promise.resolve();
+    expect(page.useConnection.getState().state).toBe("open");
+    expect(page.useProject.getState().connected).toBe(true);
+  });
+});
+
+describe("the first word of the server", () => {
+  it("opens what is next", async () => {
+    const page = await load();
+    page.connect();
+    hello(page, { project: { ...page.emptyProject.project, next: { stage: "learn", say: "", asset: "b" } } });
+    expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["learn", "b"]);
+  });
+
+  it("opens what was open before the page was loaded again", async () => {
+    const before = await load();
+    before.connect();
+    hello(before);
+    before.openStage("review");
+    before.openAsset("b");
+    const page = await load();
+    page.connect();
+    hello(page);
+    expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["review", "b"]);
+  });
+
+  it("opens an asset that can be read where nothing else is known", async () => {
+    storage.setItem("meshforge.place", '{"asset":"gone","stage":"dance"}');
+    const page = await load();
+    page.connect();
+    const cards = [page.sampleCard({ asset: "a", error: "no mesh" }), page.sampleCard({ asset: "b" })];
+    hello(page, { cards });
+    expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["label", "b"]);
+  });
+
+  it("is not disturbed by what was kept and cannot be read", async () => {
+    storage.setItem("meshforge.place", "{broken");
+    const page = await load();
+    page.connect();
+    hello(page);
+    expect(page.useWorkspace.getState().asset).toBe("a");
+  });
+
+  it("counts once: a connection that comes back leaves the person where they are", async () => {
+    const page = await load();
+    page.connect();
+    hello(page);
+    page.openAsset("b");
+    page.openStage("learn");
+    hello(page);
+    expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["learn", "b"]);
+  });
+});
