@@ -55,7 +55,7 @@ _HOMES = {name: package for package, names in _PACKAGES.items() for name in name
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        from importlib.metadata import version
+        from importlib.metadata import version  # lazy: reads files
 
         return version("meshforge")
     if name not in _HOMES:

@@ -10,7 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import ProgramError
-from meshforge.language.actions.base import Action, ActionArgument, Argument, FileArgument, TokenKind, join_alternatives
+from meshforge.language.actions.base import (
+    Action,
+    ActionArgument,
+    ArgumentType,
+    FileArgument,
+    TokenKind,
+    join_alternatives,
+)
 from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.syntax import (
@@ -240,7 +247,7 @@ def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
-def _build_argument(text: TreeReader, kind: type[Action], argument: Argument, given: Node | Token) -> Any:
+def _build_argument(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> Any:
     """The value of an argument, read as its kind says."""
     if isinstance(argument, ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
@@ -260,7 +267,7 @@ def _bare_token(given: Node | Token) -> Token | None:
     return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 
-def _misfit_error(text: TreeReader, kind: type[Action], argument: Argument, given: Node | Token) -> ProgramError:
+def _misfit_error(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> ProgramError:
     thing = text.source.piece_at(start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely_word(thing.strip('"'), argument.choices)

@@ -22,7 +22,7 @@ Axis = Literal["all", "X", "Y", "Z"]
 AXES: tuple[Axis, ...] = get_args(Axis)
 
 
-class Argument(ABC):
+class ArgumentType(ABC):
     """One kind of argument; kept as metadata of the action's field."""
 
     __slots__ = ()
@@ -56,7 +56,7 @@ class Argument(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class WordArgument(Argument):
+class WordArgument(ArgumentType):
     """One of some bare words."""
 
     words: tuple[str, ...]
@@ -82,7 +82,7 @@ class WordArgument(Argument):
 
 
 @dataclass(frozen=True, slots=True)
-class FlagArgument(Argument):
+class FlagArgument(ArgumentType):
     """A bare word that is there or not."""
 
     word: str
@@ -110,7 +110,7 @@ class FlagArgument(Argument):
 
 
 @dataclass(frozen=True, slots=True)
-class FileArgument(Argument):
+class FileArgument(ArgumentType):
     """A quoted path of a template file."""
 
     usage = '"file"'
@@ -144,7 +144,7 @@ class PrimitiveOrFileArgument(FileArgument):
 
 
 @dataclass(frozen=True, slots=True)
-class FactorArgument(Argument):
+class FactorArgument(ArgumentType):
     """A number above 0."""
 
     usage = "factor"
@@ -203,9 +203,9 @@ class Action(ABC):
         return ()
 
     @classmethod
-    def arguments(cls) -> dict[str, Argument]:
+    def arguments(cls) -> dict[str, ArgumentType]:
         """The kind of each argument by the name of its field, in order."""
-        return {f.name: cast(Argument, f.metadata["argument"]) for f in _fields_of(cls)}
+        return {f.name: cast(ArgumentType, f.metadata["argument"]) for f in _fields_of(cls)}
 
     @classmethod
     def min_arguments(cls) -> int:
@@ -244,7 +244,7 @@ def _field_default(kind: type[Action], name: str) -> Any:
 
 
 @dataclass(frozen=True, slots=True)
-class ActionArgument(Argument):
+class ActionArgument(ArgumentType):
     """An action inside another; the parser reads it, since it has arguments of its own."""
 
     usage = "action"
