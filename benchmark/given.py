@@ -31,6 +31,7 @@ class Given:
 
     def settings(self) -> VlmSettings | None:
         """Whom to ask and how. Raises UsageError: no such file, no such table, or a field that does not fit."""
+        from meshforge.labels import endpoint_of
         from meshforge.store.settings import VlmSettings
 
         if self.vlm is None:
@@ -47,5 +48,5 @@ class Given:
             raise UsageError(f"this is no TOML: {error}", where=where) from error
         except ValidationError as error:
             raise UsageError(first_validation_error(error), where=where) from error
-        settings.endpoint().key()
+        endpoint_of(settings).key()
         return settings if self.max_cost is None else settings.model_copy(update={"max_cost": self.max_cost})

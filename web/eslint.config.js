@@ -10,7 +10,7 @@ export default tseslint.config(
     rules: {
       "no-restricted-imports": [
         "error",
-        { patterns: ["three", "three/*", "react-dom*", "**/{family,panels,pictures,shell,steps,text,tour,ui,viewport}/**"] },
+        { patterns: ["three", "three/*", "react-dom*", "**/{family,hulls,panels,pictures,shell,steps,text,ui,viewport}/**"] },
       ],
     },
   },

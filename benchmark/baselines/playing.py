@@ -23,7 +23,7 @@ from benchmark.report import Tell
 from benchmark.study import Bench, Session
 from benchmark.tasks import Task, task
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import QuestionError
+from meshforge.labels.vlm.endpoint import QuestionError, endpoint_of
 from meshforge.labels.vlm.request import Message
 from meshforge.store.settings import VlmSettings
 
@@ -92,7 +92,7 @@ def vlm_blender(python: Path) -> Baseline:
 def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> Played:
     """Ask a model in all sessions, and judge what it wrote; nothing is judged where some session is missing."""
     taught = sorted(taught, key=lambda row: row.task)  # so that a task's meshes are read once
-    client = Client(settings.endpoint(), JOURNALS / ANSWERS, max_cost=settings.max_cost)
+    client = Client(endpoint_of(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
     with closing(client):
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
     missing = [answer for answer in answers if isinstance(answer, QuestionError)]

@@ -13,8 +13,9 @@ from benchmark.labels.methods import Labels, Method, Told
 from benchmark.labels.sampling import Family
 from meshforge.labels.vlm.answer import VlmAnswers
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import Endpoint
+from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
 from meshforge.labels.vlm.labeller import Labeller
+from meshforge.labels.vlm.prompt import prompt_config_of
 from meshforge.labels.vlm.request import VlmQuestion
 from meshforge.labels.vlm.transport import Reply
 from meshforge.store.settings import VlmSettings
@@ -49,9 +50,9 @@ class Asked:
 
     def _told(self, family: Family, repeat: int) -> Told:
         """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
-        endpoint, most = self.settings.endpoint(), self.settings.max_cost
+        endpoint, most = endpoint_of(self.settings), self.settings.max_cost
         left = None if most is None else max(0.0, most - self.spent)
-        manner = self.settings.model_copy(update={"about": "", "descriptions": {}}).manner(family.vocabulary)
+        manner = prompt_config_of(self.settings.model_copy(update={"about": "", "descriptions": {}}), family.vocabulary)
         started = perf_counter()
         client = CountingClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         with closing(client), closing(Labeller(client, manner)) as labeller:

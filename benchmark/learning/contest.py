@@ -15,11 +15,11 @@ from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import search_by_paper
+from meshforge.synthesis.paper.search import PaperSearch
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.readings.enumeration import enumerate_consistent
 from meshforge.synthesis.readings.rank import RankedReadings
-from meshforge.synthesis.repair.explain import Explanation, explain_by_corrections
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.search.smallest import Hit
 
 ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and readings", "MeshForge, repair on"
@@ -85,9 +85,9 @@ class Contest:
         case = self.case
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = LabelBeliefs(known, rest, case.vocabulary)
-        return explain_by_corrections(
+        return CorrectionSearch(
             case.examples(), case.vocabulary, labels, Options(), TimeBudget(self.limit), exact=exact
-        )
+        ).run()
 
     def _paper(self, repair: bool) -> Extractor | None:
         """With repair on it asks about every label it would correct, and the answer is no: all are right."""
@@ -95,7 +95,7 @@ class Contest:
             return None  # what it does not finish without repair it does not finish with it
         options = Options(strategy="paper", repair=repair)
         examples, vocabulary = self.case.examples(), self.case.vocabulary
-        found = search_by_paper(examples, vocabulary, TimeBudget(self.limit), options, confirm=_no)
+        found = PaperSearch(examples, vocabulary, TimeBudget(self.limit), options, confirm=_no).run()
         return found.extractor if isinstance(found, Hit) else None
 
     def _cvc5(self) -> Callable[[], object]:

@@ -19,7 +19,7 @@ from meshforge.symbolic import Label, LabelSource, SymbolicMesh, descriptors
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import explain_by_corrections
+from meshforge.synthesis.repair.explain import CorrectionSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 
 OPTIONS = Options(max_size=9)
@@ -122,9 +122,9 @@ def _learn(case: Case, tally: Tally) -> None:
     for _ in range(ROUNDS):
         labels = LabelBeliefs({one.name: one.mesh for one in examples}, rest, case.vocabulary)
         start = perf_counter()
-        said = explain_by_corrections(
+        said = CorrectionSearch(
             examples, case.vocabulary, labels, OPTIONS, TimeBudget(60.0), exact=exact, spent=spent, rejected=rejected
-        )
+        ).run()
         tally.seconds.append(perf_counter() - start)
         if said is None:
             break

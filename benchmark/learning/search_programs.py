@@ -10,7 +10,7 @@ from benchmark.clock import in_turns
 from benchmark.learning.cases import learned
 from benchmark.learning.programs import Wanted, wanted, wanted_tables
 from benchmark.report import Cell, Tell
-from meshforge.language import EXTREMITY, select_mask
+from meshforge.language import select_mask
 from meshforge.synthesis import Demonstration, synthesize
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
@@ -95,6 +95,6 @@ def _readings(task: Wanted, shown: Sequence[str], number: int, rounds: int) -> f
     rest = [mesh for name, mesh in met.items() if name not in shown]
 
     def run() -> object:
-        return learned(Search(examples, task.program.labels, TimeBudget(120.0), Options(), EXTREMITY, rest))
+        return learned(Search(examples, task.program.labels, TimeBudget(120.0), Options(), rest))
 
     return median(in_turns({"ours": lambda: run}, rounds)["ours"])

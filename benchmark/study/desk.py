@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import blake2b
 from typing import Literal
@@ -130,12 +130,9 @@ class Desk:
             one.orient,
             templates,
             one.labels,
-            one.contact,
-            one.extremity,
-            options,
+            replace(options, contact=one.contact, extremity=one.extremity, rejected=tuple(rejected)),
             confirm,
             answers,
-            rejected,
         )
 
     def proposed(self, names: Iterable[str]) -> str | None:

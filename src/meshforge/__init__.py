@@ -1,4 +1,4 @@
-"""MeshForge: teach one collision mesh, mend the whole family.
+"""MeshForge: teach one collision mesh, fix the whole family.
 
 The names below are the Python interface; each is imported when it is first used, so that `import meshforge` is quick.
 """

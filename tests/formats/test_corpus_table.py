@@ -27,6 +27,7 @@ def test_no_row_holds_nothing_and_none_is_a_fault_of_ours() -> None:
         assert "warning: " not in notes and "stderr: " not in notes, line
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", range(0, _EVERY, 4))
 def test_files_read_as_the_table_says(start: int) -> None:
     root = corpus()

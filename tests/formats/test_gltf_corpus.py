@@ -119,6 +119,7 @@ def edited(asset: Asset) -> tuple[Asset, set[int], int]:
     return asset.with_geoms([*kept, boxed]), touched, less - 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["same", ".glb"])
 def test_an_edit_leaves_the_rest_of_the_scene_as_it_was(assets: dict[str, Asset], tmp_path: Path, suffix: str) -> None:
     sources, outs = [], []

@@ -28,6 +28,7 @@ def found(reader: Reader, path: Path) -> list[Seen]:
     return [seen for file in (sorted(path.iterdir()) if path.is_dir() else [path]) for seen in reader.shapes(file)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HERE)
 def test_a_reader_finds_the_shapes_of_each_file_where_meshforge_has_them(name: str, files: list[Made]) -> None:
     reader = READERS[name]

@@ -35,6 +35,7 @@ def is_fragment(path: Path) -> bool:
     return b"<mujocoinclude" in path.read_bytes()
 
 
+@pytest.mark.slow
 def test_models_that_mujoco_compiles_have_its_collision_geoms(files: dict[str, Path]) -> None:
     models = {key: path for key, path in files.items() if not is_fragment(path) and key not in REFUSED}
     assert len(models) >= 72

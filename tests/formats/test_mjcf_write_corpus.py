@@ -42,6 +42,7 @@ def home(key: str, folder: Path) -> Path:
     return (folder / key).parent
 
 
+@pytest.mark.slow
 def test_unedited_models_come_back_byte_for_byte_and_compile_to_the_same(
     assets: dict[str, Asset], tmp_path: Path
 ) -> None:
@@ -75,6 +76,7 @@ def merged(asset: Asset, k: int) -> tuple[Asset, list[Geom]]:
 EDITS = (deleted, boxed, merged)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", ["keep", "recompute"])
 def test_an_edit_of_one_geom_changes_what_it_says(assets: dict[str, Asset], mass: Mass, tmp_path: Path) -> None:
     tried = [0, 0, 0]

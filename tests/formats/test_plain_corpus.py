@@ -57,6 +57,7 @@ def _sample(root: Path) -> list[Path]:
     return [p for p in paths if p.stat().st_size < 200_000 and not p.name.startswith("18_face")][::6]
 
 
+@pytest.mark.slow
 def test_unedited_real_files_are_written_byte_for_byte(tmp_path: Path) -> None:
     sample = _sample(corpus())
     assert Counter(p.suffix.lower() for p in sample).keys() == {".obj", ".stl", ".wrl"}
@@ -65,6 +66,7 @@ def test_unedited_real_files_are_written_byte_for_byte(tmp_path: Path) -> None:
         assert saved.path.read_bytes() == path.read_bytes(), path.name
 
 
+@pytest.mark.slow
 def test_edited_real_files_hold_what_the_edit_left(tmp_path: Path) -> None:
     edits = 0
     for path in _sample(corpus()):

@@ -33,6 +33,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow
 def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) -> None:
     root = corpus()
     paths = sorted(root.rglob("*.urdf"))

@@ -63,6 +63,7 @@ def test_usd_tells_engines_the_hulls_of_a_converted_asset(tmp_path: Path, name: 
     assert len(agrees(save(before, tmp_path / f"a{suffix}").path).geoms) == len(before.geoms)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usdz"])
 @pytest.mark.parametrize("name", REAL)
 def test_usd_tells_engines_the_hulls_of_an_edited_stage(tmp_path: Path, name: str, suffix: str) -> None:

@@ -44,6 +44,7 @@ def distance_to(point: Floats, vertices: Floats) -> float:
     return float(np.linalg.norm(weights / weights.sum() @ (vertices - point)))
 
 
+@pytest.mark.slow
 @examples(80)
 @given(clouds(), _BUDGETS)
 def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(cloud: Floats, budget: HullBudget) -> None:
@@ -61,6 +62,7 @@ def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(clou
     assert len(sizes) <= budget.polygons and max(sizes) <= budget.polygon_vertices
 
 
+@pytest.mark.slow
 @examples(60)
 @given(generators(), st.integers(8, 40))
 def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generator, vertices: int) -> None:
@@ -84,6 +86,7 @@ def test_a_budget_that_no_hull_keeps_to_is_refused() -> None:
     assert enclose(cube, HullBudget(vertices=3)) is None and enclose(cube, HullBudget(polygons=3)) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "share"), [(65, 0.004), (70, 0.008), (90, 0.013), (130, 0.025)])
 def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float) -> None:
     points = np.random.default_rng(count).normal(size=(count, 3))
@@ -92,6 +95,7 @@ def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float
     assert found is not None and found.error < share * ball.aabb.diagonal
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("vertices", "share"), [(32, 0.09), (64, 0.05), (255, 0.015)])
 def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> None:
     points = np.random.default_rng(1).normal(size=(2000, 3))
@@ -100,6 +104,7 @@ def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> Non
     assert found is not None and found.error < share * ball.aabb.diagonal
 
 
+@pytest.mark.slow
 def test_more_vertices_never_stick_out_more_by_much() -> None:
     points = np.random.default_rng(2).normal(size=(120, 3))
     hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))

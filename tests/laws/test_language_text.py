@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -33,6 +34,7 @@ LINES = st.lists(st.none() | COMMENT, max_size=4).map(tuple)
 COMMENTS = st.builds(Comments, LINES, st.none() | COMMENT)
 
 
+@pytest.mark.slow
 @given(programs())
 @examples(150)
 def test_parsing_a_printed_program_gives_the_program(program: Program) -> None:

@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -67,6 +68,7 @@ def edits(draw: st.DrawFn, asset: Asset) -> tuple[list[str], list[Geom]]:
     return gone, [hull(asset, parent, draw(shapes)) for parent in sorted(parents, key=names.index)]
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_an_edit_changes_what_it_says_and_nothing_else(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as name:

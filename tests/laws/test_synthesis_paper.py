@@ -26,7 +26,7 @@ from meshforge.synthesis.paper.partial import (
     make_attach,
     make_operator,
 )
-from meshforge.synthesis.paper.search import Abduction, Explained, search_by_paper
+from meshforge.synthesis.paper.search import Abduction, HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
@@ -51,7 +51,7 @@ def shown(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Example]:
 def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidden: Extractor, layers: Layers) -> None:
     examples = shown(batch, hidden)
     options = Options(layers=layers, repair=False, max_size=5)
-    answer = search_by_paper(examples, LABELS, TimeBudget(600), options)
+    answer = PaperSearch(examples, LABELS, TimeBudget(600), options).run()
     other = Search(examples, LABELS, TimeBudget(600), options).run()
     assert isinstance(answer, Hit | Miss) and isinstance(other, Hit | Miss)
     assert isinstance(answer, Hit) == isinstance(other, Hit)
@@ -183,9 +183,9 @@ def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
     batch: list[SymbolicMesh], selections: int, eta: int
 ) -> None:
     examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
-    answer = search_by_paper(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta))
-    assume(isinstance(answer, Explained))
-    assert isinstance(answer, Explained)
+    answer = PaperSearch(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta)).run()
+    assume(isinstance(answer, HitWithCorrections))
+    assert isinstance(answer, HitWithCorrections)
     assert matches(answer.extractor, [corrected(example, answer.corrections) for example in examples])
     for example in examples:
         assert sum(correction.asset == example.name for correction in answer.corrections) <= eta

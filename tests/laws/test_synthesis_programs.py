@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -39,14 +40,13 @@ def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
         demos,
         templates=TEMPLATES,
         vocabulary=LABELS,
-        contact=program.contact,
-        extremity=program.extremity,
-        options=Options(repair=False),
+        options=Options(repair=False, contact=program.contact, extremity=program.extremity),
     )
     assert isinstance(outcome, Found | Ambiguous)
     return outcome
 
 
+@pytest.mark.slow
 @examples(100)
 @given(hidden_programs, batches)
 def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Program, batch: list[SymbolicMesh]) -> None:
@@ -98,7 +98,7 @@ def ambiguous(mislabelled):
     mesh = meshes[name]
     shown = {mesh.hulls[k].name for k in chosen[name]}
     if mislabelled:
-        mesh = mesh.labelled({min(shown): Label("leg", 0.5, "vlm")})
+        mesh = mesh.with_labels({min(shown): Label("leg", 0.5, "vlm")})
     demo = Demonstration(mesh, [Step(1, shown, Delete())], name)
     return synthesize([demo], {**meshes, name: mesh}, vocabulary=VOCABULARIES["table"])
 
@@ -109,6 +109,7 @@ for outcome in (learned(), ambiguous(False), ambiguous(True)):
 """
 
 
+@pytest.mark.slow
 def test_the_outcome_does_not_depend_on_the_hash_seed() -> None:
     root = Path(__file__).parents[2]
     printed = [

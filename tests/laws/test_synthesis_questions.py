@@ -86,6 +86,7 @@ def test_a_rare_variant_is_asked_about_and_one_answer_settles_it(
     assert settled.program.rules == (rule,)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 def test_answers_and_a_look_at_what_is_proposed_lead_to_what_is_meant_on_every_asset(name: str) -> None:
     """What is not asked about is seen: of the proposed results a wrong one is shown next, the others are told."""
@@ -117,6 +118,7 @@ def test_answers_and_a_look_at_what_is_proposed_lead_to_what_is_meant_on_every_a
     assert demonstrated <= 1.5 * rules
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "text", "hull", "wrong"), [
     ("table", "Attach(Is(handle), Is(drawer)) => Delete", "drawer", "panel"),
     ("cabinet", "Diff(Is(frame), Geo(Is(frame), -Z)) => Delete", "frame", "door"),

@@ -10,6 +10,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -19,8 +20,8 @@ from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import Explanation, explain_by_corrections
-from meshforge.synthesis.repair.relabelings import Relabeling, VariantHullTable, relabel
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
 from meshforge.synthesis.search.observation_table import HullTable
 from meshforge.synthesis.search.smallest import Hit, Search
 from meshforge.synthesis.search.terms import enumerate_leaves
@@ -55,9 +56,9 @@ def proposed(
     rejected: frozenset[LabelCorrection] = frozenset(),
 ) -> Explanation | None:
     examples, labels = shown
-    return explain_by_corrections(
+    return CorrectionSearch(
         examples, LABELS, labels, OPTIONS, TimeBudget(600), exact=exact, spent=spent or {}, rejected=rejected
-    )
+    ).run()
 
 
 def corrected(example: Example, rows: list[LabelCorrection]) -> SymbolicMesh:
@@ -132,9 +133,10 @@ def test_relabelled_hulls_are_selected_as_on_relabelled_meshes(shown: Shown, dat
         ways.append([Relabeling(changes=tuple(sorted(one))) for one in some])
     made = [relabel(e, way.changes).mesh for e, some in zip(examples, ways, strict=True) for way in some]
     chosen = enumerate_leaves(LABELS)
-    assert np.array_equal(VariantHullTable(examples, ways).table(chosen, 0.05), HullTable(made).table(chosen, 0.05))
+    assert np.array_equal(build_hull_table(examples, ways).table(chosen, 0.05), HullTable(made).table(chosen, 0.05))
 
 
+@pytest.mark.slow
 def test_the_proposal_does_not_depend_on_the_hash_seed() -> None:
     program = """
 import json

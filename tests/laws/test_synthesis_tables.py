@@ -13,7 +13,7 @@ from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import search_by_paper
+from meshforge.synthesis.paper.search import PaperSearch
 from meshforge.synthesis.readings.enumeration import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
@@ -59,6 +59,6 @@ def test_the_strategy_of_the_paper_finds_nothing_smaller(hidden: Extractor, show
     answer = Search(known, LABELS, TimeBudget(600), Options()).run()
     assert isinstance(answer, Hit)
     assume(size_of(answer.extractor) <= 5)
-    paper = search_by_paper(known, LABELS, TimeBudget(600), Options(strategy="paper", repair=False, max_size=5))
+    paper = PaperSearch(known, LABELS, TimeBudget(600), Options(strategy="paper", repair=False, max_size=5)).run()
     assert isinstance(paper, Hit)
     assert size_of(paper.extractor) == size_of(answer.extractor)

@@ -1,4 +1,7 @@
-"""The whole loop on real OBJ bottles: seven files, 1 to 7 hulls each, two demonstrations, from the command line."""
+"""The whole loop on real OBJ bottles: seven files, 1 to 7 hulls each, two demonstrations.
+
+This loop is the one whose every command is a process of its own, as a person runs it.
+"""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ import pytest
 from meshforge.formats import load
 from meshforge.geometry import is_same_shape
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
 from tests.loop.readme import README, commands
 from tests.urdf_engines import bullet, mujoco_model

@@ -12,7 +12,7 @@ from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.samples import TABLES
 from meshforge.symbolic import mask_of, split_by_contact
-from tests.loop.command import Done, meshforge
+from tests.loop.command import Done, meshforge, meshforge_here
 
 
 @pytest.fixture(scope="module")
@@ -62,10 +62,10 @@ def test_the_report_shows_every_table_and_every_rule(shown: tuple[Path, Done]) -
 def test_a_second_demo_replaces_the_first_but_never_a_folder_of_yours(shown: tuple[Path, Done], tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("do not lose me")
-    refused = meshforge("demo", "--out", "mine", cwd=tmp_path, code=2)
+    refused = meshforge_here("demo", "--out", "mine", cwd=tmp_path, code=2)
     assert "holds something else" in refused.err
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "do not lose me"
     stale = shown[0] / "meshforge-demo" / "project" / "stale.txt"
     stale.touch()
-    meshforge("demo", cwd=shown[0])
+    meshforge_here("demo", cwd=shown[0])
     assert not stale.exists()

@@ -13,7 +13,7 @@ from meshforge.formats import load
 from meshforge.geometry import is_same_shape
 from tests.corpus_path import corpus
 from tests.gltf_validation import errors
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
 from tests.loop.readme import commands
 from tests.urdf_engines import mujoco_model

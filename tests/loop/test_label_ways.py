@@ -13,7 +13,7 @@ from meshforge.formats import read
 from meshforge.project import Project
 from meshforge.samples import TABLES
 from meshforge.symbolic import read_labels
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loopback import KEY, Asked, labels_as_json, serving, sometimes
 
 VOCABULARY = ("panel", "leg", "handle", "drawer", "misc")

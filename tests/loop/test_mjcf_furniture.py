@@ -12,7 +12,7 @@ import pytest
 
 from meshforge.formats import load, read
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
 from tests.mjcf_models import Pair, compiled
 

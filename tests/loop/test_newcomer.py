@@ -8,7 +8,7 @@ import shlex
 from pathlib import Path
 
 from meshforge.language import Program
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 
 PAGE = Path(__file__).parents[2] / "docs" / "learning.md"
 

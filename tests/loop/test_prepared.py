@@ -19,7 +19,7 @@ from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.readme import commands
 from tests.urdf_engines import bullet, mujoco_model
 
@@ -103,7 +103,7 @@ def test_the_example_in_python_runs(folder: Path, monkeypatch: pytest.MonkeyPatc
 def test_a_stool_that_is_only_there_to_be_seen_gets_hulls_and_is_edited(tmp_path: Path) -> None:
     shutil.copytree(corpus("chairs", "KayKit-Restaurant-Bits-1.0"), tmp_path / "assets")
     project = Project.create(tmp_path / "p", [tmp_path / "assets/chair_stool.gltf"], vocabulary=["seat", "leg"])
-    (done,) = project.decompose(settings=COARSE, workers=0)
+    (done,) = project.decompose(settings=COARSE, execution=IN_PROCESS)
     assert not done.problems and len(done.hulls) > 1
     mesh = project.mesh("chair_stool.gltf")
     top = max(mesh.hulls, key=lambda hull: hull.shape.centroid[1]).name
@@ -123,7 +123,7 @@ def test_bodies_of_an_mjcf_that_only_show_something_get_hulls_and_keep_their_mas
     source = tmp_path / "furniture_sim/lightButtons.xml"
     project = Project.create(tmp_path / "p", [source], vocabulary=["button", "frame"])
     before = project.mesh("lightButtons.xml")
-    (done,) = project.decompose(settings=COARSE, workers=0)
+    (done,) = project.decompose(settings=COARSE, execution=IN_PROCESS)
     bodies = [entry.what for entry in done.made]
     assert len(bodies) == 3
     labels = {hull.name: "frame" for hull in before.hulls} | dict.fromkeys(done.hulls, "button")

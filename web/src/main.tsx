@@ -1,13 +1,11 @@
 // Starts the page: the token of the address, what was remembered, the connection to the server, the window.
-import { connect } from "./shell/connection";
-import { remember } from "./shell/remember";
-import { dress } from "./shell/theme";
-import { takeToken } from "./shell/token";
+import { connect, takeToken } from "./shell/connection";
+import { followTheme, keepPreferences } from "./shell/preferences";
 import "./styles/tokens.css";
 
 takeToken();
-remember();
-dress();
+keepPreferences();
+followTheme();
 connect();
 
 const root = document.getElementById("root");

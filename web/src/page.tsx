@@ -2,11 +2,11 @@
 import { createRoot } from "react-dom/client";
 import { App } from "./shell/App";
 import { bindKeys } from "./shell/keys";
-import { paper } from "./viewport/paper";
+import { getCanvas } from "./viewport/canvas";
 
 export function open(root: HTMLElement): void {
   bindKeys();
   createRoot(root).render(<App />);
   // what takes longest is begun while the server looks up the project
-  paper();
+  getCanvas();
 }

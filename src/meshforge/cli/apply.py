@@ -31,6 +31,7 @@ from meshforge.batch import (
 )
 from meshforge.batch import apply as run_program
 from meshforge.checks import ENGINES, CheckOptions
+from meshforge.cli.console import progress
 from meshforge.cli.options import (
     NOTHING_TO_SHOW,
     Backend,
@@ -45,7 +46,7 @@ from meshforge.cli.options import (
     to_execution_options,
 )
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
-from meshforge.cli.terminal import print_json, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 
@@ -98,15 +99,11 @@ def apply(given: ApplyArguments) -> None:
         remark(str(plan_run(work.jobs, work.out)))
     summary, started = RunSummary(), perf_counter()
     options = ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
-    execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    bounds = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     with progress(len(work.jobs), "editing") as advance:
+        execution = replace(bounds, progress=advance)
         for outcome in run_program(
-            work.program,
-            work.jobs,
-            work.out,
-            templates=work.templates,
-            options=options,
-            execution=replace(execution, progress=advance),
+            work.program, work.jobs, work.out, templates=work.templates, options=options, execution=execution
         ):
             summary.add(outcome)
             if given.json:

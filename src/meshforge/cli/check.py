@@ -22,6 +22,7 @@ from meshforge.batch import (
 )
 from meshforge.checks import CheckOptions
 from meshforge.cli.check_report import CheckReport, describe_changes
+from meshforge.cli.console import progress
 from meshforge.cli.options import (
     AssetFiles,
     Backend,
@@ -34,7 +35,7 @@ from meshforge.cli.options import (
     takes,
     to_execution_options,
 )
-from meshforge.cli.terminal import print_json, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]

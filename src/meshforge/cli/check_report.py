@@ -31,14 +31,14 @@ _FROM_JOURNAL = "kept in the journal from an earlier run"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _ReportLine:
-    """What there is to show of one asset; mended: its file where anything was mended."""
+    """What there is to show of one asset; fixed: its file where anything was fixed."""
 
     job: AssetJob
     status: ReportStatus
     error: str | None
     notes: tuple[str, ...]
     checked: Examination | EarlierExamination | None
-    mended: Path | None
+    fixed: Path | None
 
 
 class CheckReport:
@@ -66,18 +66,18 @@ def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
     if examined.examination is None:
         return _ReportLine(job, "failed", examined.error, notes, None, None)
     status = _status(finding.severity for finding in examined.examination.findings)
-    mended = examined.output if examined.fix_result and examined.fix_result.changes else None
-    return _ReportLine(job, status, None, notes, examined.examination, mended)
+    fixed = examined.output if examined.fix_result and examined.fix_result.changes else None
+    return _ReportLine(job, status, None, notes, examined.examination, fixed)
 
 
 def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
-    fixed = found.get("fixed")
+    fix = found.get("fixed")
     kept = EarlierExamination(findings, tuple(row.get("told", ())))
-    mended = Path(fixed["out"]) if fixed and fixed["changes"] else None
-    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, mended)
+    fixed = Path(fix["out"]) if fix and fix["changes"] else None
+    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
 
 
 def _status(severities: Iterable[Severity]) -> ReportStatus:
@@ -86,7 +86,7 @@ def _status(severities: Iterable[Severity]) -> ReportStatus:
 
 
 def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
-    """What was mended, what was left, and where it was written, a sentence each."""
+    """What was fixed, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
     if fixed is None:
         return ()
@@ -94,9 +94,9 @@ def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
 
 
 def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
-    """The assets with their meshes, mended ones before and after."""
+    """The assets with their meshes, fixed ones before and after."""
     before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
-    after: list[MeshReader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
+    after: list[MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
     meshes = read_again([*before, *after])
     shown = []
     for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):

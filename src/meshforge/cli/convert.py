@@ -84,9 +84,9 @@ def convert(given: ConvertArguments) -> None:
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     suffix = _parse_suffix(given.to)
-    options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
+    options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
     execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     convert_many(sources, Path(out), given.labels, options, execution, given.report, json=given.json)
 

@@ -28,8 +28,9 @@ from meshforge.batch import (
     read_job,
     to_json_line,
 )
+from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
-from meshforge.cli.terminal import print_json, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import pluralize
 from meshforge.language import Program
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
+from rich.console import Console
 
 from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Seconds, parse_engine_settings
 from meshforge.cli.terminal import remark
 from meshforge.common import pluralize
 from meshforge.formats import read_triangles, save
 from meshforge.geometry import Polytope, Pose, cache_folder
-from meshforge.geometry import decompose as run
+from meshforge.geometry import decompose as run_engine
 from meshforge.symbolic import Asset, Body, Document, Geom
 
 
@@ -27,15 +29,12 @@ def decompose(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file if it is there.")] = False,
 ) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
-    import numpy as np
-    from rich.console import Console
-
     settings = parse_engine_settings(method, option)
     surfaces = read_triangles(mesh)
     starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
     console = Console(stderr=True)
     with console.status(f"{method.value} on {mesh.name}") as status:
-        hulls = run(
+        hulls = run_engine(
             np.concatenate([s.vertices for s in surfaces]),
             np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)]),
             settings,

@@ -13,9 +13,10 @@ import typer
 
 from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, write_report
 from meshforge.checks import check
+from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
 from meshforge.cli.report import compare_outcomes
-from meshforge.cli.terminal import progress, remark
+from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
 from meshforge.project import Project
 from meshforge.samples import TABLES
@@ -53,7 +54,6 @@ def demo(
 
 def _run_all(out: Path, workers: int | None) -> None:
     """Everything at once, with what happened in a few lines."""
-
     project = create_tables(out)
     shown = project.demonstrations()
     typer.echo(

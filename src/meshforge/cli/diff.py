@@ -21,11 +21,11 @@ def diff(
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
-    from meshforge.rendering import draw_before_after, write_png
-
     old, new = load(before), load(after)
     changes = compare_meshes(old, new)
     if out:
+        from meshforge.rendering import draw_before_after, write_png  # lazy: 40 modules that only a picture needs
+
         write_png(out, draw_before_after(old, new))
         remark(f"wrote {out}")
     if json:

@@ -14,7 +14,7 @@ from meshforge.language import Program
 def fmt(
     program: Annotated[Path, typer.Argument(help="A program file, *.mf.")],
     in_place: Annotated[bool, typer.Option("--in-place", "-i", help="Rewrite the file instead of printing.")] = False,
-    check: Annotated[bool, typer.Option("--check", help="Only tell, by exit code 1, whether it would change.")] = False,
+    check: Annotated[bool, typer.Option("--check", help="Only say, by exit code 1, whether it would change.")] = False,
 ) -> None:
     """Print a program in its canonical form, comments kept."""
     text = str(Program.read(program))

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
-from meshforge.cli.terminal import print_json, print_table
+from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
 from meshforge.symbolic import Hull, SymbolicMesh
@@ -81,7 +81,7 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     opaque = source.opaque if source else ()
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
     head = [source.format if source else "", pluralize(len(mesh.hulls), "hull"), pluralize(bodies, "body", "bodies")]
-    head += [pluralize(len(opaque), "opaque piece")] if opaque else []
+    head += [pluralize(len(opaque), "non-convex piece")] if opaque else []
     typer.echo(
         f"{asset}: {', '.join(head)}, {pluralize(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m"
     )
@@ -93,10 +93,12 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
             (h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
             for k, h in enumerate(mesh.hulls)
         )
+        from meshforge.cli.console import print_table  # lazy: 50 modules of rich that --json does not need
+
         columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
         print_table(columns, rows, right=("vertices", "volume", "touches"))
     if opaque:
-        typer.echo("\nOpaque (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
+        typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:
             typer.echo(f"  {piece.name}: {piece.reason}")
     if mesh.near_misses:

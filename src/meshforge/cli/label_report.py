@@ -13,8 +13,9 @@ from typing import Any
 import typer
 
 from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, ReportHeader, ReportOptions, RunFigures, read_again
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
-from meshforge.cli.terminal import print_json, print_table, progress
+from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
 from meshforge.labels import LabelOutcome, Tally
 from meshforge.project import Project

@@ -10,8 +10,9 @@ from typing import Any, Literal
 import typer
 
 from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
-from meshforge.cli.terminal import print_json, print_table, progress, remark
+from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.labels import LabelFileOptions, LabelOutcome, PointAlignment, PointsOptions, Proposal, Proposals
 from meshforge.project import Project
@@ -72,11 +73,11 @@ def preview(
     """Show what would be taken, with nothing written; vocabulary: the one to be tried, if another."""
     match options.source:
         case "names":
-            found = project.propose_from_names(options.meanings, vocabulary, spread=execution)
+            found = project.propose_from_names(options.meanings, vocabulary, execution=execution)
         case "propagate":
-            found = project.propose_propagated(vocabulary, spread=execution, stage=progress)
+            found = project.propose_propagated(vocabulary, execution=execution, stage=progress)
         case _:
-            found = project.propose_from_files(options.labels, options.file_options, vocabulary, spread=execution)
+            found = project.propose_from_files(options.labels, options.file_options, vocabulary, execution=execution)
     if json:
         print_json(_to_json(found))
     else:
@@ -129,7 +130,7 @@ def _run_source(project: Project, options: SourceOptions, execution: ExecutionOp
     """Label; a closing sentence."""
     count = len(project.assets())
     if options.source == "propagate":
-        result = project.propagate_labels(spread=execution, stage=progress, report=printer.print)
+        result = project.propagate_labels(execution=execution, stage=progress, report=printer.print)
         return f"If some are wrong, label or correct this one next: {result.next}" if result.next else ""
     with progress(count, "labelling") as advance:
 
@@ -138,8 +139,8 @@ def _run_source(project: Project, options: SourceOptions, execution: ExecutionOp
             advance()
 
         if options.source == "names":
-            project.label_from_names(options.meanings, spread=execution, report=report)
+            project.label_from_names(options.meanings, execution=execution, report=report)
             return ""
-        read = project.label_from_files(options.labels, options.file_options, spread=execution, report=report)
+        read = project.label_from_files(options.labels, options.file_options, execution=execution, report=report)
     bare = count - len(read)
     return f"{pluralize(bare, 'asset')} without a labels file" if bare else ""

@@ -12,8 +12,9 @@ import typer
 from pydantic import ValidationError
 
 from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
-from meshforge.cli.terminal import catch_interrupt, print_json, progress, remark
+from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError, first_validation_error, join_names, pluralize
 from meshforge.labels import Usage, VlmForecast, VlmResult
 from meshforge.project import Project
@@ -52,7 +53,7 @@ def forecast(
     """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
     settings = options.settings(project)
     with progress(len(project.assets()), "drawing") as advance, catch_interrupt() as stop:
-        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, spread=execution)
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, execution=execution)
         if stop():
             raise KeyboardInterrupt
     if json:
@@ -79,7 +80,7 @@ def _ask_model(project: Project, options: VlmOptions, execution: ExecutionOption
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
     bar = progress(len(project.assets()), f"asking {settings.model}")
     with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
-        return project.label_with_vlm(settings, progress=lambda usage: advance(), stop=stop, spread=execution)
+        return project.label_with_vlm(settings, progress=lambda usage: advance(), stop=stop, execution=execution)
 
 
 @contextmanager

@@ -17,7 +17,7 @@ import meshforge
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
     "new": "Make a project folder",
-    "prepare": "Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls",
+    "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",
     "split": "Split a hull",
     "status": "Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step",
     "label": "Give labels to hulls",
@@ -69,7 +69,7 @@ def build_application() -> typer.Typer:
     app = typer.Typer(
         name="meshforge",
         cls=CommandGroup,
-        help="Teach one collision mesh, mend the whole family.",
+        help="Teach one collision mesh, fix the whole family.",
         epilog="Start with: meshforge demo",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
@@ -112,7 +112,7 @@ def main() -> None:
     except Exception as error:  # no traceback reaches a user who did not ask for it
         if debug:
             raise
-        from meshforge.common import describe_error
+        from meshforge.common import describe_error  # lazy: only an error needs it
 
         print(f"error: {describe_error(error, fault='--debug shows where it came from')}", file=sys.stderr)
         sys.exit(2)

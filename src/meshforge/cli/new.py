@@ -37,7 +37,7 @@ class NewArguments:
     ] = ""
     method: Annotated[
         EngineMethod | None,
-        typer.Option("--decompose", help="Make hulls of opaque pieces, and of bodies without collision geometry."),
+        typer.Option("--decompose", help="Make hulls of non-convex pieces, and of bodies without collision geometry."),
     ] = None
     option: EngineOptions = None
     hollow: Hollow = False

@@ -9,6 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
+from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
 from meshforge.cli.options import (
     AssetTimeout,
     EngineMethod,
@@ -20,7 +22,7 @@ from meshforge.cli.options import (
     refuse_options,
     takes,
 )
-from meshforge.cli.terminal import print_json, progress
+from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
 from meshforge.project import PreparationResult, Project
@@ -51,7 +53,7 @@ class PrepareArguments:
 
 @takes(PrepareArguments)
 def prepare(given: PrepareArguments) -> None:
-    """Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls.
+    """Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls.
 
     The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
@@ -84,12 +86,20 @@ def prepare(given: PrepareArguments) -> None:
 
 
 def decompose_assets(
-    project: Project, assets: Iterable[str], settings: DecomposeSettings, *, json: bool = False, **options: Any
+    project: Project,
+    assets: Iterable[str],
+    settings: DecomposeSettings,
+    *,
+    workers: int | None,
+    timeout: float,
+    json: bool = False,
+    **options: Any,
 ) -> int:
     """Decompose assets of a project and print what became of each; the exit code. options: of `Project.decompose`."""
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
-        return print_results(project.decompose(ids, settings, progress=advance, **options), json)
+        execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
+        return print_results(project.decompose(ids, settings, execution=execution, **options), json)
 
 
 def print_results(results: Iterable[PreparationResult], json: bool = False) -> int:

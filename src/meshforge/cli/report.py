@@ -24,7 +24,8 @@ from meshforge.batch import (
     write_report,
 )
 from meshforge.checks import CheckOptions, Examination, examine_mesh
-from meshforge.cli.terminal import progress, remark
+from meshforge.cli.console import progress
+from meshforge.cli.terminal import remark
 from meshforge.formats import load
 from meshforge.language import Program, RuleTrace, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh

@@ -22,8 +22,6 @@ def select(
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
-    from meshforge.rendering import render, write_png
-
     mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
     for label in labels_of(extractor):
@@ -31,6 +29,8 @@ def select(
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
+        from meshforge.rendering import render, write_png  # lazy: 40 modules that only a picture needs
+
         write_png(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
-from meshforge.cli.terminal import print_json, print_table, progress
+from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
 from meshforge.project import AssetStatus, Project, Status
 

@@ -29,9 +29,9 @@ def studio(
     open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 
 
-def open_studio(opening: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
+def open_studio(options: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    serve(opening, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
+    serve(options, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
 
 
 def _say(address: str) -> None:

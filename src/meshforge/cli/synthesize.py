@@ -13,7 +13,6 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.cli.options import Json, takes
-from meshforge.cli.synthesize_dialog import Conversation
 from meshforge.cli.synthesize_script import check_all_asked, read_answers, run_script
 from meshforge.cli.synthesize_session import LearningSession
 from meshforge.cli.synthesize_text import (
@@ -40,13 +39,13 @@ class SynthesizeArguments:
         Path | None, typer.Option("--answers", help="A JSON file that answers questions, in place of a person.")
     ] = None
     accept_repairs: Annotated[
-        bool, typer.Option("--accept-repairs", help="Mend every label that is probably wrong, without asking.")
+        bool, typer.Option("--accept-repairs", help="Repair every label that is probably wrong, without asking.")
     ] = False
     reject_repairs: Annotated[
         bool, typer.Option("--reject-repairs", help="Leave labels as they are, now and later, without asking.")
     ] = False
     list_answers: Annotated[
-        bool, typer.Option("--list-answers", help="Only list what was answered, mended and refused so far.")
+        bool, typer.Option("--list-answers", help="Only list what was answered, repaired and refused so far.")
     ] = False
     forget: Annotated[
         list[str] | None,
@@ -87,13 +86,23 @@ def synthesize(given: SynthesizeArguments) -> None:
     if given.list_answers:
         _print_answers(project, given.project, given.json)
         return
-    options = Options(strategy=given.strategy, layers=given.layers, repair=not given.no_repair, budget=given.budget)
-    follow = Program.read(given.follow) if given.follow else None
-    session = LearningSession(project, options, keep=not given.dry_run, follow=follow)
+    options = Options(
+        strategy=given.strategy,
+        layers=given.layers,
+        repair=not given.no_repair,
+        budget=given.budget,
+        follow=Program.read(given.follow) if given.follow else None,
+    )
+    session = LearningSession(project, options, keep=not given.dry_run)
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None
-    outcome = Conversation(session, input, typer.echo).run() if asks else run_script(session, answers, verdict)
+    if asks:
+        from meshforge.cli.synthesize_dialog import Conversation  # lazy: 50 modules of rich that a script does not need
+
+        outcome = Conversation(session, input, typer.echo).run()
+    else:
+        outcome = run_script(session, answers, verdict)
     if given.json:
         print_json(outcome_to_json(outcome))
     else:
@@ -121,14 +130,14 @@ def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: P
 
 
 def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> LearningContext:
-    said = session.project.answers()
+    answers = session.project.answers()
     return LearningContext(
         folder,
         assets=len(session.project.assets()),
         in_use=len(session.ids_in_use),
         readable=len(session.meshes()),
-        answers=len(said.answers) + len(session.given) - len(outcome.stale),
-        repairs=len(said.confirmed),
+        answers=len(answers.answers) + len(session.given) - len(outcome.stale),
+        repairs=len(answers.confirmed),
         kept=session.keep,
         stopped=session.stopped,
     )
@@ -136,24 +145,25 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
     """List all answers and repairs by their ids."""
-    said = project.answers()
+    answers = project.answers()
     if json:
-        print_json(said.model_dump(mode="json", by_alias=True))
+        print_json(answers.model_dump(mode="json", by_alias=True))
         return
-    for line in _answer_lines(said):
+    for line in _answer_lines(answers):
         typer.echo(line)
-    if said.ids:
-        remark(f"To take one back: meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(said.ids[0])}")
+    if answers.ids:
+        command = f"meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(answers.ids[0])}"
+        remark(f"To take one back: {command}")
     else:
-        remark("nothing was answered, mended or refused yet")
+        remark("nothing was answered, repaired or refused yet")
 
 
-def _answer_lines(said: AnswersFile) -> Iterator[str]:
-    for line in said.answers:
+def _answer_lines(answers: AnswersFile) -> Iterator[str]:
+    for line in answers.answers:
         hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
         yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
-    yield from (f"{line.id}  mended, was {_describe_before(line)}" for line in said.confirmed)
-    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in said.rejected)
+    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in answers.confirmed)
+    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in answers.rejected)
 
 
 def _describe_before(line: RepairLine) -> str:
@@ -168,10 +178,10 @@ def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
         typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
     else:
         notes = []
-        for said in ids:
-            note = project.take_back(said)
+        for answer_id in ids:
+            note = project.take_back(answer_id)
             notes += [note] if note else []
-            typer.echo(f"taken back: {said}")
+            typer.echo(f"taken back: {answer_id}")
     for note in notes:
         remark(note)
     remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from meshforge.cli.console import show_status
 from meshforge.cli.synthesize_session import LearningSession, QuestionPictures
 from meshforge.cli.synthesize_text import describe_change, format_question, format_repair
-from meshforge.cli.terminal import show_status
 from meshforge.common import UsageError, nearest_name
 from meshforge.language import explain
 from meshforge.symbolic import SymbolicMesh
@@ -27,7 +27,7 @@ class Conversation:
         self._last_question: Question | None = None
 
     def run(self) -> LearningOutcome:
-        """The outcome of the last lesson."""
+        """Ask and learn; the outcome of the last time."""
         try:
             return self._run()
         finally:
@@ -87,7 +87,7 @@ class Conversation:
         if not hulls:
             return
         self._say(f"Then a label may be wrong. The choices differ on:\n{format_labels(hulls, mesh)}")
-        labels = self._ask_labels("HULL=LABEL to mend one (more with commas), Enter to leave them: ", mesh)
+        labels = self._ask_labels("HULL=LABEL to correct one (more with commas), Enter to leave them: ", mesh)
         if labels:
             self._session.project.set_labels(question.asset, labels)
             self._session.project.take_back(question.id)  # with other labels there are other choices
@@ -102,10 +102,10 @@ class Conversation:
     def _ask_repair(self, outcome: NeedsRepair) -> bool:
         repair, project = outcome.repairs[0], self._session.project
         self._say(format_repair(repair, self._pictures.of_repair(repair)))
-        word = self._ask_one_of(("y", "n", "s"), "Mend it? y, n, s to stop asking: ")
+        word = self._ask_one_of(("y", "n", "s"), "Repair it? y, n, s to stop asking: ")
         if word == "y":
             project.confirm(repair.correction)
-            self._say(f"mended: {describe_change(repair)}")
+            self._say(f"repaired: {describe_change(repair)}")
         elif word == "n":
             project.reject(repair.correction)
         self._last_question = None

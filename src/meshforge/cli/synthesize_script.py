@@ -108,7 +108,7 @@ def _choice_index(question: Question, choice: int | None) -> int | None:
 def _confirm_always(verdict: bool) -> Callable[[Repair], bool]:
 
     def said(repair: Repair) -> bool:
-        remark(f"{'mended' if verdict else 'left as it is'}: {describe_change(repair)}")
+        remark(f"{'repaired' if verdict else 'left as it is'}: {describe_change(repair)}")
         return verdict
 
     return said

@@ -26,15 +26,13 @@ class LearningSession:
     """Learns as often as it is asked to.
 
     keep: whether programs, answers and repairs are kept in the project. stopped: whether a person ended the last
-    lesson; answers: how many it took into account; given: answers that are not kept; follow: a program to tell
-    about.
+    search; given: answers that are not kept.
     """
 
     project: Project
     options: Options
     keep: bool = True
     stopped: bool = False
-    follow: Program | None = None
     given: dict[tuple[int, str], Answer] = field(default_factory=dict)
 
     def learn(self, confirm: Callable[[Repair], bool] | None = None) -> LearningOutcome:
@@ -48,7 +46,6 @@ class LearningSession:
                 stop=stop,
                 answers=tuple(self.given.values()),
                 meshes=meshes,
-                follow=self.follow,
             )
             self.stopped = stop()
         return outcome

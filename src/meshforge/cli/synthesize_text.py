@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import assert_never
 
 from meshforge.common import join_names, pluralize
 from meshforge.language import Program, explain, show
@@ -27,9 +29,9 @@ from meshforge.synthesis import (
 
 @dataclass(frozen=True, slots=True)
 class LearningContext:
-    """What there is to tell besides the outcome.
+    """What there is to say besides the outcome.
 
-    folder: of the project, as a person types it; assets, looked_at, readable: how many there are, are learned from,
+    folder: of the project, as a person types it; assets, in_use, readable: how many there are, are learned from,
     and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
     stopped: whether a person ended the search.
     """
@@ -50,8 +52,6 @@ class LearningContext:
 
 def format_result(outcome: LearningOutcome, about: LearningContext) -> str:
     """The result: a program, or why there is none."""
-    from typing import assert_never
-
     match outcome:
         case Found() | Ambiguous():
             return str(outcome.program).rstrip("\n")
@@ -77,9 +77,9 @@ def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
 
 
 def _describe_inputs(about: LearningContext) -> str:
-    said = [pluralize(about.answers, "answer")] if about.answers else []
-    said += [pluralize(about.repairs, "mended label")] if about.repairs else []
-    return f" with {' and '.join(said)}" if said else ""
+    parts = [pluralize(about.answers, "answer")] if about.answers else []
+    parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
+    return f" with {' and '.join(parts)}" if parts else ""
 
 
 def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> Iterator[str]:
@@ -87,16 +87,16 @@ def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> I
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
         part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
-        yield f"settled: all believable readings agree on {seen}"
+        yield f"unambiguous: all believable readings agree on {seen}"
         return
     if outcome.question:
-        yield f"not settled: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
+        yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
     else:
         yield from _describe_doubt(outcome)
         if outcome.sample:
-            yield f"After applying, look at {join_names(outcome.sample)} first: these tell best whether it is right"
+            yield f"After applying, look at {join_names(outcome.sample)} first: they show best whether it is right"
     if outcome.hint:
-        yield f"To be surer, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
+        yield f"To be more certain, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
         yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
 
 
@@ -107,7 +107,7 @@ def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
     if rows:
         many = "s" * (len(rules) > 1)
         yield (
-            f"almost settled: rule{many} {join_names(rules)} might mean something else on "
+            f"almost unambiguous: rule{many} {join_names(rules)} might mean something else on "
             f"{join_names(assets)}; look there"
         )
 
@@ -120,9 +120,9 @@ def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:
 
 def _describe_stale(outcome: LearningOutcome, about: LearningContext) -> Iterator[str]:
     for answer in outcome.stale:
-        said = f"{answer.rule}:{answer.asset}"
-        yield f"the answer {said} no longer fits what is there, and is left out"
-        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(said)}"
+        question = f"{answer.rule}:{answer.asset}"
+        yield f"the answer {question} no longer fits what is there, and is left out"
+        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
 
 
 def _describe_overruled(outcome: LearningOutcome) -> Iterator[str]:
@@ -170,7 +170,7 @@ def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
     command = f"meshforge synthesize {about.folder_word}"
-    yield f"To look at each: {command} in a terminal; to mend all: {command} --accept-repairs"
+    yield f"To look at each: {command} in a terminal; to repair all: {command} --accept-repairs"
     yield f"To keep the labels as they are: {command} --reject-repairs"
 
 
@@ -223,9 +223,7 @@ def format_belief(repair: Repair) -> str | None:
 
 def format_answer_help(question: Question, project: str) -> str:
     """How to answer where nobody can be asked; project: its folder, as one types it."""
-    from json import dumps
-
-    example = dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
+    example = json.dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
     return (
         f"Answer it in a terminal: meshforge synthesize {project}\n"
         f"  or in a script: meshforge synthesize {project} --answers FILE, where FILE holds {example}\n"

@@ -1,4 +1,4 @@
-"""TODO"""
+"""What is believed about labels: by their source, by hulls that look alike, by hulls that touch."""
 
 from meshforge.label_model.family import NO_LABEL, ColumnScale, FamilyTable, pick_evenly, reference_label
 from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human

@@ -13,7 +13,7 @@ from meshforge.rendering import UNSURE
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 
 NO_LABEL = -1
-"""The code of a hull whose label nobody told."""
+"""The code of a hull whose label is not known."""
 _LEAST_SPREAD = 1e-3  # spread of a column below which it counts as constant
 _MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
 
@@ -46,7 +46,7 @@ class FamilyTable:
     """Hulls of all meshes, in order.
 
     rows: (n, columns), described and brought to a common spread by `scale`; owner: (n,) the mesh of each; codes: (n,)
-    the place of its label among `labels`, where that is told, else UNTOLD; touching: pairs (m, 2) of hulls of one mesh
+    the place of its label among `labels`, NO_LABEL where it is not known; touching: pairs (m, 2) of hulls of one mesh
     that are in contact.
     """
 
@@ -59,14 +59,14 @@ class FamilyTable:
 
     @cached_property
     def labelled(self) -> Ints:
-        """The hulls whose label is told."""
+        """The hulls whose label is known."""
         return np.flatnonzero(self.codes != NO_LABEL)
 
-    def with_labels(self, told: Sequence[str | None]) -> FamilyTable:
-        """The same with other labels told; told: that of each hull, None where it is not known."""
-        labels = tuple(sorted({label for label in told if label is not None}))
+    def with_labels(self, known: Sequence[str | None]) -> FamilyTable:
+        """The table with other known labels; known: that of each hull, None where it is not."""
+        labels = tuple(sorted({label for label in known if label is not None}))
         places = {label: place for place, label in enumerate(labels)}
-        codes = np.array([NO_LABEL if label is None else places[label] for label in told], dtype=np.int64)
+        codes = np.array([NO_LABEL if label is None else places[label] for label in known], dtype=np.int64)
         return replace(self, codes=codes, labels=labels)
 
 

@@ -14,8 +14,8 @@ EQUAL = 1e-9
 
 _HELPER_ROUNDS = 2  # times that hulls which are nearly certain help with the others
 _CERTAIN = 0.8  # from which chance on they do
-_HELP = 0.5  # what such a hull counts beside one that is told
-_VOTERS = 6000  # hulls at most whose label is told, so that labelling grows with the family, not with its square
+_HELP = 0.5  # what such a hull counts beside one whose label is known
+_VOTERS = 6000  # hulls at most whose label is known, so that labelling grows with the family, not with its square
 _HELPERS = 3000  # such hulls at most, evenly chosen
 _AT_ONCE = 2000  # hulls that are compared at a time
 _FARTHEST = 1e6  # beyond any distance of two hulls
@@ -49,17 +49,17 @@ def share_ranks(values: Floats) -> Floats:
 
 
 def vote_by_similarity(family: FamilyTable, metric: Floats) -> Floats:
-    """The chance of each label (hulls, labels); of a hull that is told, what its look-alikes say, too.
+    """The chance of each label (hulls, labels); of a hull whose label is known, what its look-alikes say, too.
 
     metric: the weight of each column (columns,).
     """
     rows = family.rows * metric
-    told, stands_for = _choose_voters(family)
-    known = np.eye(len(family.labels))[family.codes[told]]
+    labelled, stands_for = _choose_voters(family)
+    known = np.eye(len(family.labels))[family.codes[labelled]]
     helpers = np.zeros(0, dtype=np.int64)
     chances = np.zeros((len(rows), len(family.labels)))
     for _ in range(1 + _HELPER_ROUNDS):
-        voters = np.concatenate([told, helpers])
+        voters = np.concatenate([labelled, helpers])
         counts = np.concatenate([stands_for, np.full(len(helpers), _HELP)])
         chances = _vote(rows, family.owner, voters, counts, np.concatenate([known, chances[helpers]]))
         helpers = _choose_helpers(family, chances)
@@ -67,7 +67,7 @@ def vote_by_similarity(family: FamilyTable, metric: Floats) -> Floats:
 
 
 def _choose_voters(family: FamilyTable) -> tuple[Ints, Floats]:
-    """The hulls that are told, of very many of one label some, evenly, and how many each stands for."""
+    """The hulls whose label is known, of very many of one label some, evenly, and how many each stands for."""
     most = max(1, _VOTERS // max(1, len(family.labels)))
     of_labels = [family.labelled[family.codes[family.labelled] == code] for code in range(len(family.labels))]
     chosen = [pick_evenly(hulls, most) for hulls in of_labels]
@@ -78,7 +78,7 @@ def _choose_voters(family: FamilyTable) -> tuple[Ints, Floats]:
 
 
 def _choose_helpers(family: FamilyTable, chances: Floats) -> Ints:
-    """Hulls that nobody told and that are nearly certain, of very many some, evenly."""
+    """Hulls whose label is not known and that are nearly certain, of very many some, evenly."""
     sure = (family.codes == NO_LABEL) & (chances.max(axis=1, initial=0.0) > _CERTAIN + EQUAL)
     return pick_evenly(np.flatnonzero(sure), _HELPERS)
 
@@ -103,20 +103,20 @@ def _vote(rows: Floats, owner: Ints, voters: Ints, counts: Floats, votes: Floats
 
 
 def refine_by_neighbors(family: FamilyTable, chances: Floats) -> Floats:
-    """Chances (hulls, labels) after each hull has heard its neighbours, a few times over (mean field).
+    """Chances (hulls, labels) after each hull has taken in its neighbours, a few times over (mean field).
 
-    A pair of labels speaks for itself as much as it touches more often than by accident where labels are told.
+    A pair of labels speaks for itself as much as it touches more often than by accident where labels are known.
     """
     bond = _label_bonds(family)
     a, b = family.touching.T
     degree = np.maximum(np.bincount(family.touching.ravel(), minlength=len(chances)), 1)[:, None]
     own = np.log(chances + _LEAST_CHANCE)
     for _ in range(_NEIGHBOR_ROUNDS):
-        said = chances @ bond.T
-        heard = np.zeros_like(chances)
-        np.add.at(heard, a, said[b])
-        np.add.at(heard, b, said[a])
-        evidence = own + _NEIGHBORS_WEIGHT * heard / degree
+        messages = chances @ bond.T
+        received = np.zeros_like(chances)
+        np.add.at(received, a, messages[b])
+        np.add.at(received, b, messages[a])
+        evidence = own + _NEIGHBORS_WEIGHT * received / degree
         chances = np.exp(evidence - evidence.max(axis=1, keepdims=True))
         chances /= chances.sum(axis=1, keepdims=True)
     return chances

@@ -4,6 +4,7 @@ overwritten by a machine."""
 from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, label_new_hulls
 from meshforge.labels.names.label_by_names import PatternPairs
 from meshforge.labels.offers import LabelOffers, OfferCache
@@ -11,8 +12,8 @@ from meshforge.labels.progress import SourceTally, Tally
 from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage, ignore_stage
 from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
 from meshforge.labels.propose import Proposal, Proposals
-from meshforge.labels.vlm.endpoint import Endpoint
-from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult
+from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
+from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
 from meshforge.labels.vlm.limits import Usage
 from meshforge.labels.vlm.prompt import PromptConfig
 
@@ -22,6 +23,7 @@ __all__ = [
     "LabelFileOptions",
     "LabelOffers",
     "LabelOutcome",
+    "LabelStore",
     "OfferCache",
     "OutcomeCallback",
     "PatternPairs",
@@ -38,6 +40,8 @@ __all__ = [
     "Usage",
     "VlmForecast",
     "VlmResult",
+    "check_vlm_settings",
+    "endpoint_of",
     "ignore_report",
     "ignore_stage",
     "label_file_beside",

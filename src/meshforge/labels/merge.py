@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.rendering import UNSURE
-from meshforge.store import hull_digests, write_labels
+from meshforge.store import Store, hull_digests
 from meshforge.symbolic import (
     GIVEN_SOURCES,
     HUMAN_SOURCES,
@@ -21,10 +20,6 @@ from meshforge.symbolic import (
     match_labels,
     transfer_labels,
 )
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
 """Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
@@ -52,7 +47,7 @@ class LabelOutcome:
 
 
 def set_labels(
-    project: Project, asset: str, labels: Mapping[str, str | None], source: LabelSource, confidence: float
+    store: Store, asset: str, labels: Mapping[str, str | None], source: LabelSource, confidence: float
 ) -> LabelOutcome:
     """Write labels of one asset, or take them away by None.
 
@@ -60,8 +55,8 @@ def set_labels(
     """
     given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
     away = [name for name, label in labels.items() if label is None]
-    with project.lock():
-        mesh, vocabulary = project.mesh(asset), project.vocabulary
+    with store.lock():
+        mesh, vocabulary = store.mesh(asset), store.vocabulary
         labelled, report = merge_labels(asset, mesh.index, mesh.labels, given, vocabulary)
         gone = [
             f"there is no hull {name!r}{_suggest_nearest(name, mesh.index)}" for name in away if name not in mesh.index
@@ -71,7 +66,7 @@ def set_labels(
             remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
             raise ProjectError(problems[0], where=asset, remedy=remedy)
         kept = {name: label for name, label in labelled.items() if name not in away}
-        write_labels(project, asset, hull_digests(mesh), kept, vocabulary)
+        store.write_labels(asset, hull_digests(mesh), kept, vocabulary)
     return report
 
 
@@ -126,17 +121,17 @@ OutcomeCallback = Callable[[LabelOutcome], None]
 class LabelWriter:
     """Writes labels of assets, each under the lock of the project, which others may change at the same time."""
 
-    def __init__(self, project: Project) -> None:
-        self._project = project
+    def __init__(self, store: Store) -> None:
+        self._store = store
         self._seen: object = None
         self._vocabulary: tuple[str, ...] = ()
 
     @property
     def vocabulary(self) -> tuple[str, ...]:
         """The vocabulary as it is now; settings that name very many assets are not parsed for each of them."""
-        now = file_state(self._project.layout.settings)
+        now = file_state(self._store.layout.settings)
         if now != self._seen:
-            self._seen, self._vocabulary = now, self._project.vocabulary
+            self._seen, self._vocabulary = now, self._store.vocabulary
         return self._vocabulary
 
     def try_write(
@@ -155,12 +150,12 @@ class LabelWriter:
 
         hulls: digests by name, in order. Raises AssetError where the labels that there are cannot be read.
         """
-        with self._project.lock():
-            current = match_labels(self._project.labels(asset), hulls).labels
+        with self._store.lock():
+            current = match_labels(self._store.labels(asset), hulls).labels
             wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
             labels, report = merge_labels(asset, hulls, current, wanted, self.vocabulary)
             if report.taken:
-                write_labels(self._project, asset, hulls, labels, self.vocabulary)
+                self._store.write_labels(asset, hulls, labels, self.vocabulary)
         return report
 
 
@@ -189,7 +184,7 @@ def can_replace_less_certain(current: Label | None, given: Label) -> bool:
 class NewHullLabels:
     """The labels of an asset whose hulls change. mesh: the new hulls with theirs; gone: names of old ones."""
 
-    project: Project
+    store: Store
     asset: str
     mesh: SymbolicMesh
     gone: tuple[str, ...]
@@ -197,13 +192,13 @@ class NewHullLabels:
 
     def write(self, *, keep_old: bool) -> None:
         """Write the labels; keep_old: those of hulls that go stay beside them."""
-        project, mesh, away = self.project, self.mesh, () if keep_old else self.gone
-        write_labels(project, self.asset, hull_digests(mesh), mesh.labels, project.vocabulary, away)
+        store, mesh, away = self.store, self.mesh, () if keep_old else self.gone
+        store.write_labels(self.asset, hull_digests(mesh), mesh.labels, store.vocabulary, away)
 
 
-def label_new_hulls(project: Project, asset: str, old: Mapping[str, Shape], mesh: SymbolicMesh) -> NewHullLabels | None:
+def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: SymbolicMesh) -> NewHullLabels | None:
     """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned."""
-    file = project.labels(asset)
+    file = store.labels(asset)
     here = hull_digests(mesh)
     were = {name: digest(shape) for name, shape in old.items()}
     gone = {name: old[name] for name in file.labels if name in old and here.get(name) != were[name]}
@@ -218,7 +213,7 @@ def label_new_hulls(project: Project, asset: str, old: Mapping[str, Shape], mesh
     lost = sorted({label.name for label in labels.values()} - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)
-    return NewHullLabels(project, asset, followed.with_labels(taken), away, tuple(notes))
+    return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))
 
 
 def _label_by_overlap(hull: Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:

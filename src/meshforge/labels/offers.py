@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from meshforge.common import MeshForgeError, file_state
 from meshforge.labels.from_files.read import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
 from meshforge.labels.names.hull_names import NamePattern, match_names
 from meshforge.labels.names.label_by_names import name_patterns, names_of_facts, to_label
-from meshforge.store import AssetFacts, survey
+from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import HUMAN_SOURCES, Label, match_labels, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,21 +31,21 @@ class OfferCache:
     def __init__(self) -> None:
         self._known: dict[str, tuple[object, _AssetOffer]] = {}
 
-    def of(self, project: Project, only: Collection[str] | None = None) -> LabelOffers:
+    def of(self, store: Store, only: Collection[str] | None = None) -> LabelOffers:
         """What all assets offer, or some; those that cannot be read, or whose labels cannot, are left out.
 
         Raises UsageError: a pattern of the project that makes no sense.
         """
-        settings, rows = project.settings, dict[str, _AssetOffer]()
+        settings, rows = store.settings, dict[str, _AssetOffer]()
         vocabulary, meanings = settings.vocabulary, tuple(settings.names.items())
-        patterns = name_patterns(project.folder, settings, vocabulary) if vocabulary else ()
-        for asset, facts in survey(project.found, project.layout, only).items():
-            file, labels = label_file_beside(project.path(asset)), project.layout.labels(asset)
+        patterns = name_patterns(store.folder, settings, vocabulary) if vocabulary else ()
+        for asset, facts in survey(store.found, store.layout, only).items():
+            file, labels = label_file_beside(store.path(asset)), store.layout.labels(asset)
             times = (file_state(labels), file, file_state(file) if file else None)
             state = (vocabulary, meanings, facts.times, facts.preparation, *times)
             before, rows[asset] = self._known.get(asset, (None, _AssetOffer()))
             if before != state:
-                rows[asset] = _find_offer(project, asset, facts, vocabulary, patterns)
+                rows[asset] = _find_offer(store, asset, facts, vocabulary, patterns)
                 self._known[asset] = state, rows[asset]
         files = tuple(asset for asset, offer in rows.items() if offer.file)
         return LabelOffers(files, {asset: offer.names for asset, offer in rows.items() if offer.names})
@@ -64,26 +60,26 @@ class _AssetOffer:
 
 
 def _find_offer(
-    project: Project, asset: str, facts: AssetFacts, vocabulary: tuple[str, ...], patterns: Sequence[NamePattern]
+    store: Store, asset: str, facts: AssetFacts, vocabulary: tuple[str, ...], patterns: Sequence[NamePattern]
 ) -> _AssetOffer:
     try:
-        present = match_labels(project.labels(asset), facts.hulls).labels
+        present = match_labels(store.labels(asset), facts.hulls).labels
     except MeshForgeError:
         return _AssetOffer()
     bare = (names for names in names_of_facts(facts) if names.hull not in present)
     said = ((names.hull, match_names(names, vocabulary, patterns)) for names in bare)
     names = {hull: label.name for hull, one in said if one and (label := to_label(one))}
-    return _AssetOffer(not facts.error and _has_news(project, asset, facts, present, vocabulary), names)
+    return _AssetOffer(not facts.error and _has_news(store, asset, facts, present, vocabulary), names)
 
 
 def _has_news(
-    project: Project, asset: str, facts: AssetFacts, present: Mapping[str, Label], vocabulary: Collection[str]
+    store: Store, asset: str, facts: AssetFacts, present: Mapping[str, Label], vocabulary: Collection[str]
 ) -> bool:
     """Whether its labels file would change a label; one that cannot be read does, so that a person is told why.
 
     Of points, and of what is said of links, whether nothing was taken from a file yet.
     """
-    path = label_file_beside(project.path(asset))
+    path = label_file_beside(store.path(asset))
     if path and kind_of(path) != "labels file":
         sources = {label.source for label in present.values()}
         return "file" not in sources and (len(present) < len(facts.hulls) or not sources <= HUMAN_SOURCES)

@@ -7,17 +7,12 @@ from dataclasses import dataclass
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
-from meshforge.store import AssetFiles, asset_files_of, survey
+from meshforge.store import AssetFiles, Store, survey
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 SURE = 0.9
 """Labels as certain as this are sure; those below `UNSURE` are not."""
@@ -53,18 +48,18 @@ class Tally:
     unreadable: tuple[tuple[str, str], ...] = ()
 
 
-def tally(project: Project, progress: Callable[[], None] | None = None) -> Tally:
+def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
     """Count, as far as assets and their labels can be read."""
     counts = {source: [0, 0, 0] for source in LABEL_SOURCES}
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
     unreadable: dict[str, str] = {}
-    for asset, facts in survey(project.found, project.layout, progress=progress).items():
+    for asset, facts in survey(store.found, store.layout, progress=progress).items():
         if facts.error:
             unreadable[asset] = facts.error
             continue
         try:
-            labels = match_labels(project.labels(asset), facts.hulls).labels.values()
+            labels = match_labels(store.labels(asset), facts.hulls).labels.values()
         except MeshForgeError as error:
             unreadable[asset] = error.message
             continue
@@ -81,21 +76,21 @@ def tally(project: Project, progress: Callable[[], None] | None = None) -> Tally
     )
 
 
-def describe_label_plan(project: Project) -> str:
+def describe_label_plan(store: Store) -> str:
     """How many assets of what there are, how many have labels, and how many of these labels of a person."""
-    layout, found = project.layout, project.found
+    layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [
         AssetJob(asset, path, found.base, places[asset] if places[asset].exists() else None)
         for asset, path in found.ids.items()
     ]
-    by_people = sum(_has_human_label(project, job.id) for job in jobs if job.labels)
+    by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)
     return f"{plan_run(jobs, layout.edited).assets}, {by_people:,} of them by a person"
 
 
-def _has_human_label(project: Project, asset: str) -> bool:
+def _has_human_label(store: Store, asset: str) -> bool:
     try:
-        return any(label.source in HUMAN_SOURCES for label in project.labels(asset).labels.values())
+        return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
     except AssetError:  # told when its turn comes
         return False
 
@@ -107,11 +102,11 @@ class _Work:
 
 
 def write_contact_sheets(
-    project: Project, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
+    store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
 ) -> tuple[Path, ...]:
     """Writes `labels-001.png` and so on, in place of those of an earlier time; what cannot be drawn is left out."""
-    vocabulary = project.vocabulary
-    works = [_Work(place, vocabulary) for place in asset_files_of(project, assets)]
+    vocabulary = store.vocabulary
+    works = [_Work(place, vocabulary) for place in store.asset_files(assets)]
     images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
     cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
     written = list[Path]()

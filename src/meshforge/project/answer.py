@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
 from meshforge.labels import merge
@@ -12,26 +11,22 @@ from meshforge.store import (
     ConfirmationLine,
     LabelBefore,
     RepairLine,
+    Store,
     action_text_without_each,
-    meshes,
-    read_answers,
+    hull_digests,
     repair_id,
-    write_answers,
 )
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, LabelCorrection, Question, Step
 
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
 
-
-def add_answer(project: Project, given: Answer) -> str:
+def add_answer(store: Store, given: Answer) -> str:
     """Keep an answer in place of an earlier one to the same question, and give its id. Raises as `check_answer`
     does.
     """
-    line = check_answer(project, given)
-    with project.lock():
-        write_answers(project, read_answers(project).with_line(line))
+    line = check_answer(store, given)
+    with store.lock():
+        store.write_answers(store.answers().with_line(line))
     return line.id
 
 
@@ -42,11 +37,10 @@ def answer_by_choice(question: Question, choice: int | None) -> Answer:
     return question.answer_with(choice)
 
 
-def check_answer(project: Project, given: Answer) -> AnswerLine:
+def check_answer(store: Store, given: Answer) -> AnswerLine:
     """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
-    project.path(given.asset)
-    demonstrated = (asset for asset in project.assets() if project.layout.demonstration(asset).exists())
-    actions = actions_of(map(project.steps, demonstrated))
+    store.path(given.asset)
+    actions = actions_of(map(store.steps, store.demonstration_ids()))
     if given.rule not in actions:
         shown = f"only rules 1 to {max(actions)} are" if actions else "nothing is"
         raise ProjectError(f"there is no rule {given.rule} to answer for: {shown} demonstrated", where=given.asset)
@@ -65,17 +59,17 @@ def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
     return dict(sorted(found.items()))
 
 
-def confirm_repair(project: Project, right: LabelCorrection) -> str:
+def confirm_repair(store: Store, right: LabelCorrection) -> str:
     """Repair a label as a person confirmed it, remembering what was there before; give the id of the repair.
 
     Raises ProjectError where there is no such asset, hull or label, or where the hull has got another label since.
     """
-    with project.lock():
-        mesh = project.mesh(right.asset)
-        mended, problem = _repair_label(project, mesh, right)
+    with store.lock():
+        mesh = store.mesh(right.asset)
+        mended, problem = _repair_label(store, mesh, right)
         if problem:
-            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {project.folder}")
-        said, identity = read_answers(project), repair_id(right)
+            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
+        said, identity = store.answers(), repair_id(right)
         known = [line.before for line in said.confirmed if line.id == identity]
         current = mesh.hull_of(right.hull).annotation
         before = known[0] if known and current == _label_of_repair(right) else LabelBefore.of(current)
@@ -83,42 +77,42 @@ def confirm_repair(project: Project, right: LabelCorrection) -> str:
             id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before
         )
         # the record first: killed in between, the repair is merely proposed again
-        write_answers(project, said.with_line(line))
-        meshes.write_labels(project, right.asset, meshes.hull_digests(mesh), mended, project.vocabulary)
+        store.write_answers(said.with_line(line))
+        store.write_labels(right.asset, hull_digests(mesh), mended, store.vocabulary)
     return identity
 
 
-def reject_repair(project: Project, wrong: LabelCorrection) -> str:
+def reject_repair(store: Store, wrong: LabelCorrection) -> str:
     """Remember that a repair was refused, so that it is not proposed again; give its id."""
-    project.path(wrong.asset)
+    store.path(wrong.asset)
     identity = repair_id(wrong)
     line = RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
-    with project.lock():
-        write_answers(project, read_answers(project).with_line(line))
+    with store.lock():
+        store.write_answers(store.answers().with_line(line))
     return identity
 
 
-def take_back(project: Project, said: str) -> str | None:
+def take_back(store: Store, said: str) -> str | None:
     """Take back an answer or a repair by its id; of a confirmed repair the hull gets the label it had before.
 
     Gives the sentence to tell where that label is left alone, since it was changed after the repair.
     Raises ProjectError, naming the nearest id, where there is no such one.
     """
-    with project.lock():
-        kept = read_answers(project)
+    with store.lock():
+        kept = store.answers()
         if said not in kept.ids:
             like = nearest_name(said, kept.ids)
-            listing = f"See what was said: meshforge synthesize {project.folder} --list-answers"
+            listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
             remedy = f"Did you mean {like!r}?" if like else listing
-            raise ProjectError(f"there is no answer or repair {said!r}", where=str(project.folder), remedy=remedy)
-        notes = [_restore_label(project, line) for line in kept.confirmed if line.id == said]
-        write_answers(project, kept.without(said))
+            raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
+        notes = [_restore_label(store, line) for line in kept.confirmed if line.id == said]
+        store.write_answers(kept.without(said))
     return next(iter(notes), None)
 
 
-def take_back_all(project: Project) -> tuple[str, ...]:
+def take_back_all(store: Store) -> tuple[str, ...]:
     """Take back everything; gives the sentences about labels that are left alone."""
-    notes = [take_back(project, said) for said in read_answers(project).ids]
+    notes = [take_back(store, said) for said in store.answers().ids]
     return tuple(note for note in notes if note)
 
 
@@ -126,10 +120,10 @@ def _label_of_repair(correction: LabelCorrection) -> Label:
     return Label(correction.to, 1.0, "repair")
 
 
-def _repair_label(project: Project, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
+def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
     """The labels of a mesh with that one mended, and why that cannot be."""
     given = {right.hull: _label_of_repair(right)}
-    mended, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, project.vocabulary)
+    mended, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
     if report.problems:
         return mended, report.problems[0]
     label = mesh.hull_of(right.hull).label
@@ -138,10 +132,10 @@ def _repair_label(project: Project, mesh: SymbolicMesh, right: LabelCorrection) 
     return mended, None
 
 
-def _restore_label(project: Project, line: ConfirmationLine) -> str | None:
+def _restore_label(store: Store, line: ConfirmationLine) -> str | None:
     """Give a hull the label back that it had before a repair; the sentence to tell where that is not done."""
     try:
-        mesh = project.mesh(line.asset)
+        mesh = store.mesh(line.asset)
         current = mesh.hull_of(line.hull).annotation
     except MeshForgeError as error:
         return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
@@ -151,5 +145,5 @@ def _restore_label(project: Project, line: ConfirmationLine) -> str | None:
         return f"{line.hull} in {line.asset} is left {said}, as it was changed after the repair"
     if current != before:
         labels = mesh.with_labels({line.hull: before}).labels
-        meshes.write_labels(project, line.asset, meshes.hull_digests(mesh), labels, project.vocabulary)
+        store.write_labels(line.asset, hull_digests(mesh), labels, store.vocabulary)
     return None

@@ -4,48 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.common import ProjectError, UsageError, nearest_name
 from meshforge.store import (
     AnswersFile,
     DemonstrationFile,
     StepLine,
-    read_answers,
+    Store,
     read_json,
-    to_step_lines,
-    write_answers,
     write_json,
 )
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Step
 
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
 
-
-def demonstrations(project: Project) -> dict[str, Demonstration]:
-    """All demonstrations, by asset."""
-    ids = [asset for asset in project.assets() if project.layout.demonstration(asset).exists()]
-    return {asset: Demonstration(project.mesh(asset), project.steps(asset), asset) for asset in ids}
-
-
-def demonstrate(project: Project, asset: str, done: tuple[Step, ...]) -> None:
+def demonstrate(store: Store, asset: str, done: tuple[Step, ...]) -> None:
     """Keep the steps on an asset; no steps take the file away.
 
     Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there.
     """
-    path = project.layout.demonstration(asset)
-    mesh = project.mesh(asset)
+    mesh = store.mesh(asset)
     _check_hulls(asset, mesh, Demonstration(mesh, done, asset).steps)
-    with project.lock():
-        if not done:
-            path.unlink(missing_ok=True)
-            return
-        kept = read_json(path, DemonstrationFile)
-        lines = to_step_lines(done)
-        fresh = DemonstrationFile(asset=asset, steps=lines)
-        write_json(path, kept.model_copy(update={"asset": asset, "steps": lines}) if kept else fresh)
+    store.write_steps(asset, done)
 
 
 def _check_hulls(asset: str, mesh: SymbolicMesh, done: tuple[Step, ...]) -> None:
@@ -66,40 +46,35 @@ def find_unknown_hulls(done: Iterable[Step], hulls: Container[str]) -> Iterator[
                 yield step.rule, name
 
 
-def move_rule(project: Project, rule: int, to: int) -> None:
+def move_rule(store: Store, rule: int, to: int) -> None:
     """Put a rule at another place; a demonstration that says nothing about a rule in between leaves it open."""
-    with project.lock():
-        kept = _read_demonstration_files(project)
+    with store.lock():
+        kept = _read_demonstration_files(store)
         order = _rule_numbers(kept, rule, to)
         order.insert(to - 1, order.pop(rule - 1))
-        _write_reordered(project, kept, order)
+        _write_reordered(store, kept, order)
 
 
-def delete_rule(project: Project, rule: int) -> None:
+def delete_rule(store: Store, rule: int) -> None:
     """Take a rule away; a demonstration without any step goes away with it."""
-    with project.lock():
-        kept = _read_demonstration_files(project)
+    with store.lock():
+        kept = _read_demonstration_files(store)
         order = _rule_numbers(kept, rule)
         order.remove(rule)
-        _write_reordered(project, kept, order)
+        _write_reordered(store, kept, order)
 
 
-def _read_demonstration_files(project: Project) -> dict[Path, DemonstrationFile]:
+def _read_demonstration_files(store: Store) -> dict[Path, DemonstrationFile]:
     """All demonstrations by file. Raises ProjectError where one cannot be read, or its steps are not in order."""
-    layout = project.layout
-    found = {
-        path: read_json(path, DemonstrationFile) for path in map(layout.demonstration, _demonstration_ids(project))
-    }
+    layout = store.layout
+    paths = map(layout.demonstration, layout.ids_with("demonstrations"))
+    found = {path: read_json(path, DemonstrationFile) for path in paths}
     kept = {path: file for path, file in found.items() if file}
     for path, file in kept.items():
         if [line.rule for line in file.steps] != list(range(1, len(file.steps) + 1)):
             remedy = "Number them 1, 2, 3 and so on by hand, in the order in which they were done."
             raise ProjectError("its steps are not numbered in order", where=str(path), remedy=remedy)
     return kept
-
-
-def _demonstration_ids(project: Project) -> tuple[str, ...]:
-    return project.layout.ids_with("demonstrations")
 
 
 def _rule_numbers(kept: Mapping[Path, DemonstrationFile], *asked: int) -> list[int]:
@@ -112,12 +87,12 @@ def _rule_numbers(kept: Mapping[Path, DemonstrationFile], *asked: int) -> list[i
     return list(range(1, most + 1))
 
 
-def _write_reordered(project: Project, kept: Mapping[Path, DemonstrationFile], order: Sequence[int]) -> None:
+def _write_reordered(store: Store, kept: Mapping[Path, DemonstrationFile], order: Sequence[int]) -> None:
     """Write demonstrations and answers with the rules in another order, each file for itself.
 
     order: the old number of the rule that is first from now on, of the second, and so on.
     """
-    said = read_answers(project)
+    said = store.answers()
     actions = _actions_by_rule(kept)
     for path, file in kept.items():
         steps = _reorder(file.steps, order, actions)
@@ -127,7 +102,7 @@ def _write_reordered(project: Project, kept: Mapping[Path, DemonstrationFile], o
             write_json(path, file.model_copy(update={"steps": steps}))
     now = _renumber(said, order, len(actions))
     if now != said:
-        write_answers(project, now)
+        store.write_answers(now)
 
 
 def _actions_by_rule(kept: Mapping[Path, DemonstrationFile]) -> dict[int, str]:

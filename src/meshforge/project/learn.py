@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from meshforge.common import ProjectError
-from meshforge.language import Program
 from meshforge.project import accept
 from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
 from meshforge.project.family import FamilyMeshes
 from meshforge.project.review import find_accepted_results
-from meshforge.store import AnswerLine, AnswersFile, read_answers
+from meshforge.store import AnswerLine, AnswersFile, Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -27,10 +25,6 @@ from meshforge.synthesis import (
     synthesize,
 )
 
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
-
-
 Confirm = Callable[[Repair], bool]
 
 
@@ -44,38 +38,39 @@ class LearnOptions:
     stop: Callable[[], bool] | None = None
     answers: Sequence[Answer] = ()
     meshes: Mapping[str, SymbolicMesh] | None = None
-    follow: Program | None = None
 
 
-def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
+def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
     """What can be learned from the demonstrations. Raises ProjectError where there are none."""
-    meshes = FamilyMeshes(project).meshes() if how.meshes is None else how.meshes
-    demos = _read_demonstrations(project, meshes)
-    lesson = accept.digest_learning_inputs(project)
-    said = read_answers(project)
-    fitting, unfit = _sort_answers(project, said, demos, how.answers)
-    looked = _answers_of_accepted(project, demos, fitting)
-    asked = _RepairAsker(project, how.confirm) if how.accept and how.confirm else None
-    settings = project.settings
+    meshes = FamilyMeshes(store).meshes() if how.meshes is None else how.meshes
+    demos = _read_demonstrations(store, meshes)
+    lesson = accept.digest_learning_inputs(store)
+    said = store.answers()
+    fitting, unfit = _sort_answers(store, said, demos, how.answers)
+    looked = _answers_of_accepted(store, demos, fitting)
+    asked = _RepairAsker(store, how.confirm) if how.accept and how.confirm else None
+    settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     confirm = _ask_once(asked or how.confirm) if how.confirm else None
-    templates, rejected = project.templates(names), _list_rejections(said)
+    templates = store.templates(names)
+    options = replace(
+        how.options or Options(),
+        contact=settings.thresholds.contact,
+        extremity=settings.thresholds.extremity,
+        rejected=tuple(_list_rejections(said)),
+        stop=how.stop,
+    )
 
     def learned(answers: Sequence[Answer]) -> LearningOutcome:
         return synthesize(
             tuple(demos.values()),
             batch=meshes,
-            orient=project.orientation,
+            orient=store.orientation,
             templates=templates,
             vocabulary=settings.vocabulary or None,
-            contact=settings.thresholds.contact,
-            extremity=settings.thresholds.extremity,
-            options=how.options or Options(),
+            options=options,
             confirm=confirm,
             answers=answers,
-            rejected=rejected,
-            follow=how.follow,
-            stop=how.stop,
         )
 
     outcome = learned([*looked, *fitting])
@@ -85,7 +80,7 @@ def learn_program(project: Project, how: LearnOptions) -> LearningOutcome:
     stale = [answer for answer in outcome.stale if answer not in looked]
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
     if how.accept and isinstance(outcome, Found | Ambiguous):
-        accept.accept_outcome(project, outcome, asked.lesson if asked and asked.lesson else lesson)
+        accept.accept_outcome(store, outcome, asked.lesson if asked and asked.lesson else lesson)
     return outcome
 
 
@@ -104,36 +99,34 @@ def _ask_once(confirm: Confirm) -> Confirm:
 class _RepairAsker:
     """Asks about repairs and keeps what is said at once. lesson: the digest of what is learned from, since then."""
 
-    def __init__(self, project: Project, confirm: Confirm) -> None:
-        self._project, self._confirm = project, confirm
+    def __init__(self, store: Store, confirm: Confirm) -> None:
+        self._store, self._confirm = store, confirm
         self.lesson: str | None = None
 
     def __call__(self, repair: Repair) -> bool:
         right = self._confirm(repair)
-        (confirm_repair if right else reject_repair)(self._project, repair.correction)
-        self.lesson = accept.digest_learning_inputs(self._project)
+        (confirm_repair if right else reject_repair)(self._store, repair.correction)
+        self.lesson = accept.digest_learning_inputs(self._store)
         return right
 
 
-def _read_demonstrations(project: Project, meshes: Mapping[str, SymbolicMesh]) -> dict[str, Demonstration]:
-    ids = [asset for asset in project.assets() if project.layout.demonstration(asset).exists()]
+def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> dict[str, Demonstration]:
+    ids = store.demonstration_ids()
     if not ids:
         raise ProjectError(
             "nothing is demonstrated yet",
-            where=str(project.folder),
-            remedy=f"Show the steps on an asset or two: meshforge demonstrate {project.folder} ASSET STEPS...",
+            where=str(store.folder),
+            remedy=f"Show the steps on an asset or two: meshforge demonstrate {store.folder} ASSET STEPS...",
         )
     # one that cannot be read is missing among the meshes; reading it again says why
-    return {
-        asset: Demonstration(meshes.get(asset) or project.mesh(asset), project.steps(asset), asset) for asset in ids
-    }
+    return {asset: Demonstration(meshes.get(asset) or store.mesh(asset), store.steps(asset), asset) for asset in ids}
 
 
 def _sort_answers(
-    project: Project, said: AnswersFile, demos: Mapping[str, Demonstration], more: Sequence[Answer]
+    store: Store, said: AnswersFile, demos: Mapping[str, Demonstration], more: Sequence[Answer]
 ) -> tuple[list[Answer], list[Answer]]:
     """The answers to learn from, and those to a rule that does something else by now."""
-    lines = {line.id: line for line in [*said.answers, *(check_answer(project, answer) for answer in more)]}
+    lines = {line.id: line for line in [*said.answers, *(check_answer(store, answer) for answer in more)]}
     actions = actions_of(demo.steps for demo in demos.values())
 
     def fits(line: AnswerLine) -> bool:
@@ -143,13 +136,13 @@ def _sort_answers(
     return fitting, [line.answer for line in lines.values() if not fits(line)]
 
 
-def _answers_of_accepted(project: Project, demos: Mapping[str, Demonstration], said: Sequence[Answer]) -> list[Answer]:
+def _answers_of_accepted(store: Store, demos: Mapping[str, Demonstration], said: Sequence[Answer]) -> list[Answer]:
     """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
     actions = actions_of(demo.steps for demo in demos.values())
     known = {(answer.rule, answer.asset) for answer in said}
     return [
         Answer(one.rule, asset, one.select)
-        for asset, seen in find_accepted_results(project).items()
+        for asset, seen in find_accepted_results(store).items()
         for one in seen
         if actions.get(one.rule) == one.action and (one.rule, asset) not in known
     ]

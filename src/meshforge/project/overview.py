@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
@@ -16,15 +15,12 @@ from meshforge.project.family import suggest_first_demonstration
 from meshforge.project.review import output_digest
 from meshforge.project.run import build_jobs, build_task
 from meshforge.project.status import AssetStatus, OutputState, Status
-from meshforge.store import AssetFacts, Review, geometry_digest, survey
+from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
-
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
 
 
 def compute_status(
-    project: Project,
+    store: Store,
     only: Collection[str] | None,
     others: Iterable[AssetStatus],
     workers: int | None,
@@ -36,18 +32,18 @@ def compute_status(
     Raises ProjectError for an asset that is not there, and for a file of the project that cannot be read.
     """
     for asset in only or ():
-        project.path(asset)
-    settings, ids, work, reviews = project.settings, project.found.ids, build_jobs(project, only), project.reviews()
-    spread = ExecutionOptions(workers=workers, stop=stop)
-    facts = survey(project.found, project.layout, only, spread=spread, progress=progress)
-    program, what, problem = _read_program(project)
-    assets = tuple(_asset_status(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    stands = program_state_of(project, program)
+        store.path(asset)
+    settings, ids, work, reviews = store.settings, store.found.ids, build_jobs(store, only), store.reviews()
+    execution = ExecutionOptions(workers=workers, stop=stop)
+    facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
+    program, what, problem = _read_program(store)
+    assets = tuple(_asset_status(store, job, facts[job.id], what, reviews.get(job.id)) for job in work)
+    stands = program_state_of(store, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    first = partial(suggest_first_demonstration, project) if only is None else _choose_none
-    advised = advise(project.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
+    first = partial(suggest_first_demonstration, store) if only is None else _choose_none
+    advised = advise(store.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
     return Status(
         settings.name,
         assets,
@@ -55,7 +51,7 @@ def compute_status(
         rules,
         stands.outdated,
         problem,
-        _find_lost_ids(project),
+        _find_lost_ids(store),
         advised,
         stands.question,
     )
@@ -65,22 +61,22 @@ def _choose_none(assets: Sequence[str]) -> None:
     """Of a project that is looked at in part no asset stands out."""
 
 
-def _read_program(project: Project) -> tuple[Program | None, ApplyTask | None, str | None]:
+def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
     """The program, what applying it means, and why it cannot be applied."""
     program = None
     try:
-        program = project.program()
-        return program, build_task(project, program) if program else None, None
+        program = store.program()
+        return program, build_task(store, program) if program else None, None
     except MeshForgeError as error:
         return program, None, error.message
 
 
 def _asset_status(
-    project: Project, job: AssetJob, facts: AssetFacts, what: ApplyTask | None, review: Review | None
+    store: Store, job: AssetJob, facts: AssetFacts, what: ApplyTask | None, review: Review | None
 ) -> AssetStatus:
-    stamp = read_stamp(project.layout.edited, job.id)
+    stamp = read_stamp(store.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
-    file, unreadable = _read_labels(project, job)
+    file, unreadable = _read_labels(store, job)
     homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
     said = review if review and review.output == output_digest(stamp) else None
     return AssetStatus(
@@ -88,11 +84,11 @@ def _asset_status(
         hulls=None if facts.error else len(facts.hulls),
         labelled=len(homes.labels),
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
-        demonstrated=project.layout.demonstration(job.id).exists(),
+        demonstrated=store.layout.demonstration(job.id).exists(),
         output=_output_state(stamp),
         stale=_find_changes(stamp, job, facts, what),
         error=facts.error or unreadable or failed,
-        flags=(*_describe_unknown_hulls(project, job.id, facts), *(stamp.flags if stamp else ())),
+        flags=(*_describe_unknown_hulls(store, job.id, facts), *(stamp.flags if stamp else ())),
         review=said.verdict if said else None,
         prepared=facts.prepared,
         sources=facts.sources,
@@ -107,10 +103,10 @@ def _asset_status(
     )
 
 
-def _describe_unknown_hulls(project: Project, asset: str, facts: AssetFacts) -> Iterator[str]:
+def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
     """A sentence for each hull that is demonstrated and is no more."""
     try:
-        steps = () if facts.error else project.steps(asset)
+        steps = () if facts.error else store.steps(asset)
     except MeshForgeError as error:
         yield error.message
         return
@@ -120,10 +116,10 @@ def _describe_unknown_hulls(project: Project, asset: str, facts: AssetFacts) -> 
         yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
-def _read_labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
+def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
     """The labels of an asset, and why they cannot be read."""
     try:
-        return project.labels(job.id), None
+        return store.labels(job.id), None
     except MeshForgeError as error:
         return LabelFile(), error.message
 
@@ -141,8 +137,8 @@ def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, what: A
     return (*now.changes(stamp.inputs), *(["output"] if gone else []))
 
 
-def _find_lost_ids(project: Project) -> tuple[str, ...]:
+def _find_lost_ids(store: Store) -> tuple[str, ...]:
     """The ids that something is kept for, though there is no such asset."""
-    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.ids_with(kind)}
-    kept |= set(project.layout.ids_with_preparation())
-    return tuple(sorted(kept - set(project.assets())))
+    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in store.layout.ids_with(kind)}
+    kept |= set(store.layout.ids_with_preparation())
+    return tuple(sorted(kept - set(store.assets())))

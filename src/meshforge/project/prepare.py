@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import (
     DecompositionResult,
@@ -29,10 +28,8 @@ from meshforge.formats import read
 from meshforge.geometry import DecomposeSettings, Shape, cache_folder
 from meshforge.labels import label_new_hulls
 from meshforge.project.demonstrate import find_unknown_hulls
+from meshforge.store import Store
 from meshforge.symbolic import Asset, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,41 +53,41 @@ class PreparationResult:
 
 
 def change_preparation(
-    project: Project, asset: str, make: Callable[[Asset, Preparation], Preparation]
+    store: Store, asset: str, make: Callable[[Asset, Preparation], Preparation]
 ) -> PreparationResult:
     """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
-    folder = project.layout.preparation(asset)
+    folder = store.layout.preparation(asset)
     seen = record_digest(folder)
     before = read_preparation(folder) or Preparation()
-    after = make(read(project.path(asset)), before)
-    notes = exchange_preparation(project, asset, after, seen)
+    after = make(read(store.path(asset)), before)
+    notes = exchange_preparation(store, asset, after, seen)
     added = after.steps[len(before.steps) :]
     return PreparationResult(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))
 
 
-def split(project: Project, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> PreparationResult:
+def split(store: Store, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> PreparationResult:
     """Split a hull by a decomposition of what its body shows."""
 
     def make(source: Asset, before: Preparation) -> Preparation:
         return split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
 
-    return change_preparation(project, asset, make)
+    return change_preparation(store, asset, make)
 
 
-def unprepare(project: Project, asset: str, everything: bool) -> PreparationResult:
+def unprepare(store: Store, asset: str, everything: bool) -> PreparationResult:
     """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was.
 
     What is kept for an asset that is gone, or cannot be read, can be taken back as a whole.
     """
-    if asset not in project.layout.ids_with_preparation():
-        project.path(asset)
-    folder = project.layout.preparation(asset)
+    if asset not in store.layout.ids_with_preparation():
+        store.path(asset)
+    folder = store.layout.preparation(asset)
     seen = record_digest(folder)
     if seen is None:
         raise ProjectError("nothing was done to it that could be taken back", where=asset)
     before = _read_or_empty(folder) if everything else read_preparation(folder) or Preparation()
     left = 0 if everything else len(before.steps) - 1
-    notes = exchange_preparation(project, asset, before.with_only(before.steps[:left]), seen)
+    notes = exchange_preparation(store, asset, before.with_only(before.steps[:left]), seen)
     undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
     return PreparationResult(asset, undone=undone, notes=tuple(notes))
 
@@ -103,12 +100,12 @@ def _read_or_empty(folder: Path) -> Preparation:
         return Preparation()
 
 
-def exchange_preparation(project: Project, asset: str, after: Preparation, seen: str | None) -> list[str]:
+def exchange_preparation(store: Store, asset: str, after: Preparation, seen: str | None) -> list[str]:
     """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
-    with project.lock():
-        if record_digest(project.layout.preparation(asset)) != seen:
+    with store.lock():
+        if record_digest(store.layout.preparation(asset)) != seen:
             raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
-        return _exchange(project, asset, after)
+        return _exchange(store, asset, after)
 
 
 def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
@@ -122,22 +119,22 @@ def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
     return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
 
 
-def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:
+def _exchange(store: Store, asset: str, after: Preparation) -> list[str]:
     """Write a preparation, under the lock that the caller holds, and let labels follow; notes on what that means.
 
     Labels of the new hulls are written before these, and labels of the old hulls go after them: killed in between,
     labels of hulls that are not there are left, which is harmless.
     """
-    folder = project.layout.preparation(asset)
+    folder = store.layout.preparation(asset)
     try:
-        source = read(project.path(asset))
+        source = read(store.path(asset))
     except MeshForgeError as error:
         if after.steps:
             raise
         remove_preparation(folder)
-        return [f"its labels stay as they are: {error.problem}"] if project.layout.labels(asset).exists() else []
+        return [f"its labels stay as they are: {error.problem}"] if store.layout.labels(asset).exists() else []
     mesh = SymbolicMesh.of(apply_preparation(source, after))
-    follow = label_new_hulls(project, asset, _hulls_before(source, folder), mesh)
+    follow = label_new_hulls(store, asset, _hulls_before(source, folder), mesh)
     if follow:
         follow.write(keep_old=True)
     if after.steps:
@@ -146,11 +143,25 @@ def _exchange(project: Project, asset: str, after: Preparation) -> list[str]:
         remove_preparation(folder)
     if follow:
         follow.write(keep_old=False)
-    gone = sorted({name for _, name in find_unknown_hulls(project.steps(asset), mesh.index)})
+    gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
     notes = list(follow.notes) if follow else []
     if gone:
         notes.append(f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew")
     return notes
+
+
+@dataclass(frozen=True, slots=True)
+class DecomposeOptions:
+    """What is decomposed, and how.
+
+    only: names of pieces and bodies, or patterns of them, none for all; again: also what is decomposed already;
+    hollow: shells of one sheet are not filled.
+    """
+
+    settings: DecomposeSettings
+    only: tuple[str, ...] = ()
+    again: bool = False
+    hollow: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,43 +170,27 @@ class _DecomposeWork:
 
     path: Path
     folder: Path
-    settings: DecomposeSettings
-    only: tuple[str, ...]
-    again: bool
-    hollow: bool
+    options: DecomposeOptions
 
 
 def decompose(
-    project: Project,
+    store: Store,
     assets: Sequence[str],
-    settings: DecomposeSettings,
-    *,
-    only: Sequence[str],
-    again: bool,
-    hollow: bool,
-    workers: int | None,
-    timeout: float | None,
-    progress: Callable[[], None] | None,
-    stop: Callable[[], bool] | None,
-    keeping: Callable[[str], AbstractContextManager[object]],
+    options: DecomposeOptions,
+    execution: ExecutionOptions,
+    write_block: Callable[[str], AbstractContextManager[object]],
 ) -> Iterator[PreparationResult]:
     """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
-    layout = project.layout
-    work = [
-        _DecomposeWork(project.path(asset), layout.preparation(asset), settings, tuple(only), again, hollow)
-        for asset in assets
-    ]
-    results = run_isolated(
-        _decompose_one, work, ExecutionOptions(workers=workers, timeout=timeout, progress=progress, stop=stop)
-    )
+    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), options) for asset in assets]
+    results = run_isolated(_decompose_one, work, execution)
     for asset, result in zip(assets, results, strict=True):
         if isinstance(result, WorkerFailure):
             yield PreparationResult(asset, problems=(result.why,))
         elif isinstance(result, str):
             yield PreparationResult(asset, problems=(result,))
         else:
-            with keeping(asset):
-                kept = _write_result(project, asset, *result)
+            with write_block(asset):
+                kept = _write_result(store, asset, *result)
             yield kept
 
 
@@ -205,27 +200,22 @@ def _decompose_one(work: _DecomposeWork) -> tuple[DecompositionResult, str | Non
         seen = record_digest(work.folder)
         before = read_preparation(work.folder) or Preparation()
         asset = read(work.path)
+        options, cache = work.options, cache_folder()
         done = decompose_asset(
-            asset,
-            before,
-            work.settings,
-            only=work.only,
-            again=work.again,
-            hollow=work.hollow,
-            cache=cache_folder(),
+            asset, before, options.settings, only=options.only, again=options.again, hollow=options.hollow, cache=cache
         )
         return done, seen
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
 
-def _write_result(project: Project, asset: str, result: DecompositionResult, seen: str | None) -> PreparationResult:
+def _write_result(store: Store, asset: str, result: DecompositionResult, seen: str | None) -> PreparationResult:
     problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
     notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
     notes += [result.missed] if result.missed else []
     try:
         if result.made or result.dropped:
-            notes += exchange_preparation(project, asset, result.preparation, seen)
+            notes += exchange_preparation(store, asset, result.preparation, seen)
     except MeshForgeError as error:
         return PreparationResult(asset, problems=(*problems, error.message))
     return PreparationResult(asset, result.made, tuple(notes), tuple(problems))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
 from meshforge.language import Program, rename_in_orient, rename_in_program
@@ -18,24 +17,21 @@ from meshforge.store import (
     DemonstrationFile,
     RepairLine,
     Settings,
+    Store,
     action_text,
     edit_settings,
     json_text,
     orientation,
     orientation_text,
     parse_action_text,
-    read_answers,
     read_json,
     repair_id,
     set_value,
 )
 from meshforge.symbolic import LabelFile, format_labels, read_labels
 
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
 
-
-def rename_label(project: Project, old: str, new: str) -> None:
+def rename_label(store: Store, old: str, new: str) -> None:
     """Rename a label of the vocabulary in all that the project keeps; labels files beside the assets stay.
 
     A file that cannot be read stops it before anything is written. The vocabulary is written last: killed in between,
@@ -43,24 +39,24 @@ def rename_label(project: Project, old: str, new: str) -> None:
     old name still. Only that the program was learned from what there is now may be forgotten by that.
     Raises ProjectError: no such label, the new one is there already, or no program could write it.
     """
-    with project.lock():
-        settings = project.settings
-        _check_names(project, settings.vocabulary, old, new)
-        texts = dict(_rewrite_files(project, old, new))
-        program = project.program()
-        after = _rename_in_settings(project, settings, old, new)
-        fresh = edit_settings(project.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
-        fresh = _rename_in_tables(project, fresh, settings, old, new)
-        lesson = accept.digest_learning_inputs(project)
+    with store.lock():
+        settings = store.settings
+        _check_names(store, settings.vocabulary, old, new)
+        texts = dict(_rewrite_files(store, old, new))
+        program = store.program()
+        after = _rename_in_settings(store, settings, old, new)
+        fresh = edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
+        fresh = _rename_in_tables(store, fresh, settings, old, new)
+        lesson = accept.digest_learning_inputs(store)
         for path, text in texts.items():
             write_atomically(path, text)
         if program:
-            accept.replace_program(project, program, rename_in_program(program, old, new), lesson, after)
-        write_atomically(project.layout.settings, fresh)
+            accept.replace_program(store, program, rename_in_program(program, old, new), lesson, after)
+        write_atomically(store.layout.settings, fresh)
 
 
-def _check_names(project: Project, vocabulary: tuple[str, ...], old: str, new: str) -> None:
-    where = str(project.folder)
+def _check_names(store: Store, vocabulary: tuple[str, ...], old: str, new: str) -> None:
+    where = str(store.folder)
     if old not in vocabulary:
         like = nearest_name(old, vocabulary)
         remedy = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
@@ -80,9 +76,9 @@ def _is_writable(label: str) -> bool:
         return False
 
 
-def _rewrite_files(project: Project, old: str, new: str) -> Iterator[tuple[Path, str]]:
+def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
     """The files that say the label, except for program and settings, with what they say then."""
-    layout = project.layout
+    layout = store.layout
     for path in map(layout.labels, layout.ids_with("labels")):
         file = read_labels(path)
         if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
@@ -91,7 +87,7 @@ def _rewrite_files(project: Project, old: str, new: str) -> Iterator[tuple[Path,
         yield from _rename_in_steps(path, read_json(path, DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _rename_in_steps(path, read_json(path, CorrectionsFile), old, new)
-    said = read_answers(project)
+    said = store.answers()
     now = _rename_in_answers(said, layout.answers, old, new)
     if now != said:
         yield layout.answers, json_text(now)
@@ -143,7 +139,7 @@ def _rename_in_repair(line: RepairLine, old: str, new: str) -> RepairLine:
     return line.model_copy(update=values)
 
 
-def _rename_in_tables(project: Project, text: str, settings: Settings, old: str, new: str) -> str:
+def _rename_in_tables(store: Store, text: str, settings: Settings, old: str, new: str) -> str:
     """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
     told, described = settings.vlm.descriptions, "vlm.descriptions"
     try:
@@ -152,13 +148,13 @@ def _rename_in_tables(project: Project, text: str, settings: Settings, old: str,
         if old in told:
             text = set_value(set_value(text, new, told[old], described), old, None, described)
     except ProjectError as error:
-        raise error.at(str(project.layout.settings)) from None
+        raise error.at(str(store.layout.settings)) from None
     return text
 
 
-def _rename_in_settings(project: Project, settings: Settings, old: str, new: str) -> Settings:
+def _rename_in_settings(store: Store, settings: Settings, old: str, new: str) -> Settings:
     vocabulary = tuple(new if word == old else word for word in settings.vocabulary)
-    before = orientation(settings, project.folder)
+    before = orientation(settings, store.folder)
     after = rename_in_orient(before, old, new) if before else None
     text = settings.orient if after == before else orientation_text(after)
     return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})

@@ -7,15 +7,11 @@ keeps to it. Who accepts many at once says nothing of each.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from meshforge.batch import Stamp, program_digest, read_stamp, text_digest
 from meshforge.common import ProjectError
-from meshforge.store import Review, ReviewFile, RuleSelection, Verdict, action_text_without_each, read_json, write_json
-
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
-
+from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
 
 Thing = TypeVar("Thing")
 
@@ -30,47 +26,41 @@ def pick_evenly(things: Sequence[Thing], most: int) -> Sequence[Thing]:
     return [things[place * len(things) // most] for place in range(most)]
 
 
-def review_assets(project: Project, assets: Iterable[str], verdict: Verdict | None, note: str | None) -> None:
+def review_assets(store: Store, assets: Iterable[str], verdict: Verdict | None, note: str | None) -> None:
     """Set or take back what is said about the outputs of some assets, in one write.
 
     Raises ProjectError, with nothing written, where one of them has no output that a verdict could be about.
     """
     assets = tuple(assets)
-    own = {asset: _build_review(project, asset, verdict, note) for asset in assets}
+    own = {asset: _build_review(store, asset, verdict, note) for asset in assets}
     if verdict == "accepted" and len(assets) == 1 and (said := own[assets[0]]):
-        own = {assets[0]: said.model_copy(update={"seen": _read_selections(project, assets[0])})}
-    with project.lock():
-        kept = read_json(project.layout.review, ReviewFile) or ReviewFile()
-        now = {asset: said for asset, said in (kept.assets | own).items() if said}
-        if now != kept.assets:
-            write_json(project.layout.review, kept.model_copy(update={"assets": dict(sorted(now.items()))}))
+        own = {assets[0]: said.model_copy(update={"seen": _read_selections(store, assets[0])})}
+    store.write_reviews(own)
 
 
-def _build_review(project: Project, asset: str, verdict: Verdict | None, note: str | None) -> Review | None:
-    project.path(asset)
-    output = output_digest(read_stamp(project.layout.edited, asset))
+def _build_review(store: Store, asset: str, verdict: Verdict | None, note: str | None) -> Review | None:
+    store.path(asset)
+    output = output_digest(read_stamp(store.layout.edited, asset))
     if verdict and not output:
         raise ProjectError(
             f"{asset} has no output to be {verdict}",
-            where=str(project.folder),
-            remedy=f"Make it: meshforge apply {project.folder}",
+            where=str(store.folder),
+            remedy=f"Make it: meshforge apply {store.folder}",
         )
     return Review(verdict=verdict, note=note, output=output) if verdict else None
 
 
-def find_accepted_results(project: Project) -> dict[str, tuple[RuleSelection, ...]]:
+def find_accepted_results(store: Store) -> dict[str, tuple[RuleSelection, ...]]:
     """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
-    rows = sorted(
-        (asset, said) for asset, said in project.reviews().items() if said.seen and asset in project.found.ids
-    )
+    rows = sorted((asset, said) for asset, said in store.reviews().items() if said.seen and asset in store.found.ids)
     some = pick_evenly(rows, MOST_ACCEPTED)
-    present = {asset: output_digest(read_stamp(project.layout.edited, asset)) for asset, _ in some}
+    present = {asset: output_digest(read_stamp(store.layout.edited, asset)) for asset, _ in some}
     return {asset: said.seen for asset, said in some if said.output == present[asset]}
 
 
-def _read_selections(project: Project, asset: str) -> tuple[RuleSelection, ...]:
+def _read_selections(store: Store, asset: str) -> tuple[RuleSelection, ...]:
     """What the rules selected on an asset; nothing where another program did that, or it was mended by hand."""
-    stamp, program = read_stamp(project.layout.edited, asset), project.program()
+    stamp, program = read_stamp(store.layout.edited, asset), store.program()
     made = stamp and stamp.inputs
     if not stamp or not made or not program or made.corrections or made.program != program_digest(program):
         return ()

@@ -1,6 +1,7 @@
 """The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
 use case."""
 
+from meshforge.store.facts import AssetFacts, geometry_digest, iterate_survey, survey
 from meshforge.store.feedback import (
     AnswerLine,
     AnswersFile,
@@ -11,13 +12,12 @@ from meshforge.store.feedback import (
     ReviewFile,
     RuleSelection,
     Verdict,
-    read_answers,
     repair_id,
-    write_answers,
 )
+from meshforge.store.folder import add_assets, create_folder, find_assets
 from meshforge.store.layout import Layout, json_text, read_json, write_json
-from meshforge.store.meshes import AssetFiles, asset_files_of, hull_digests, write_labels
-from meshforge.store.program import ProgramRecord, write_program
+from meshforge.store.meshes import AssetFiles, hull_digests
+from meshforge.store.program import ProgramRecord
 from meshforge.store.settings import (
     Settings,
     VlmSettings,
@@ -25,8 +25,8 @@ from meshforge.store.settings import (
     orientation,
     orientation_text,
     read_settings,
-    set_orientation,
-    set_vocabulary,
+    set_value,
+    toml_value,
 )
 from meshforge.store.steps import (
     CorrectionsFile,
@@ -39,8 +39,7 @@ from meshforge.store.steps import (
     to_correction_lines,
     to_step_lines,
 )
-from meshforge.store.survey import AssetFacts, geometry_digest, iterate_survey, survey
-from meshforge.store.toml_edit import set_value, toml_value
+from meshforge.store.store import Store
 
 __all__ = [
     "AnswerLine",
@@ -59,12 +58,15 @@ __all__ = [
     "RuleSelection",
     "Settings",
     "StepLine",
+    "Store",
     "Verdict",
     "VlmSettings",
     "action_text",
     "action_text_without_each",
-    "asset_files_of",
+    "add_assets",
+    "create_folder",
     "edit_settings",
+    "find_assets",
     "geometry_digest",
     "hull_digests",
     "iterate_survey",
@@ -72,20 +74,14 @@ __all__ = [
     "orientation",
     "orientation_text",
     "parse_action_text",
-    "read_answers",
     "read_corrections",
     "read_json",
     "read_settings",
     "repair_id",
-    "set_orientation",
     "set_value",
-    "set_vocabulary",
     "survey",
     "to_correction_lines",
     "to_step_lines",
     "toml_value",
-    "write_answers",
     "write_json",
-    "write_labels",
-    "write_program",
 ]

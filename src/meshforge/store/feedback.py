@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, model_validator
 
 from meshforge.store.layout import JsonFile, read_json, write_json
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer, LabelCorrection
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 Verdict = Literal["accepted", "flagged"]
 
@@ -144,17 +141,17 @@ def _sort_key(line: RepairLine) -> tuple[str, str, str]:
     return line.asset, line.hull, line.to
 
 
-def read_answers(project: Project) -> AnswersFile:
-    """Everything that was said."""
-    return read_json(project.layout.answers, AnswersFile) or AnswersFile()
+def read_answers(path: Path) -> AnswersFile:
+    """All answers and repairs."""
+    return read_json(path, AnswersFile) or AnswersFile()
 
 
-def write_answers(project: Project, said: AnswersFile) -> None:
-    """Keep everything that was said; where that is nothing, there is no file."""
-    if said.ids or said.model_extra:
-        write_json(project.layout.answers, said)
+def write_answers(path: Path, answers: AnswersFile) -> None:
+    """Write all answers and repairs; where there are none, there is no file."""
+    if answers.ids or answers.model_extra:
+        write_json(path, answers)
     else:
-        project.layout.answers.unlink(missing_ok=True)
+        path.unlink(missing_ok=True)
 
 
 class RuleSelection(JsonFile):
@@ -186,3 +183,11 @@ class ReviewFile(JsonFile):
 def read_reviews(path: Path) -> dict[str, Review]:
     """All reviews, by asset."""
     return (read_json(path, ReviewFile) or ReviewFile()).assets
+
+
+def write_reviews(path: Path, changes: Mapping[str, Review | None]) -> None:
+    """Write some reviews beside those of other assets; None takes one back."""
+    kept = read_json(path, ReviewFile) or ReviewFile()
+    reviews = {asset: review for asset, review in {**kept.assets, **changes}.items() if review}
+    if reviews != kept.assets:
+        write_json(path, kept.model_copy(update={"assets": dict(sorted(reviews.items()))}))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import SETTINGS, AssetSet, expand
 from meshforge.common import ProjectError, UsageError, nearest_name, plain_path
@@ -20,9 +19,6 @@ from meshforge.store.settings import (
     read_settings,
     write_settings,
 )
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 def create_folder(
@@ -80,24 +76,22 @@ def path_of(folder: Path, found: AssetSet, asset: str) -> Path:
     return ids[asset]
 
 
-def add_assets(project: Project, paths: Iterable[str | Path]) -> None:
-    """Name files among the assets of the settings, as far as these do not mean them already.
+def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> None:
+    """Name files among the assets of the settings, as far as these do not mean them already; the caller holds the lock.
 
     Assets that a pattern would pass over because of the new files, such as mesh files in a folder that gets a URDF,
     are named as well. Raises ProjectError for a file that is no asset, or lies outside of the folder of the ids.
     """
-    wanted = [_check_path(project, plain_path(Path(path))) for path in paths]
-    with project.lock():
-        present = set(find_assets(project.folder).paths)
-        had = (path for path in project.found if path.exists())
-        more = [path for path in dict.fromkeys([*had, *wanted]) if path not in present]
-        if more:
-            names = (path_seen_from(project.folder, str(path)) for path in more)
-            change_setting(project.folder, "assets", (*project.settings.assets, *names))
+    wanted = [_check_path(found.base, plain_path(Path(path))) for path in paths]
+    present = set(find_assets(folder).paths)
+    had = (path for path in found if path.exists())
+    more = [path for path in dict.fromkeys([*had, *wanted]) if path not in present]
+    if more:
+        names = (path_seen_from(folder, str(path)) for path in more)
+        change_setting(folder, "assets", (*read_settings(folder).assets, *names))
 
 
-def _check_path(project: Project, path: Path) -> Path:
-    base = project.found.base
+def _check_path(base: Path, path: Path) -> Path:
     if not path.is_relative_to(base):
         remedy = "Put it there, or make another project for it."
         raise ProjectError(f"it lies outside of {base}, the folder that ids count from", where=str(path), remedy=remedy)

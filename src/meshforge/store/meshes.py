@@ -6,15 +6,11 @@ import json
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import read_prepared
 from meshforge.common import MeshForgeError, write_atomically
 from meshforge.geometry import digest
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, read_labels, transfer_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,25 +34,11 @@ def read_labels_file(path: Path) -> LabelFile:
     return read_labels(path) if path.exists() else LabelFile()
 
 
-def asset_files_of(project: Project, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
-    """Those of some assets."""
-    layout, contact = project.layout, project.settings.thresholds.contact
-    return tuple(
-        AssetFiles(project.path(asset), layout.preparation(asset), layout.labels(asset), contact) for asset in assets
-    )
-
-
-def read_mesh(project: Project, asset: str) -> SymbolicMesh:
-    """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-    (place,) = asset_files_of(project, [asset])
-    return place.read_mesh()
-
-
-def read_named_meshes(project: Project, assets: Sequence[str]) -> Iterator[tuple[str, SymbolicMesh]]:
+def read_meshes(ids: Iterable[str], files: Iterable[AssetFiles]) -> Iterator[tuple[str, SymbolicMesh]]:
     """Assets with their ids, one after the other; those that cannot be read are left out."""
-    for asset, place in zip(assets, asset_files_of(project, assets), strict=True):
+    for asset, own in zip(ids, files, strict=True):
         try:
-            yield asset, place.read_mesh()
+            yield asset, own.read_mesh()
         except MeshForgeError:
             continue
 
@@ -67,21 +49,16 @@ def hull_digests(mesh: SymbolicMesh) -> dict[str, str]:
 
 
 def write_labels(
-    project: Project,
-    asset: str,
+    path: Path,
     hulls: Mapping[str, str],
     labels: Mapping[str, Label],
     vocabulary: Sequence[str],
     away: Collection[str] = (),
 ) -> None:
-    """Write labels of an asset; those of hulls that are gone stay in the file, since hulls may come back.
-
-    hulls: the digests of all, by name, in order; away: names of hulls that are gone whose labels do not stay.
-    """
-    path = project.layout.labels(asset)
+    """Write a labels file; labels of hulls that are gone stay in it, except for those of `away`."""
     present = {name: labels[name] for name in hulls if name in labels}
     text = format_labels(LabelFile(tuple(vocabulary), present, hulls))
-    if gone := [name for name in match_labels(project.labels(asset), hulls).gone if name not in away]:
+    if gone := [name for name in match_labels(read_labels_file(path), hulls).gone if name not in away]:
         old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
         new["hulls"] |= {name: old["hulls"][name] for name in gone}
         new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))

@@ -4,28 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from meshforge.batch import read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.language import Program
-from meshforge.store.layout import JsonFile
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
+from meshforge.store.layout import JsonFile, Layout
 
 
-def list_templates(project: Project) -> tuple[str, ...]:
+def list_templates(layout: Layout) -> tuple[str, ...]:
     """The names of templates as actions write them, sorted."""
-    _, folder = project.layout.templates
+    _, folder = layout.templates
     paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
     return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
 
-def add_template(project: Project, name: str, data: bytes) -> None:
-    """Keep the contents of a file as a template. Raises ProjectError: no plain name, or no convex hulls in it."""
-    beside, folder = project.layout.templates
+def check_template(layout: Layout, name: str, data: bytes) -> None:
+    """Raises ProjectError where the contents of a file cannot be a template: no plain name, or no convex hulls."""
+    beside, _ = layout.templates
     _check_name(name)
     if (beside / name).exists():
         remedy = "Give the template another name."
@@ -39,8 +35,6 @@ def add_template(project: Project, name: str, data: bytes) -> None:
             remedy = "A template is a mesh file whose parts are convex; `meshforge decompose FILE -o OUT` makes one."
             where = (error.where or name).replace(str(path), name)
             raise ProjectError(error.problem, where=where, remedy=remedy) from error
-    with project.lock():
-        write_atomically(folder / name, data)
 
 
 def _check_name(name: str) -> None:
@@ -59,11 +53,10 @@ class ProgramRecord(JsonFile):
     question: str | None = None
 
 
-def write_program(project: Project, program: Program) -> None:
-    """Keep a program as the project's; one that it takes the place of stays as `program.previous.mf`."""
-    path, text = project.layout.program, str(program)
-    with project.lock():
-        old = path.read_text(encoding="utf-8") if path.exists() else text
-        if old != text:
-            write_atomically(path.with_name("program.previous.mf"), old)
-        write_atomically(path, text)
+def write_program(path: Path, program: Program) -> None:
+    """Write a program; the one that it replaces stays as `program.previous.mf`."""
+    text = str(program)
+    old = path.read_text(encoding="utf-8") if path.exists() else text
+    if old != text:
+        write_atomically(path.with_name("program.previous.mf"), old)
+    write_atomically(path, text)

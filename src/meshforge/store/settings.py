@@ -7,25 +7,21 @@ import os
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
+import tomlkit
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from tomlkit.items import InlineTable
 
 from meshforge.batch import SETTINGS
 from meshforge.common import MeshForgeError, ProjectError, write_atomically
 from meshforge.language import Orient, Program, show
 from meshforge.store.layout import invalid_file
-from meshforge.store.toml_edit import TomlValue, set_value, toml_value
-
-if TYPE_CHECKING:
-    from meshforge.labels import Endpoint, PromptConfig
-    from meshforge.project import Project
-
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-
 Fraction = Annotated[float, Field(gt=0, le=1)]
+TomlValue = str | float | Sequence[str]
 
 
 class VlmSettings(BaseModel):
@@ -55,43 +51,6 @@ class VlmSettings(BaseModel):
     retries: Annotated[int, Field(ge=0, le=20)] = 5
     wait: Seconds = 1.0
     extra: Mapping[str, Any] = {}
-
-    def check(self, vocabulary: Sequence[str]) -> None:
-        """Raises UsageError for what is in the way of asking: no model, no key, no vocabulary."""
-        self.endpoint().key()
-        self.manner(vocabulary)
-
-    def endpoint(self) -> Endpoint:
-        """Where the model is asked. Raises UsageError: no address, or no model named."""
-        from meshforge.labels import Endpoint
-
-        return Endpoint(
-            base_url=self.base_url,
-            model=self.model,
-            key_env=self.key_env,
-            input_price=self.input_price,
-            output_price=self.output_price,
-            concurrency=self.concurrency,
-            timeout=self.timeout,
-            retries=self.retries,
-            wait=self.wait,
-            extra=self.extra,
-        )
-
-    def manner(self, vocabulary: Sequence[str]) -> PromptConfig:
-        """How it is asked. Raises UsageError: no vocabulary, or a description of what is no label."""
-        from meshforge.labels import PromptConfig
-
-        return PromptConfig(
-            vocabulary=tuple(vocabulary),
-            mode=self.mode,
-            descriptions=self.descriptions,
-            about=self.about,
-            names=self.names,
-            repeats=self.repeats,
-            room=self.room,
-            size=self.size,
-        )
 
 
 class Thresholds(BaseModel):
@@ -174,18 +133,33 @@ def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
     return text
 
 
-def set_vocabulary(project: Project, labels: Sequence[str]) -> None:
-    """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
-    Program(labels=tuple(labels))
-    with project.lock():
-        change_setting(project.folder, "vocabulary", tuple(labels))
+def toml_value(value: TomlValue) -> str:
+    """A value as TOML writes it: a string, a number, or an array of strings."""
+    if isinstance(value, str | int | float):
+        return tomlkit.item(value).as_string()
+    return f"[{', '.join(map(toml_value, value))}]"
 
 
-def set_orientation(project: Project, orient: Orient | str | None) -> None:
-    """Set the orientation directive. Raises ProjectError for a text that is none."""
-    directive = parse_orientation(orient) if isinstance(orient, str) else orient
-    with project.lock():
-        change_setting(project.folder, "orient", orientation_text(directive))
+def set_value(text: str, key: str, value: TomlValue | None, table: str | None = None) -> str:
+    """A TOML text with one key of the top level, or of a table (`a` or `a.b`), set, or removed by None.
+
+    Comments and layout stay as their author wrote them. Raises ProjectError for a key inside an inline table.
+    """
+    document = tomlkit.parse(text)
+    part: Any = document
+    # parsed from its text, as tomlkit takes seconds to make an array of thousands of paths from a list
+    item = None if value is None else tomlkit.value(toml_value(value))
+    for name in table.split(".") if table else ():
+        part = part.get(name)
+        if part is None:
+            return text if item is None else f"{text}\n[{table}]\n{tomlkit.dumps({key: item})}"
+        if isinstance(part, InlineTable):
+            raise ProjectError(f"the key {key!r} cannot be changed where it stands", remedy="Change it by hand.")
+    if item is not None:
+        part[key] = item
+    elif key in part:
+        del part[key]
+    return tomlkit.dumps(document)
 
 
 def orientation(settings: Settings, folder: Path) -> Orient | None:

@@ -12,7 +12,7 @@ from pydantic import Field
 from meshforge.batch import Correction
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Action, Each, Program, show_label
-from meshforge.store.layout import JsonFile, read_json
+from meshforge.store.layout import JsonFile, read_json, write_json
 from meshforge.synthesis import Step
 
 
@@ -101,3 +101,18 @@ def read_corrections(path: Path) -> tuple[Correction, ...]:
     """The edits by hand in a file, none where there is no such file."""
     kept = read_json(path, CorrectionsFile)
     return corrections_of(kept.steps, path) if kept else ()
+
+
+def write_steps(path: Path, asset: str, steps: Sequence[Step]) -> None:
+    """Write the steps of a demonstrations file; without any step the file is removed."""
+    if not steps:
+        path.unlink(missing_ok=True)
+        return
+    kept = read_json(path, DemonstrationFile) or DemonstrationFile(asset=asset, steps=())
+    write_json(path, kept.model_copy(update={"asset": asset, "steps": to_step_lines(steps)}))
+
+
+def write_corrections(path: Path, asset: str, corrections: Sequence[Correction]) -> None:
+    """Write the edits by hand of a corrections file."""
+    kept = read_json(path, CorrectionsFile) or CorrectionsFile(asset=asset, steps=())
+    write_json(path, kept.model_copy(update={"steps": to_correction_lines(corrections)}))

@@ -1,4 +1,4 @@
-"""Errors that have a status of HTTP of their own, and every error as the page gets it."""
+"""Errors with an HTTP status of their own, and every error as the page gets it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ class ConflictError(ProjectError):
 
 
 class NotHereError(ProjectError):
-    """Something that was asked for is not in the project."""
+    """There is no such thing in the project."""
 
 
 class TooLargeError(UsageError):
-    """An upload beyond what is taken."""
+    """An upload is larger than the limit."""
 
 
 def status_of(error: Exception) -> int:
-    """The status of HTTP for an error."""
+    """The HTTP status of an error."""
     match error:
         case ConflictError():
             return 409
@@ -34,7 +34,7 @@ def status_of(error: Exception) -> int:
 
 
 def problem_of(error: Exception) -> Problem:
-    """An error in its parts; one of our own faults in one sentence."""
+    """An error in its parts; a fault of the studio in one sentence."""
     if isinstance(error, MeshForgeError):
         return Problem(
             message=error.problem,

@@ -1,6 +1,5 @@
-"""Doing, undoing and redoing edits, so that a kill at any moment leaves all before or all after, and nothing is
-lost. An edit is noted before it begins, and is an entry when it is done; what was under way is brought to its end
-on opening."""
+"""Makes, undoes and redoes edits. A kill at any moment leaves the state before or after, never one between: an edit is
+noted before it begins, becomes an entry when it is done, and is completed when the history is opened next."""
 
 from __future__ import annotations
 
@@ -30,8 +29,8 @@ from meshforge.studio.wire.family import HistoryView
 
 
 class History:
-    """The history of a project. derived: names of files that learning writes, too, while that holds: they are put back
-    whatever they hold by then."""
+    """The history of a project. derived: names of files that learning writes, too: undo and redo overwrite them even if
+    they have changed since."""
 
     def __init__(self, project: Project, derived: Callable[[Project], frozenset[str]] = lambda _: frozenset()) -> None:
         folder = project.folder / STATE / "studio" / "history"
@@ -58,17 +57,17 @@ class History:
 
     @property
     def entries(self) -> tuple[HistoryEntry, ...]:
-        """Everything that was done and not undone, the first first."""
+        """The edits that were made and not undone, the first one first."""
         with self._mutex:
             return tuple(self._files.entries[: self._files.position])
 
     def path_of(self, digest: str) -> Path:
-        """A file that holds what one with that digest held. It is gone where the history was damaged from outside."""
+        """A file with the content of that digest. There is none where the history was damaged from outside."""
         return self._snapshots.blobs.path_of(digest)
 
     @property
     def last_entry(self) -> HistoryEntry:
-        """What was done last."""
+        """The edit that was made last."""
         with self._mutex:
             return self._files.entries[self._files.position - 1]
 
@@ -81,33 +80,33 @@ class History:
 
     @contextmanager
     def record(self, project: Project, edit: Edit, by: str | None = None, group: str | None = None) -> Iterator[int]:
-        """An edit whose change is made within the block; an error in it takes back what was changed. Gives how many
+        """Record an edit whose change is made within the block; an error in it takes the change back. Gives how many
         entries were done before."""
         with self._mutex, project.lock():
             self._recover(project)
-            touches = edit.list_paths(project)
-            before = self._snapshots.take(touches)
+            paths = edit.list_paths(project)
+            before = self._snapshots.take(paths)
             now, data = datetime.now(UTC).isoformat(timespec="seconds"), edit.model_dump(mode="json")
             title = edit.describe(project)
             entry = HistoryEntry(title=title, edit=data, before=before, after={}, at=now, by=by, group=group)
-            names = tuple(relative_name(path, project.folder) for path in touches)
+            names = tuple(relative_name(path, project.folder) for path in paths)
             self._files.begin(PendingEntry(what="do", number=self._files.position + 1, entry=entry, touches=names))
             try:
                 yield self._files.position
             except BaseException:
-                self._roll_back(before, touches)
+                self._roll_back(before, paths)
                 raise
             self._finish(project)
 
     def undo(self, project: Project) -> tuple[HistoryEntry, ...]:
-        """Put back what files held before the last thing that was done, or before all of its group.
+        """Put back what files held before the last edit, or before all edits of its group.
 
-        Raises ConflictError, nothing changed, where a file was changed since by something else.
+        Raises ConflictError, nothing changed, where something else changed a file since.
         """
         return self._move(project, "undo")
 
     def redo(self, project: Project) -> tuple[HistoryEntry, ...]:
-        """Put back what files held after the last thing that was undone; as `undo`."""
+        """Put back what files held after the last edit that was undone, or after all of its group. Raises as `undo`."""
         return self._move(project, "redo")
 
     def _move(self, project: Project, what: Literal["undo", "redo"]) -> tuple[HistoryEntry, ...]:
@@ -140,7 +139,7 @@ class History:
         self._files.end()
 
     def _recover(self, project: Project) -> None:
-        """Bring what was under way to its end."""
+        """Complete what was under way."""
         pending = self._files.read_pending()
         if pending is None:
             return
@@ -149,7 +148,7 @@ class History:
             return
         try:
             self._shift(project, pending)
-        except MeshForgeError:  # changed meanwhile by something else, which then stands
+        except MeshForgeError:  # something else changed the file meanwhile: its change stays
             self._files.end()
 
     def _finish(self, project: Project) -> None:
@@ -164,8 +163,8 @@ class History:
             self._files.set_position(pending.number)
         self._files.end()
 
-    def _roll_back(self, before: FileState, touches: Sequence[Path]) -> None:
-        now = self._snapshots.take(touches)
+    def _roll_back(self, before: FileState, paths: Sequence[Path]) -> None:
+        now = self._snapshots.take(paths)
         wanted, _ = diff_states(before, now)
         self._snapshots.restore(wanted, {name: now.get(name) for name in wanted})
         self._files.end()

@@ -1,5 +1,4 @@
-"""The history on disk: its entries, the note of one under way, and the contents of files before and after, by
-digest."""
+"""The history on disk: its entries, the one under way, and the contents of files before and after, by digest."""
 
 from __future__ import annotations
 
@@ -20,7 +19,7 @@ FileState = dict[str, str | None]
 
 
 class HistoryEntry(BaseModel):
-    """One thing that was done. title: in words; edit: as the page sent it; by: the page; at: when, as ISO 8601.
+    """One edit that was made. title: in words; edit: as the page sent it; by: the page; at: when, as ISO 8601.
 
     group: entries of one group that follow one another are undone together.
     """
@@ -42,13 +41,13 @@ class HistoryEntry(BaseModel):
 
     @property
     def digests(self) -> frozenset[str]:
-        """All contents that it mentions."""
+        """The digests of all contents that it mentions."""
         return frozenset(digest for digest in (*self.before.values(), *self.after.values()) if digest)
 
 
 class PendingEntry(BaseModel):
-    """What is under way, so that it can be brought to its end after a kill. number: of the entry, from 1; entry: as it
-    is, or for `do` as far as it is known; touches: the paths that are looked at."""
+    """What is under way, so that it can be completed after a kill. number: of the entry, from 1; entry: for `do` as far
+    as it is known; touches: the paths that the edit may change."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -59,17 +58,17 @@ class PendingEntry(BaseModel):
 
 
 class EntryFiles:
-    """The entries of a history as files, in a folder; all in memory, too."""
+    """The entries of a history as files in a folder; all of them are in memory, too."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._pending = folder / "pending.json"
         self._position = folder / "position"
-        self.entries = _read_all(folder / "entries")
+        self.entries = self._read_all()
 
     @property
     def position(self) -> int:
-        """How many entries are done; the others are to be redone."""
+        """How many entries are done; the others can be redone."""
         try:
             return min(int(self._position.read_text()), len(self.entries))
         except (FileNotFoundError, ValueError):
@@ -83,14 +82,14 @@ class EntryFiles:
             self._position.unlink(missing_ok=True)
 
     def put(self, number: int, entry: HistoryEntry) -> None:
-        """Set an entry in the place of all from that number on, which go first, the last one foremost."""
+        """Put an entry in the place of all from that number on. These are removed first, from the last one back."""
         for gone in range(len(self.entries), number, -1):
             self._path_of(gone).unlink()
         write_atomically(self._path_of(number), entry.model_dump_json())
         self.entries[number - 1 :] = [entry]
 
     def read_pending(self) -> PendingEntry | None:
-        """What was under way when it was last looked at."""
+        """What is under way, None for nothing."""
         try:
             return PendingEntry.model_validate_json(self._pending.read_bytes())
         except (FileNotFoundError, ValueError):
@@ -106,25 +105,20 @@ class EntryFiles:
         self._pending.unlink(missing_ok=True)
 
     def _path_of(self, number: int) -> Path:
-        return _entry_path(self._folder / "entries", number)
+        return self._folder / "entries" / f"{number:06}.json"
 
-
-def _entry_path(folder: Path, number: int) -> Path:
-    return folder / f"{number:06}.json"
-
-
-def _read_all(folder: Path) -> list[HistoryEntry]:
-    """The entries up to the first one that is not there or cannot be read."""
-    found: list[HistoryEntry] = []
-    while True:
-        try:
-            found.append(HistoryEntry.model_validate_json(_entry_path(folder, len(found) + 1).read_bytes()))
-        except (FileNotFoundError, ValueError):
-            return found
+    def _read_all(self) -> list[HistoryEntry]:
+        """The entries up to the first one that is not there or cannot be read."""
+        found: list[HistoryEntry] = []
+        while True:
+            try:
+                found.append(HistoryEntry.model_validate_json(self._path_of(len(found) + 1).read_bytes()))
+            except (FileNotFoundError, ValueError):
+                return found
 
 
 def count_group(entries: Sequence[HistoryEntry], first: int, step: int) -> int:
-    """How many entries from a place on, in a direction, belong together."""
+    """How many entries belong to one group, from a place on in a direction (step: 1 or -1)."""
     group, count = entries[first].group, 1
     while group and 0 <= first + count * step < len(entries) and entries[first + count * step].group == group:
         count += 1
@@ -138,16 +132,16 @@ class Snapshots:
     folder: Path
     blobs: BlobStore
 
-    def take(self, touches: Iterable[Path]) -> FileState:
-        """The state of files, and of all files in folders; their contents are kept."""
-        return {relative_name(file, self.folder): self.blobs.store(file) for file in sorted(_list_files(touches))}
+    def take(self, paths: Iterable[Path]) -> FileState:
+        """The state of files, and of all files in folders; their contents are stored."""
+        return {relative_name(file, self.folder): self.blobs.store(file) for file in sorted(_list_files(paths))}
 
     def read_state(self, names: Iterable[str]) -> FileState:
-        """The state of files by their names, nothing kept."""
+        """The state of files by their names; nothing is stored."""
         return {name: _digest_or_none(self.folder / name) for name in names}
 
     def restore(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
-        """Let files hold what they held; those that were not there go, and folders that are empty then."""
+        """Write back what files held; those that were not there are removed, and folders that are empty then."""
         for name, digest in wanted.items():
             if now[name] == digest:
                 continue
@@ -158,14 +152,14 @@ class Snapshots:
 
 
 def diff_states(before: FileState, after: FileState) -> tuple[FileState, FileState]:
-    """Two states, of the files only that differ."""
+    """Two states, reduced to the files that differ."""
     names = [name for name in sorted({*before, *after}) if before.get(name) != after.get(name)]
     return {name: before.get(name) for name in names}, {name: after.get(name) for name in names}
 
 
-def _list_files(touches: Iterable[Path]) -> Iterator[Path]:
-    """The files that there are, without those of writers that were killed."""
-    seen = {file for path in touches for file in ([path] if path.is_file() else path.rglob("*"))}
+def _list_files(paths: Iterable[Path]) -> Iterator[Path]:
+    """The files among these paths and in these folders, without drafts of writers that were killed."""
+    seen = {file for path in paths for file in ([path] if path.is_file() else path.rglob("*"))}
     return (file for file in seen if file.is_file() and not file.name.endswith(".tmp"))
 
 
@@ -186,12 +180,12 @@ def _remove_file(path: Path, root: Path) -> None:
 
 @dataclass(frozen=True, slots=True)
 class BlobStore:
-    """A folder of contents."""
+    """A folder with the contents of files, by digest."""
 
     folder: Path
 
     def store(self, file: Path) -> str:
-        """Keep what a file holds, and give its digest."""
+        """Store what a file holds, and return its digest."""
         digest = file_digest(file)
         place = self.path_of(digest)
         if not place.exists():
@@ -199,7 +193,7 @@ class BlobStore:
         return digest
 
     def restore(self, digest: str, file: Path) -> None:
-        """Let a file hold again what it held. Raises ProjectError where that is lost or damaged."""
+        """Write a content back to a file. Raises ProjectError where it is lost or damaged."""
         place = self.path_of(digest)
         if not place.is_file() or file_digest(place) != digest:
             raise ProjectError(
@@ -210,18 +204,18 @@ class BlobStore:
         _copy(place, file)
 
     def prune(self, wanted: Container[str]) -> None:
-        """Remove the contents that nothing mentions any more."""
+        """Remove the contents that no entry mentions any more."""
         for place in self.folder.glob("*/*"):
             if place.parent.name + place.name not in wanted:
                 place.unlink()
 
     def path_of(self, digest: str) -> Path:
-        """Where a content is kept."""
+        """The path of a content."""
         return self.folder / digest[:2] / digest[2:]
 
 
 def _copy(source: Path, target: Path) -> None:
-    """Copy a file atomically; one that is replaced hands on its mode, a new one takes that of its source."""
+    """Copy a file atomically; a file that is replaced keeps its mode, a new one takes that of its source."""
     like = target if target.exists() else source
     with replace_atomically(target) as draft:
         with source.open("rb") as read, draft.open("wb") as write:

@@ -1,23 +1,19 @@
-"""What the history says of labels: what the last edit of all labels did, and which labels are new since the last
-propagation."""
+"""What the history says about labels: what the last edit of all labels changed, and what is new since propagation."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
 
 from meshforge.common import MeshForgeError
+from meshforge.project import Project
 from meshforge.rendering import UNSURE
 from meshforge.studio.history import History
 from meshforge.studio.history_store import HistoryEntry
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import CarriedOver, LabelEditKind, Relabelled, RelabelledAsset
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
 HullNames = Mapping[str, Sequence[str]]
@@ -29,14 +25,14 @@ HullLabels = Mapping[str, Label]
 
 @dataclass(frozen=True, slots=True)
 class _Propagation:
-    """Labels were carried over when so many entries were done; best: the asset that would help most then."""
+    """Labels were propagated when so many entries were done; best: the asset that would help most then."""
 
     entries: int
     best: str | None
 
 
 class LabelChanges:
-    """Reads the history of labels; what it has made out of an entry is kept as long as that is the last one."""
+    """Reads the history of labels; the result for the last entry is cached."""
 
     def __init__(self, history: History) -> None:
         self._history = history
@@ -44,7 +40,7 @@ class LabelChanges:
         self._no_change: tuple[tuple[HistoryEntry, ...], str | None] | None = None
 
     def last_change(self, names: HullNames) -> Relabelled | None:
-        """What the last edit did to assets whose hulls are known by now; None where it was not one of all labels."""
+        """What the last edit did to assets whose hulls are known by now; None where it did not edit all labels."""
         done = self._history.entries
         if not done or done[-1].edit.get("kind") not in _LABEL_EDIT_KINDS:
             return None
@@ -54,11 +50,11 @@ class LabelChanges:
         return self._last[2]
 
     def note_no_change(self, entries: int, best: str | None) -> None:
-        """Labels were carried over when so many entries were done, and stayed as they were, so that it is no entry."""
+        """Note a propagation that changed no label and so is no entry; entries: how many there were then."""
         self._no_change = self._history.entries[:entries], best
 
     def propagation_state(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
-        """How it stands with labels that were carried over; None where they never were, or where that is undone."""
+        """What is known of the last propagation; None where there was none, or where it is undone."""
         done = self._history.entries
         used = self._last_propagation(done)
         if used is None:
@@ -82,17 +78,18 @@ class LabelChanges:
         )
 
     def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
-        """The last time that labels were carried over."""
+        """The last propagation."""
         last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
         edit = {} if last is None else done[last].edit
         found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))
-        if self._no_change and done[: len(self._no_change[0])] == self._no_change[0]:
-            again = _Propagation(len(self._no_change[0]), self._no_change[1])
-            return again if found is None or again.entries > found.entries else found
-        return found
+        if self._no_change is None:
+            return found
+        entries, best = self._no_change
+        is_newer = found is None or len(entries) > found.entries
+        return _Propagation(len(entries), best) if is_newer and done[: len(entries)] == entries else found
 
     def _label_states(self, project: Project, since: Sequence[HistoryEntry]) -> Iterator[tuple[HullLabels, HullLabels]]:
-        """The labels of each asset that people or files labelled since: before that, in words of today, and now."""
+        """The labels of each asset that people or files labelled since: before that, with the names of now, and now."""
         first: dict[str, str | None] = {}
         for entry in since:
             first = first if entry.edit.get("kind") == "propagate" else entry.before | first
@@ -105,11 +102,11 @@ class LabelChanges:
                     before = {hull: replace(x, name=new) if x.name == old else x for hull, x in before.items()}
                 try:
                     yield before, project.labels(asset).labels
-                except MeshForgeError:  # its card tells that they cannot be read
+                except MeshForgeError:  # its card shows that they cannot be read
                     continue
 
     def _read_state(self, digest: str | None) -> HullLabels:
-        """What a labels file held; nothing where there was none, or where the history was damaged."""
+        """What a labels file held; empty where there was none, or where the history was damaged."""
         try:
             return read_labels(self._history.path_of(digest)).labels if digest else {}
         except MeshForgeError:
@@ -117,7 +114,7 @@ class LabelChanges:
 
 
 def _labels_files(names: Iterable[str]) -> dict[str, str]:
-    """Of some files, by their paths from the project's folder, those of labels, by asset."""
+    """The labels files among some files, by asset; names: paths from the project's folder."""
     return {name.removeprefix("labels/").removesuffix(".json"): name for name in names if name.startswith("labels/")}
 
 
@@ -138,10 +135,6 @@ def count_newly_sure(before: HullLabels, after: HullLabels) -> int:
 
 
 def count_new_labels(before: HullLabels, now: HullLabels) -> int:
-    """How many labels people and files gave that are not those of before."""
-    old, new = _labels_of_people(before), _labels_of_people(now)
-    return sum(old.get(name) != label for name, label in new.items())
-
-
-def _labels_of_people(labels: HullLabels) -> dict[str, str]:
-    return {name: label.name for name, label in labels.items() if label.source in GIVEN_SOURCES}
+    """How many labels of people and files are new or changed."""
+    given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
+    return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())

@@ -1,4 +1,4 @@
-"""Outputs checked beside the assets they were made from: in worker processes, the results cached by content."""
+"""Checks outputs beside their assets, in worker processes; the results are cached by content."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar, get_args
+from typing import get_args
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -18,10 +18,9 @@ from meshforge.rendering import encode_png
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
 from meshforge.studio.wire.asset import Checked, CheckPart, CheckPicture, Fault
-from meshforge.studio.workers import WORK_TIMEOUT, Workers, project_of_one
+from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
 
 PICTURE_SIZE = (800, 600)
-Result = TypeVar("Result")
 
 CHECK_PARTS: tuple[CheckPart, ...] = get_args(CheckPart)
 MOST_RESULTS = 8000
@@ -30,7 +29,7 @@ _PICTURE_LIST = TypeAdapter(tuple[CheckPicture, ...])
 
 
 class OutputChecks:
-    """The checks of a project's outputs. workers: for what pages look at; what is cancelled ends at once."""
+    """The checks of a project's outputs. workers: for what pages ask for; a call that is cancelled ends at once."""
 
     def __init__(self, folder: Path, workers: Workers) -> None:
         self._cache, self._workers = ResultCache(folder), workers
@@ -38,26 +37,26 @@ class OutputChecks:
         self._cache.remove_oldest()
 
     def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[Checked]:
-        """One part of what is measured of an asset's output; as `arrived`. Raises ProjectError without one."""
+        """One part of what is measured of an asset's output. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read(work.key, part)
-        return _future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
+        return future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
 
     def draw_pictures(self, project: Project, asset: str, part: CheckPart) -> Future[tuple[CheckPicture, ...]]:
-        """The pictures of a part, which are drawn first. Raises ProjectError where there is no output."""
+        """The pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read_pictures(work.key, part)
-        return _future_of(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
+        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
 
     def read_picture(self, asset: str, key: str, name: str) -> bytes:
-        """A picture that was drawn. Raises NotHereError where it was not."""
+        """A picture that was drawn. Raises NotHereError for any other."""
         try:
             return self._cache.picture_path(key, name).read_bytes()
         except OSError:
             raise NotHereError("there is no such picture", where=asset) from None
 
     def faults_of(self, key: str | None) -> tuple[Fault, ...] | None:
-        """What was found of the output of a key, None where not all of it is measured."""
+        """The faults of the output of a key, None where not all of its parts are measured."""
         if key is None:
             return None
         if key not in self._faults and (found := self._cache.read_faults(key)) is not None:
@@ -67,9 +66,9 @@ class OutputChecks:
     def check_all(
         self, project: Project, assets: Sequence[str], done: Callable[[], None], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, tuple[Fault, ...] | str]]:
-        """What is found of the outputs of some assets, or why it cannot be told; those measured already come first.
+        """The faults of the outputs of some assets, or why one was not checked; those measured already come first.
 
-        done: called whenever one is over. Raises StoppedError where it was told to stop; what was measured stays.
+        done: called for each output. Raises StoppedError where `stop` says so; what was measured stays.
         """
         fresh = []
         for asset in assets:
@@ -101,21 +100,21 @@ def _make_task(project: Project, asset: str) -> MeasureTask:
     return MeasureTask(project_of_one(project, asset), asset, key)
 
 
-def _measure_part(work: MeasureTask, part: CheckPart, shelf: ResultCache) -> Checked:
-    checked = measure(read_pair(work), part)
-    shelf.write(work.key, checked)
+def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> Checked:
+    checked = measure(read_pair(task), part)
+    cache.write(task.key, checked)
     return checked
 
 
 def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
-    """Measure what is missing; why that is not possible, None where it is."""
-    what, shelf = work
+    """Measure what is missing; the first problem, None where there is none."""
+    task, cache = work
     problem = None
     try:
-        pair = read_pair(what)
-        for part in shelf.missing_parts(what.key):
+        pair = read_pair(task)
+        for part in cache.missing_parts(task.key):
             try:
-                shelf.write(what.key, measure(pair, part))
+                cache.write(task.key, measure(pair, part))
             except MeshForgeError as error:  # the other parts can still be measured
                 problem = problem or error.sentence
     except Exception as error:  # one that fails never stops the others
@@ -123,24 +122,18 @@ def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
     return problem
 
 
-def _draw(work: MeasureTask, part: CheckPart, shelf: ResultCache) -> tuple[CheckPicture, ...]:
-    pair = read_pair(work)
+def _draw(task: MeasureTask, part: CheckPart, cache: ResultCache) -> tuple[CheckPicture, ...]:
+    pair = read_pair(task)
     found = examine_mesh(pair.after, MEASURES[part], pair.before) if part in MEASURES else None
     rows = draw_examination(pair.after, found, PICTURE_SIZE) if found else ()
     drawn = [(CheckPicture(name=name, text=text), encode_png(image)) for name, text, image in rows]
-    shelf.write_pictures(work.key, part, drawn)
+    cache.write_pictures(task.key, part, drawn)
     return tuple(picture for picture, _ in drawn)
-
-
-def _future_of(result: Result) -> Future[Result]:
-    future: Future[Result] = Future()
-    future.set_result(result)
-    return future
 
 
 @dataclass(frozen=True, slots=True)
 class ResultCache:
-    """A folder of results; what cannot be read there counts as not measured."""
+    """A folder of results; one that cannot be read there counts as not measured."""
 
     folder: Path
 
@@ -160,10 +153,12 @@ class ResultCache:
         return tuple(part for part in CHECK_PARTS if self.read(key, part) is None)
 
     def read_faults(self, key: str) -> tuple[Fault, ...] | None:
-        """All that was found, once every part is measured."""
+        """The faults of all parts, None where one is not measured."""
         parts = [checked for part in CHECK_PARTS if (checked := self.read(key, part))]
-        whole = len(parts) == len(CHECK_PARTS)
-        return tuple(_to_fault(found) for checked in parts for found in checked.findings) if whole else None
+        if len(parts) < len(CHECK_PARTS):
+            return None
+        found = [finding for checked in parts for finding in checked.findings]
+        return tuple(Fault(rule=f.rule, severity=f.severity, engine=f.engine, new=f.new) for f in found)
 
     def read_pictures(self, key: str, part: CheckPart) -> tuple[CheckPicture, ...] | None:
         """The pictures of a part that were drawn."""
@@ -185,11 +180,7 @@ class ResultCache:
         return self.folder / f"{key}.{name}.png"
 
     def remove_oldest(self) -> None:
-        """Remove the oldest."""
+        """Remove the oldest results, so that not too many stay."""
         files = sorted(self.folder.glob("*.*"), key=lambda path: path.stat().st_mtime_ns)
         for path in files[:-MOST_RESULTS]:
             path.unlink(missing_ok=True)
-
-
-def _to_fault(found: Fault) -> Fault:
-    return Fault(rule=found.rule, severity=found.severity, engine=found.engine, new=found.new)

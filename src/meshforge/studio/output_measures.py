@@ -1,5 +1,4 @@
-"""What is measured of one output: the pair of asset and output, the findings of a check, and figures before and
-after."""
+"""Measures one output beside its asset: the findings of checks, and figures before and after."""
 
 from __future__ import annotations
 
@@ -8,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from meshforge.batch import Stamp, has_same_files, read_stamp, record_digest, software_version, text_digest
-from meshforge.checks import ENGINES, CheckOptions, Examination, Finding, Physics, check, examine_mesh
+from meshforge.checks import ENGINES, CheckOptions, Examination, Finding, check, examine_mesh
 from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.project import Project, output_digest
@@ -22,37 +21,30 @@ MEASURES = {
     "clearance": CheckOptions(clearance=True),
     "physics": CheckOptions(physics=True),
 }
-"""What the costly parts measure; as `meshforge check` does with the option of that name."""
+"""What the costly parts measure: what `meshforge check` does with the option of that name."""
 
 Value = TypeVar("Value")
 
 _REMEDY = "Apply the program to it again."
 
 _VERSION = "1"
-"""Counts the ways in which outputs were measured."""
+"""To be raised when outputs are measured in another way."""
 
 
 def measure(pair: OutputPair, part: CheckPart) -> Checked:
-    """What is measured of an output; the same as `meshforge check OUTPUT --against ASSET` tells."""
-    match part:
-        case "engines":
-            return _check_engines(pair)
-        case "fit":
-            was, now = _examine_both(pair, part)
-            cell = now.fit.cell if now.fit and now.fit.hulls else None
-            return _to_checked(part, was.findings, now, fit_figures(was, now), cell)
-        case "clearance":
-            was, now = _examine_both(pair, part)
-            space = now.clearance or now.changed
-            return _to_checked(part, was.findings, now, clearance_figures(was, now), space.cell if space else None)
-        case "physics":
-            now = examine_mesh(pair.after, MEASURES[part], pair.before)
-            earlier = now.earlier.findings if now.earlier else ()
-            return _to_checked(part, earlier, now, physics_figures(now), None)
-
-
-def _examine_both(pair: OutputPair, part: CheckPart) -> tuple[Examination, Examination]:
-    return examine_mesh(pair.before, MEASURES[part]), examine_mesh(pair.after, MEASURES[part], pair.before)
+    """One part of what `meshforge check OUTPUT --against ASSET` reports."""
+    if part == "engines":
+        return _check_engines(pair)
+    now = examine_mesh(pair.after, MEASURES[part], pair.before)
+    if part == "physics":
+        earlier = now.earlier.findings if now.earlier else ()
+        return _to_checked(part, earlier, now, physics_figures(now), None)
+    was = examine_mesh(pair.before, MEASURES[part])
+    if part == "fit":
+        cell = now.fit.cell if now.fit and now.fit.hulls else None
+        return _to_checked(part, was.findings, now, fit_figures(was, now), cell)
+    space = now.clearance or now.changed
+    return _to_checked(part, was.findings, now, clearance_figures(was, now), space.cell if space else None)
 
 
 def _to_checked(
@@ -62,19 +54,22 @@ def _to_checked(
     found = [f for f in now.findings if f.rule.startswith(_RULE_PREFIXES[part])]
     old = [f for f in before if f.rule.startswith(_RULE_PREFIXES[part])]
     by_edit = now.changed.findings if now.changed else ()
+    gone = {finding.rule for finding in old} - {finding.rule for finding in found}
+    physics = (("", now.physics), ("before the edit ", now.earlier))
+    no_rest = (f"{when}{p.description}" for when, p in physics if p and p.rest is None)
     return Checked(
         part=part,
         figures=figures,
         findings=tuple(_to_row(f, None, f in by_edit or not _was_there(f, old)) for f in found),
-        gone=_count_gone(old, found),
-        notes=(*now.notes, *_explain_no_rest(now)),
+        gone=len(gone),
+        notes=(*now.notes, *no_rest),
         cell=cell,
         pictured=cell is not None,
     )
 
 
 def _check_engines(pair: OutputPair) -> Checked:
-    """What is not legal, and what is beyond the limits of each engine."""
+    """Findings about legality, and about the limits of each engine."""
     rows = []
     for engine in (None, *ENGINES):
         known = _findings_of(pair.before, engine)
@@ -83,14 +78,8 @@ def _check_engines(pair: OutputPair) -> Checked:
 
 
 def _findings_of(mesh: SymbolicMesh, engine: str | None) -> list[Finding]:
-    """The limits that are not kept to; of no engine, what is not legal."""
+    """The limits of an engine that are exceeded; without an engine, what is not legal."""
     return [found for found in check(mesh, engine) if engine is None or found.rule.startswith(f"{engine}-")]
-
-
-def _explain_no_rest(now: Examination) -> tuple[str, ...]:
-    """Why there is no rest to tell of."""
-    rows = (("", now.physics), ("before the edit ", now.earlier))
-    return tuple(f"{when}{p.description}" for when, p in rows if p and p.rest is None)
 
 
 def _to_row(found: Finding, engine: str | None, new: bool) -> CheckFinding:
@@ -106,17 +95,12 @@ def _to_row(found: Finding, engine: str | None, new: bool) -> CheckFinding:
 
 
 def _was_there(found: Finding, before: Iterable[Finding]) -> bool:
-    """Whether the same was to be said of the same hulls before, or of more."""
+    """Whether there was such a finding before, about these hulls or more."""
     return any(old.rule == found.rule and set(found.hulls) <= set(old.hulls) for old in before)
 
 
-def _count_gone(before: Iterable[Finding], now: Iterable[Finding]) -> int:
-    """How many rules that did not hold before do so now."""
-    return len({found.rule for found in before} - {found.rule for found in now})
-
-
 def fit_figures(was: Examination, now: Examination) -> Iterator[Figure]:
-    """How far hulls stick out, and what lies bare."""
+    """How far hulls stick out, and what they leave uncovered."""
     before, after = (found.fit if found.fit and found.fit.hulls else None for found in (was, now))
     if after is None:
         return
@@ -126,7 +110,7 @@ def fit_figures(was: Examination, now: Examination) -> Iterator[Figure]:
 
 
 def clearance_figures(was: Examination, now: Examination) -> Iterator[Figure]:
-    """What hulls close and open of the space about the visual mesh; then what the edit did."""
+    """How much of the space about the visual mesh hulls close and open; then what the edit closed and opened."""
     if now.clearance:
         yield _make_figure("Closed, against the visual", "l", was.clearance, now.clearance, lambda c: c.closed)
         yield _make_figure("Opened, against the visual", "l", was.clearance, now.clearance, lambda c: c.opened)
@@ -136,7 +120,7 @@ def clearance_figures(was: Examination, now: Examination) -> Iterator[Figure]:
 
 
 def physics_figures(now: Examination) -> Iterator[Figure]:
-    """How it rests, and what of it overlaps."""
+    """How the asset rests, and which bodies overlap."""
     physics, earlier = now.physics, now.earlier
     was, rest = earlier.rest if earlier else None, physics.rest if physics else None
     if rest is not None:
@@ -147,11 +131,13 @@ def physics_figures(now: Examination) -> Iterator[Figure]:
     if physics and (rest is not None or physics.overlaps):
         yield _make_figure("Overlaps of bodies", "", earlier, physics, lambda found: len(found.overlaps))
         if any(found.overlaps for found in (earlier, physics) if found):
-            yield _make_figure("Deepest of them", "m", earlier, physics, _deepest_overlap)
-
-
-def _deepest_overlap(found: Physics) -> float:
-    return max((overlap.depth for overlap in found.overlaps), default=0.0)
+            yield _make_figure(
+                "Deepest of them",
+                "m",
+                earlier,
+                physics,
+                lambda found: max((overlap.depth for overlap in found.overlaps), default=0.0),
+            )
 
 
 def _make_figure(
@@ -163,7 +149,7 @@ def _make_figure(
 
 @dataclass(frozen=True, slots=True)
 class MeasureTask:
-    """What a worker looks at; project: with this asset alone; key: of the output that is meant."""
+    """The work of a worker; project: with this asset alone; key: the digest of the output that is meant."""
 
     project: Project
     asset: str
@@ -179,8 +165,8 @@ class OutputPair:
 
 
 def read_pair(work: MeasureTask) -> OutputPair:
-    """Read both. Raises NotHereError where the output is another by now, ProjectError where one of them changed since
-    it was written, AssetError where one cannot be read."""
+    """Read both meshes. Raises NotHereError where the output is another by now, ProjectError where one of them changed
+    since the output was written, AssetError where one cannot be read."""
     project, asset = work.project, work.asset
     stamp = read_stamp(project.layout.edited, asset)
     if stamp is None or check_key(stamp) != work.key:

@@ -1,4 +1,4 @@
-"""The pages that are open, and the state that all of them are shown: kept here, sent as soon as it changes."""
+"""The pages that are open, and the state that all of them show: every change is sent at once."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from threading import Lock, RLock
+from typing import Any
 
 from meshforge.checks import ENGINES
 from meshforge.studio.wire import Wire, events
@@ -15,28 +16,28 @@ from meshforge.studio.wire.jobs import Job, Relabelled
 from meshforge.studio.wire.program import LessonView, ProgramView, Reach
 
 MOST_FINISHED_JOBS = 20
-"""Jobs that are over and still shown to pages that connect."""
-
-_ENGINES = tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values())
+"""Jobs that are over and still sent to pages that connect."""
 
 MOST_BEHIND = 2000
-"""Events that a page may be behind; one that is farther behind is closed, and connects anew with one `Hello`."""
+"""Events that may wait for a page; one that is farther behind is closed, and connects anew with one `Hello`."""
 
 
 class PageState:
-    """The present state; every change and what pages are told of it are one, so that each page sees all in order."""
+    """What all pages show now. Each change is sent with it, under one lock, so that every page sees all in order."""
 
     def __init__(self, hub: PageHub, project: ProjectView, history: HistoryView, version: str, tour: bool) -> None:
         self._lock, self._hub = RLock(), hub
-        self._version, self._tour = version, tour
-        self._project, self._history = project, history
-        self._relabelled: Relabelled | None = None
         self._cards: dict[str, Card] = {}
-        self._program = ProgramView()
-        self._lesson: LessonView | None = None
-        self._learning = False
-        self._reach: tuple[Reach, ...] = ()
         self._jobs: dict[str, Job] = {}
+        self._rest = events.Hello(
+            version=version,
+            project=project,
+            cards=(),
+            history=history,
+            program=ProgramView(),
+            tour=tour,
+            engines=tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values()),
+        )
 
     @property
     def cards(self) -> tuple[Card, ...]:
@@ -44,41 +45,22 @@ class PageState:
             return tuple(self._cards.values())
 
     @property
-    def project(self) -> ProjectView:
-        with self._lock:
-            return self._project
-
-    @property
     def lesson(self) -> LessonView | None:
-        with self._lock:
-            return self._lesson
+        return self._rest.lesson
 
     @property
     def program(self) -> ProgramView:
-        with self._lock:
-            return self._program
+        return self._rest.program
 
     def join(self, page: PageConnection) -> None:
         """Show everything to a page, and from now on what changes."""
         with self._lock:
-            hello = events.Hello(
-                version=self._version,
-                project=self._project,
-                cards=self.cards,
-                history=self._history,
-                relabelled=self._relabelled,
-                program=self._program,
-                lesson=self._lesson,
-                learning=self._learning,
-                reach=self._reach,
-                jobs=tuple(self._jobs.values()),
-                tour=self._tour,
-                engines=_ENGINES,
+            self._hub.join(
+                page, self._rest.model_copy(update={"cards": self.cards, "jobs": tuple(self._jobs.values())})
             )
-            self._hub.join(page, hello)
 
     def set_cards(self, cards: Iterable[Card]) -> None:
-        """Show some cards anew; those of assets that went while they were looked at are left out."""
+        """Show other cards of some assets; those of assets that went meanwhile are left out."""
         with self._lock:
             other = tuple(card for card in cards if self._cards.get(card.asset, card) != card)
             self._cards |= {card.asset: card for card in other}
@@ -97,56 +79,43 @@ class PageState:
         return new
 
     def set_project(self, project: ProjectView) -> None:
-        """Show the project anew."""
-        with self._lock:
-            if project != self._project:
-                self._project = project
-                self._hub.broadcast(events.ProjectChanged(project=project))
+        """Show the project as it is now."""
+        self._change(events.ProjectChanged(project=project), project=project)
 
     def set_vocabulary(self, labels: tuple[VocabularyLabel, ...]) -> None:
         """Show other labels."""
         with self._lock:
-            self.set_project(self._project.model_copy(update={"vocabulary": labels}))
+            self.set_project(self._rest.project.model_copy(update={"vocabulary": labels}))
 
     def set_problem(self, problem: str) -> None:
         """Show what is wrong with the project."""
         with self._lock:
-            self.set_project(self._project.model_copy(update={"problem": problem}))
+            self.set_project(self._rest.project.model_copy(update={"problem": problem}))
 
     def set_history(self, event: events.HistoryChanged) -> None:
         """Show what was done, and what can be undone now."""
         with self._lock:
-            self._history = event.history
+            self._rest = self._rest.model_copy(update={"history": event.history})
             self._hub.broadcast(event)
 
     def set_relabelled(self, relabelled: Relabelled | None) -> None:
         """Show what the last edit did to all labels."""
-        with self._lock:
-            if relabelled != self._relabelled:
-                self._relabelled = relabelled
-                self._hub.broadcast(events.RelabelledChanged(relabelled=relabelled))
+        self._change(events.RelabelledChanged(relabelled=relabelled), relabelled=relabelled)
 
     def set_lesson(self, lesson: LessonView | None, learning: bool) -> None:
-        """Show a lesson, or that one has begun."""
-        with self._lock:
-            if (lesson, learning) != (self._lesson, self._learning):
-                self._lesson, self._learning = lesson, learning
-                self._hub.broadcast(events.LessonChanged(lesson=lesson, learning=learning))
+        """Show the outcome of a learning run, or that one has started."""
+        self._change(events.LessonChanged(lesson=lesson, learning=learning), lesson=lesson, learning=learning)
 
     def set_program(self, program: ProgramView) -> bool:
         """Show the accepted program; whether its text is another than before."""
         with self._lock:
-            before, self._program = self._program, program
-            if program != before:
-                self._hub.broadcast(events.ProgramChanged(program=program))
+            before = self.program
+            self._change(events.ProgramChanged(program=program), program=program)
             return program.text != before.text
 
     def set_reach(self, lesson: int, reach: tuple[Reach, ...]) -> None:
-        """Show what the program does on all assets."""
-        with self._lock:
-            if reach != self._reach:
-                self._reach = reach
-                self._hub.broadcast(events.ReachChanged(lesson=lesson, reach=reach))
+        """Show what the program does on all assets; lesson: the number of the learning run."""
+        self._change(events.ReachChanged(lesson=lesson, reach=reach), reach=reach)
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""
@@ -158,9 +127,16 @@ class PageState:
             self._hub.broadcast(events.JobChanged(job=job))
 
     def announce_assets(self, assets: Sequence[str], shapes: bool) -> None:
-        """Tell that something of these assets changed."""
+        """Send that something of these assets changed; shapes: their hulls, too."""
         if assets:
             self._hub.broadcast(events.AssetsChanged(assets=tuple(assets), shapes=shapes))
+
+    def _change(self, event: Wire, **fields: Any) -> None:
+        """Set fields of the state, and send the event where one of them is another now."""
+        with self._lock:
+            if any(getattr(self._rest, name) != value for name, value in fields.items()):
+                self._rest = self._rest.model_copy(update=fields)
+                self._hub.broadcast(event)
 
 
 class PageConnection:
@@ -171,7 +147,7 @@ class PageConnection:
         self._loop = loop
 
     def send(self, text: str | None) -> None:
-        """Add to what it is told; from any thread."""
+        """Send an event, or None to close; from any thread."""
         with suppress(RuntimeError):  # the studio is closed, and its loop with it
             self._loop.call_soon_threadsafe(self._put, text)
 
@@ -187,18 +163,18 @@ class PageHub:
         self._pages: dict[PageConnection, None] = {}
 
     def join(self, page: PageConnection, hello: Wire) -> None:
-        """Add a page, which is told `hello` first, then everything that comes after that."""
+        """Add a page, which gets `hello` first, then all events that follow."""
         with self._lock:
             page.send(hello.model_dump_json())
             self._pages[page] = None
 
     def leave(self, page: PageConnection) -> None:
-        """A page is no more."""
+        """Remove a page."""
         with self._lock:
             self._pages.pop(page, None)
 
     def broadcast(self, event: Wire) -> None:
-        """Tell all pages; from any thread."""
+        """Send an event to all pages; from any thread."""
         with self._lock:
             pages = list(self._pages)
             if pages:

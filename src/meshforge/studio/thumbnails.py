@@ -1,4 +1,4 @@
-"""Thumbnails: drawn in worker processes when they are asked for, the latest request first, and cached on disk."""
+"""Thumbnails: drawn in worker processes on request, the latest request first, and cached on disk."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from meshforge.project import Project, output_digest
 from meshforge.store import geometry_digest
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.queries.assets import compute_upright, draw_thumbnail, output_picture_digest, picture_digest
-from meshforge.studio.workers import Workers, project_of_one, wait_for
+from meshforge.studio.workers import Workers, future_of, project_of_one, wait_for
 
 ThumbnailOf = Literal["source", "output"]
 
 MOST_THUMBNAILS = 4000
-"""Pictures that are kept when a studio is opened; the oldest go."""
+"""Pictures that stay when a studio is opened; the oldest go."""
 
 
 @dataclass(frozen=True, slots=True)
 class _DrawTask:
-    """What a worker draws; project: with this asset alone; digest: of what is to be drawn; kept: where it goes."""
+    """The work of a worker. project: with this asset alone; digest: of what is to be drawn; target: where it goes."""
 
     project: Project
     asset: str
@@ -53,7 +53,7 @@ class Thumbnails:
         """
         kept = self._folder / f"{digest}.png"
         if kept.is_file():
-            return _future_of(kept.read_bytes())
+            return future_of(kept.read_bytes())
         wanted = _DrawTask(project_of_one(project, asset), asset, of, digest, kept)
         with self._lock:
             if digest in self._drawing:
@@ -88,12 +88,6 @@ class Thumbnails:
     def _finish(self, digest: str) -> None:
         with self._lock:
             del self._drawing[digest]
-
-
-def _future_of(data: bytes) -> Future[bytes]:
-    future: Future[bytes] = Future()
-    future.set_result(data)
-    return future
 
 
 def _draw(work: _DrawTask) -> bytes:

@@ -1,4 +1,4 @@
-"""Files that a page sends: names confined, sizes bounded, streamed to disk, and taken only if they can be read."""
+"""Files that a page uploads: safe names, limited sizes, streamed to disk, and taken only if they can be read."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LONGEST_PATH = 240
 
 
 class Uploads:
-    """Files that were sent and are not taken into the project yet."""
+    """Files that were uploaded and are not in the project yet."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -28,7 +28,7 @@ class Uploads:
         shutil.rmtree(folder, ignore_errors=True)
 
     async def put(self, path: str, chunks: AsyncIterator[bytes]) -> None:
-        """Keep one file aside. Raises UsageError for its path, TooLargeError for its size."""
+        """Store one file. Raises UsageError for its path, TooLargeError for its size."""
         target = self.folder / "assets" / confine_path(path)
         with self._lock:
             present = [file for file in self.folder.rglob("*") if file.is_file() and file != target]
@@ -38,18 +38,18 @@ class Uploads:
         await save_stream(target, chunks, min(MOST_ONE_FILE, room))
 
     async def put_template(self, chunks: AsyncIterator[bytes]) -> Path:
-        """Keep a template aside, and give its place. Raises TooLargeError for its size."""
-        place = self.folder / f"template-{uuid4().hex}"
-        await save_stream(place, chunks, MOST_TEMPLATE)
-        return place
+        """Store a template, and return its path. Raises TooLargeError for its size."""
+        path = self.folder / f"template-{uuid4().hex}"
+        await save_stream(path, chunks, MOST_TEMPLATE)
+        return path
 
     def list_files(self) -> tuple[Path, tuple[str, ...]]:
-        """The folder of the files that were sent, and their paths in it."""
+        """The folder of the uploaded files, and their paths in it."""
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
     def clear(self) -> None:
-        """Throw away what was sent."""
+        """Remove what was uploaded."""
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
@@ -94,7 +94,7 @@ def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
 
 
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
-    """Why an asset is not taken, if so."""
+    """Why an asset cannot be taken, None where it can."""
     try:
         files = workers.run(_files_of, path)
     except MeshForgeError as error:

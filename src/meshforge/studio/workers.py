@@ -26,11 +26,11 @@ WORK_TIMEOUT = 300.0
 """Seconds for one piece of work: far above what is usual, so that only a hang is stopped."""
 
 MOST_MESHES = 80
-"""Assets that are kept; the one that was not asked for longest goes."""
+"""Meshes in memory; the one that was not asked for longest goes."""
 
 
 class Workers:
-    """Some worker processes, started with the first work."""
+    """Some worker processes, started with the first call."""
 
     def __init__(self, count: int | None = None, timeout: float = WORK_TIMEOUT) -> None:
         self.count = count or count_processors()
@@ -40,8 +40,8 @@ class Workers:
         self._closed = False
 
     def start(self, function: Callable[Params, Result], *args: Params.args, **kwargs: Params.kwargs) -> Future[Result]:
-        """Begin some work. Its result raises what the function raises; see `wait_for`."""
-        from pebble import ProcessPool
+        """Start some work. Its result raises what the function raises; see `wait_for`."""
+        from pebble import ProcessPool  # lazy: 0.1 s, and processes that unpickle work of this module need none
 
         with self._lock:
             if self._closed:
@@ -63,6 +63,13 @@ class Workers:
             pool.join()
 
 
+def future_of(result: Result) -> Future[Result]:
+    """A future that has its result already."""
+    future: Future[Result] = Future()
+    future.set_result(result)
+    return future
+
+
 def project_of_one(project: Project, asset: str) -> Project:
     """The same project with one asset, for a worker process."""
     return Project(project.folder, AssetSet(project.found.base, (project.path(asset),)))
@@ -70,7 +77,7 @@ def project_of_one(project: Project, asset: str) -> Project:
 
 def wait_for(future: Future[Result]) -> Result:
     """The result of some work. Raises MeshForgeError where its process died, or took too long."""
-    from pebble import ProcessExpired
+    from pebble import ProcessExpired  # lazy: as above
 
     try:
         return future.result()
@@ -100,7 +107,7 @@ class _CacheEntry:
 
 
 class MeshCache:
-    """The assets of a project that were asked for last."""
+    """The meshes of the assets that were asked for last."""
 
     def __init__(self, workers: Workers) -> None:
         self._workers = workers
@@ -115,17 +122,16 @@ class MeshCache:
             busy = self._busy.setdefault(asset, Lock())
         with busy:  # who asks for it at the same time waits for one reading
             with self._lock:
-                kept = self._entries.get(asset)
-            read = (
-                kept.source if kept and _is_current(kept.source, project, asset) else self._read(project, asset, path)
-            )
-            labelled = _apply_labels(project, asset, read, kept)
+                cached = self._entries.get(asset)
+            is_current = cached and _is_current(cached.source, project, asset)
+            read = cached.source if cached and is_current else self._read(project, asset, path)
+            entry = _apply_labels(project, asset, read, cached)
             with self._lock:
-                self._entries[asset] = labelled
+                self._entries[asset] = entry
                 self._entries.move_to_end(asset)
                 while len(self._entries) > MOST_MESHES:
                     self._entries.popitem(last=False)
-        return labelled.mesh
+        return entry.mesh
 
     def _read(self, project: Project, asset: str, path: Path) -> _SourceMesh:
         folder = project.layout.preparation(asset)
@@ -139,13 +145,13 @@ class MeshCache:
 
 @dataclass(frozen=True)
 class ProjectWithCache(Project):
-    """A project whose assets stay in memory, so that what is done to one need not read its files again."""
+    """A project whose meshes stay in memory, so that an edit need not read the files of its asset again."""
 
     mesh_cache: MeshCache = field(repr=False, compare=False)
 
     @staticmethod
     def of(project: Project, meshes: MeshCache) -> ProjectWithCache:
-        """The same project with a memory."""
+        """A project whose meshes are cached."""
         return ProjectWithCache(project.folder, project.found, meshes)
 
     def with_assets(self, found: AssetSet) -> ProjectWithCache:
@@ -161,17 +167,22 @@ def _is_current(read: _SourceMesh, project: Project, asset: str) -> bool:
     return record_digest(folder) == read.record and file_states(read.times) == read.times
 
 
-def _apply_labels(project: Project, asset: str, read: _SourceMesh, kept: _CacheEntry | None) -> _CacheEntry:
-    contact, path = project.settings.thresholds.contact, project.layout.labels(asset)
-    labels = path.read_bytes() if path.exists() else b""
-    if kept and kept.source is read and kept.labels == labels and kept.contact == contact:
-        return kept
-    bare = _remove_labels(kept.mesh) if kept and kept.source is read and kept.contact == contact else read.mesh
-    mesh = transfer_labels(project.labels(asset), bare).mesh
+def _apply_labels(project: Project, asset: str, read: _SourceMesh, cached: _CacheEntry | None) -> _CacheEntry:
+    contact, labels = project.settings.thresholds.contact, read_label_bytes(project, asset)
+    same_mesh = cached and cached.source is read and cached.contact == contact
+    if cached and same_mesh and cached.labels == labels:
+        return cached
+    mesh = relabel(project, asset, cached.mesh if cached and same_mesh else read.mesh)
     wanted = mesh if contact is None or mesh.epsilon == contact else replace(mesh, epsilon=contact)
     return _CacheEntry(read, labels, contact, wanted)
 
 
-def _remove_labels(mesh: SymbolicMesh) -> SymbolicMesh:
-    """The mesh without labels; what was measured between its hulls stays known."""
-    return mesh.with_labels(dict.fromkeys(mesh.index))
+def read_label_bytes(project: Project, asset: str) -> bytes:
+    """What the labels file of an asset holds, empty where there is none."""
+    path = project.layout.labels(asset)
+    return path.read_bytes() if path.exists() else b""
+
+
+def relabel(project: Project, asset: str, mesh: SymbolicMesh) -> SymbolicMesh:
+    """The mesh of an asset with the labels that it has now; what was measured between its hulls stays known."""
+    return transfer_labels(project.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh

@@ -118,6 +118,10 @@ class SymbolicMesh:
     def labels(self) -> dict[str, Label]:
         return {h.name: h.annotation for h in self.hulls if h.annotation}
 
+    def names_of(self, mask: int) -> tuple[str, ...]:
+        """The names of the hulls in a bit set, in their order."""
+        return tuple(self.hulls[index].name for index in sorted(bits_of(mask)))
+
     def with_labels(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
         """The mesh with some labels set, or taken away by None."""
         return self.with_hulls(h.with_label(labels[h.name]) if h.name in labels else h for h in self.hulls)

@@ -12,7 +12,7 @@ import numpy as np
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.outcome import reading_id
 from meshforge.synthesis.questions import Choice, Hint, Question
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -37,21 +37,21 @@ right as without, with noisy ones a third of the corrections are spared."""
 
 
 def choose_question(
-    rule: int, weighed: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
+    rule: int, ranked: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
 ) -> Question | None:
     """The question about one rule that is worth a person's time, None where there is none.
 
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
     """
-    doubt = weighed.question_value
+    doubt = ranked.question_value
     if len(declined) >= MAX_NEITHER_ANSWERS:
         return None
-    split = weighed.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
+    split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
     choices = tuple(
-        Choice(reading_id(rule, reading), _hull_names(weighed, reading, split.asset)) for reading in split.choices
+        Choice(reading_id(rule, reading), _hull_names(ranked, reading, split.asset)) for reading in split.choices
     )
     return Question(rule, names[split.asset], choices, doubt.harm, split.left)
 
@@ -62,8 +62,8 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
     learned: for each rule its readings, and the names of the meshes of their field.
     """
     gains: dict[str, float] = {}
-    for weighed, names in learned:
-        for place, gain in weighed.question_value.gains(len(weighed.examples)).items():
+    for ranked, names in learned:
+        for place, gain in ranked.question_value.gains(len(ranked.examples)).items():
             gains[names[place]] = gains.get(names[place], 0.0) + gain
     if gains:
         most = max(gains, key=lambda name: (gains[name], name))
@@ -71,8 +71,8 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
     return _suggest_strangest(*learned[0]) if learned else None
 
 
-def _suggest_strangest(weighed: RankedReadings, names: Sequence[str]) -> Hint | None:
-    field, count = weighed.field, len(weighed.examples)
+def _suggest_strangest(ranked: RankedReadings, names: Sequence[str]) -> Hint | None:
+    field, count = ranked.field, len(ranked.examples)
     shown = (1 << field.width_of(count)) - 1
     fresh = {
         name: sum(not shown >> group & 1 for group in field.groups[place])
@@ -84,20 +84,19 @@ def _suggest_strangest(weighed: RankedReadings, names: Sequence[str]) -> Hint | 
     return Hint(asset, f"it has {pluralize(fresh[asset], 'hull')} unlike any that was demonstrated")
 
 
-def _hull_names(weighed: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
-    chosen = weighed.field.on(weighed.terms[reading].bits, mesh)
-    hulls = weighed.field.meshes[mesh].hulls
-    return tuple(hulls[index].name for index in sorted(bits_of(chosen)))
+def _hull_names(ranked: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
+    chosen = ranked.field.on(ranked.terms[reading].bits, mesh)
+    return ranked.field.meshes[mesh].names_of(chosen)
 
 
 def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) -> tuple[str, ...]:
-    """The assets whose results to look at, the most telling first; none of which every rule is known.
+    """The assets whose results to look at, the most revealing first; none of which every rule is known.
 
     First each time the asset on which most belief is in readings that none before it would refute, then the one that
-    stands for most hulls unlike any before. trust: how much each tells; where labels are doubtful less, since what is
+    stands for most hulls unlike any before. trust: how much each shows; where labels are doubtful less, since what is
     wrong there may be a label.
     """
-    known = [set(names[: len(weighed.examples)]) for weighed, names in learned]
+    known = [set(names[: len(ranked.examples)]) for ranked, names in learned]
     every = {name for _, names in learned for name in names}
     names = sorted(name for name in every if not all(name in some for some in known))
     chosen = list(islice(_rank_by_difference(learned, names, trust), SAMPLE_SIZE))
@@ -118,11 +117,11 @@ def _rank_by_difference(
         return
     place = {name: k for k, name in enumerate(names)}
     tables = []
-    for weighed, called in learned:
-        table = np.zeros((len(weighed.compared), len(names)))
-        for row, reading in enumerate(weighed.compared):
-            others = [place[called[k]] for k in weighed.differences(reading) if called[k] in place]
-            table[row, others] = weighed.beliefs[reading]
+    for ranked, called in learned:
+        table = np.zeros((len(ranked.compared), len(names)))
+        for row, reading in enumerate(ranked.compared):
+            others = [place[called[k]] for k in ranked.differences(reading) if called[k] in place]
+            table[row, others] = ranked.beliefs[reading]
         tables.append(table)
     at_stake = np.concatenate(tables)
     weights = np.array([trust[name] for name in names])
@@ -136,16 +135,16 @@ def _rank_by_difference(
 
 
 def _rank_by_novelty(
-    weighed: RankedReadings,
+    ranked: RankedReadings,
     called: Sequence[str],
     names: Sequence[str],
     before: Sequence[str],
     trust: Mapping[str, float],
 ) -> Iterator[str]:
     """Assets one by one, each the one whose hulls stand for most hulls of the batch that are unlike any before."""
-    groups = {name: frozenset(some) for name, some in zip(called, weighed.field.groups, strict=True)}
+    groups = {name: frozenset(some) for name, some in zip(called, ranked.field.groups, strict=True)}
     many = Counter(group for some in groups.values() for group in some)
-    seen = {group for name in [*called[: len(weighed.examples)], *before] for group in groups.get(name, ())}
+    seen = {group for name in [*called[: len(ranked.examples)], *before] for group in groups.get(name, ())}
     rest = [name for name in names if name in groups]
     while rest:
         best = max(rest, key=lambda name: trust[name] * sum(many[group] for group in groups[name] - seen))
@@ -166,16 +165,16 @@ def choose_first_demonstration(
     and the labels that may be wrong.
 
     Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
-    extremity: as of `synthesize`; among: the ids of those in question, by default all: labels are judged by all.
+    extremity: of the program; among: the ids of those in question, by default all: labels are judged by all.
     """
     delta = EXTREMITY if extremity is None else extremity
     staged = {name: one for name, mesh in meshes.items() if (one := _stage_or_none(mesh, orient, contact))}
     errors = LabelBeliefs({}, staged, vocabulary).errors
     worth: dict[str, float] = {}
     for name, mesh in staged.items():
-        told = _count_selections(mesh, vocabulary, delta) if among is None or name in among else 0
-        if told > 1:
-            worth[name] = told - COST_OF_HULL * len(mesh.hulls) - COST_OF_WRONG_LABEL * errors[name]
+        selections = _count_selections(mesh, vocabulary, delta) if among is None or name in among else 0
+        if selections > 1:
+            worth[name] = selections - COST_OF_HULL * len(mesh.hulls) - COST_OF_WRONG_LABEL * errors[name]
     return max(worth, key=worth.__getitem__, default=None)
 
 

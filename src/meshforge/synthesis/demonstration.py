@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from meshforge.common import DemonstrationError
 from meshforge.language import Action, Delete, Each
 from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
+from meshforge.synthesis.questions import LabelCorrection
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -97,6 +98,16 @@ class Example:
     name: str
     mesh: SymbolicMesh
     selection: int
+
+
+LabelChange = tuple[int, str]
+"""A hull by its index, and the label it gets."""
+
+
+def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
+    """A change as it is called outside."""
+    hull = example.mesh.hulls[change[0]]
+    return LabelCorrection(example.name, hull.name, hull.label, change[1])
 
 
 @dataclass(frozen=True, slots=True)

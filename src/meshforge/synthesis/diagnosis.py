@@ -23,7 +23,7 @@ from meshforge.language import (
     show_label,
     size_of,
 )
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.outcome import reading_id
@@ -31,11 +31,11 @@ from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.task import LearningTask
 
-_MAX_SENTENCES = 4  # sentences
+_MAX_SENTENCES = 4
 
 
 def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
-    """What a person can look at, the likeliest first; answered: the meshes of which an answer told."""
+    """What a person can look at, the likeliest first; answered: the meshes that an answer is about."""
     example = next(example for example in examples if example.name == miss.asset)
     lines = [*_advise_on_missing_labels(miss, example), *_advise_on_near_contacts(miss, example)]
     if answered:
@@ -71,16 +71,16 @@ def _advise_on_odd_labels(example: Example, names: Sequence[str], left_out: bool
     for label, alike in by_label.items():
         if label is None:
             continue
-        said, verb = _describe_hulls(alike, example), "is" if len(alike) == 1 else "are"
+        hulls, verb = _describe_hulls(alike, example), "is" if len(alike) == 1 else "are"
         others = sorted(show_label(other) for other in right - {label, None} if other)
         if left_out and others:
             usual = f"while others that were shown are labelled {', '.join(others)}"
-            yield f"{said} {verb} labelled {show_label(label)}, {usual}: is that right?"
+            yield f"{hulls} {verb} labelled {show_label(label)}, {usual}: is that right?"
         elif left_out:
-            yield f"{verb} {said} rightly labelled {show_label(label)}?"
+            yield f"{verb} {hulls} rightly labelled {show_label(label)}?"
         else:
             one = len(alike) == 1
-            meant = f"if {said} {'is' if one else 'are'} meant, too, show {'it' if one else 'them'}"
+            meant = f"if {hulls} {'is' if one else 'are'} meant, too, show {'it' if one else 'them'}"
             yield f"{meant}; if not, is the label {show_label(label)} right?"
 
 
@@ -131,22 +131,22 @@ def find_obstacles(task: LearningTask, wanted: Program) -> tuple[str, ...]:
 def follow_rule(
     rule: RuleSpec,
     wanted: Extractor,
-    weighed: RankedReadings | None,
+    ranked: RankedReadings | None,
     names: Sequence[str],
     examples: Sequence[Example],
     task: LearningTask,
 ) -> str:
-    """One sentence on a rule; weighed: what was learned for it, with the names of the meshes, None where nothing."""
+    """One sentence on a rule; ranked: what was learned for it, with the names of the meshes, None where nothing."""
     text = f"rule {rule.number}, {show(wanted)}: "
     barred = next(_find_exclusion(wanted, task), None)
     if barred:
         return text + barred
-    wrong = next(_find_difference(wanted, examples, task.extremity), None)
+    wrong = next(_find_difference(wanted, examples, task.options.geo_extremity), None)
     if wrong:
         return text + wrong
-    if weighed is None:
+    if ranked is None:
         return text + "it selects what was shown, but the search did not get that far"
-    return text + _find_place(rule.number, wanted, weighed, names, task.options)
+    return text + _find_place(rule.number, wanted, ranked, names, task.options)
 
 
 def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
@@ -165,43 +165,41 @@ def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: 
     """On which mesh it does something else than was shown."""
     for example in examples:
         found = select_mask(wanted, example.mesh, extremity)
-        extra, missing = (
-            _hull_names(example, found & ~example.selection),
-            _hull_names(example, example.selection & ~found),
-        )
-        said = [f"leaves out {join_names(missing)}"] if missing else []
-        said += [f"selects {join_names(extra)} too"] if extra else []
-        if said:
-            yield f"on {example.name} it {' and '.join(said)}"
+        extra = example.mesh.names_of(found & ~example.selection)
+        missing = example.mesh.names_of(example.selection & ~found)
+        parts = [f"leaves out {join_names(missing)}"] if missing else []
+        parts += [f"selects {join_names(extra)} too"] if extra else []
+        if parts:
+            yield f"on {example.name} it {' and '.join(parts)}"
 
 
-def _find_place(rule: int, wanted: Extractor, weighed: RankedReadings, names: Sequence[str], options: Options) -> str:
+def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Sequence[str], options: Options) -> str:
     """Where a consistent extractor stands among the readings."""
-    does = weighed.field.bits(wanted)
-    place = next((k for k, term in enumerate(weighed.terms) if term.bits == does), None)
+    does = ranked.field.bits(wanted)
+    place = next((k for k, term in enumerate(ranked.terms) if term.bits == does), None)
     if place is None and options.strategy == "paper":
-        return f"it selects what was shown, but {show(weighed.extractor)} comes before it"
+        return f"it selects what was shown, but {show(ranked.extractor)} comes before it"
     if place is None:
-        smallest = min(term.size for term in weighed.terms)
+        smallest = min(term.size for term in ranked.terms)
         if size_of(wanted) > smallest + options.above:
             enough = f"{smallest} suffice{'s' if smallest == 1 else ''}"
             return f"it selects what was shown, but has {size_of(wanted)} nodes where {enough}"
         return "it selects what was shown, but there were too many readings to get that far"
-    reading = weighed.terms[place].extractor
+    reading = ranked.terms[place].extractor
     same = "" if reading == wanted else f" as {show(reading)}, which selects the same on every asset"
     if place == 0:
         return f"learned{same}"
-    return f"reading {reading_id(rule, place)}{same}; {_explain_preference(weighed, place, names)}"
+    return f"reading {reading_id(rule, place)}{same}; {_explain_preference(ranked, place, names)}"
 
 
-def _explain_preference(weighed: RankedReadings, place: int, names: Sequence[str]) -> str:
+def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]) -> str:
     """Why another reading was taken, and what would help."""
-    differs = [names[k] for k in weighed.differences(place)]
-    first, second = weighed.beliefs[0], weighed.beliefs[place]
+    differs = [names[k] for k in ranked.differences(place)]
+    first, second = ranked.beliefs[0], ranked.beliefs[place]
     better = "more believable" if first >= second else "smaller, though less believable"
     one = "it" if len(differs) == 1 else "one of these"
     return (
-        f"{show(weighed.extractor)} is {better} ({first:.0%} against {second:.0%}). "
+        f"{show(ranked.extractor)} is {better} ({first:.0%} against {second:.0%}). "
         f"They differ on {pluralize(len(differs), 'asset')}: {join_names(differs)}; demonstrate {one}"
     )
 
@@ -212,7 +210,3 @@ def _leaves_of(extractor: Extractor) -> Iterator[All | Is | Attach | Geo]:
         yield from _leaves_of(extractor.right)
     else:
         yield extractor
-
-
-def _hull_names(example: Example, mask: int) -> list[str]:
-    return [example.mesh.hulls[index].name for index in sorted(bits_of(mask))]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from meshforge.common import DemonstrationError, nearest_name
@@ -10,7 +9,7 @@ from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
 from meshforge.synthesis.learning_run import LearningRun
-from meshforge.synthesis.options import Clock, Options, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
 from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
 from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
@@ -24,33 +23,25 @@ def synthesize(
     orient: Orient | None = None,
     templates: Mapping[str, Template] | None = None,
     vocabulary: Sequence[str] | None = None,
-    contact: float | None = None,
-    extremity: float | None = None,
     options: Options = DEFAULTS,
     confirm: Callable[[Repair], bool] | None = None,
     answers: Sequence[Answer] = (),
-    rejected: Iterable[LabelCorrection] = (),
-    follow: Program | None = None,
-    clock: Clock = time.monotonic,
-    stop: Callable[[], bool] | None = None,
 ) -> LearningOutcome:
     """The program that does on every demonstration what was shown, and whatever else these leave open.
 
     batch: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
-    all on the meshes. templates: by the paths that actions name; contact, extremity: thresholds the program is to set.
+    all on the meshes. templates: by the paths that actions name.
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
-    answers: what a person said to earlier questions; rejected: corrections that a person refused, so the labels stand.
-    follow: a program somebody had in mind; the outcome tells what became of each of its rules.
-    stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
+    answers: what a person said to earlier questions.
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
     where the orientation fails on one of them.
     """
     meshes = name_batch(batch, demos)
     rules = collect_rule_specs(demos)
     labels = choose_vocabulary(demos, meshes.values(), orient, vocabulary)
-    frame = Program(labels, orient, (), contact, extremity)
-    budget = TimeBudget(options.budget, clock, stop)
-    asked = _RepairConfirmer(confirm, rejected, budget)
+    frame = Program(labels, orient, (), options.contact, options.extremity)
+    budget = TimeBudget(options.budget, options.clock, options.stop)
+    confirmer = _RepairConfirmer(confirm, options.rejected, budget)
     confirmed: tuple[LabelCorrection, ...] = ()
     while True:
         task = LearningTask(
@@ -63,15 +54,14 @@ def synthesize(
             frame,
             templates or {},
             tuple(answers),
-            asked.rejected,
+            confirmer.rejected,
             options,
-            follow,
             confirmed,
         )
-        outcome = LearningRun(task, budget, asked.confirm if confirm else None).run()
+        outcome = LearningRun(task, budget, confirmer.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):
             return outcome
-        confirmed += asked.confirm_all(outcome.repairs)
+        confirmed += confirmer.confirm_all(outcome.repairs)
 
 
 class _RepairConfirmer:
@@ -117,24 +107,24 @@ def choose_vocabulary(
     demos: Sequence[Demonstration],
     batch: Iterable[SymbolicMesh],
     orient: Orient | None,
-    given: Sequence[str] | None,
+    vocabulary: Sequence[str] | None,
 ) -> tuple[str, ...]:
     """The given vocabulary, or else every label of the meshes, the steps and the orientation, sorted.
 
     Raises DemonstrationError for a demonstration with a label that a given vocabulary lacks.
     """
     landmarks = Program(orient=orient).labels_in_use
-    if given is None:
+    if vocabulary is None:
         meshes = [*(demo.mesh for demo in demos), *batch]
         on_hulls = {hull.label for mesh in meshes for hull in mesh.hulls if hull.label}
         return tuple(sorted({*on_hulls, *landmarks, *(label for demo in demos for label in _labels_in_steps(demo))}))
     for name, demo in name_demonstrations(demos):
         for hull in demo.mesh.hulls:
             if hull.label:
-                _check_label(hull.label, given, f"{name}, hull {hull.name!r}")
+                _check_label(hull.label, vocabulary, f"{name}, hull {hull.name!r}")
         for label in _labels_in_steps(demo):
-            _check_label(label, given, f"{name}, steps")
-    return tuple(given)
+            _check_label(label, vocabulary, f"{name}, steps")
+    return tuple(vocabulary)
 
 
 def _labels_in_steps(demo: Demonstration) -> list[str]:

@@ -27,7 +27,7 @@ from meshforge.synthesis.outcome import (
     TimedOut,
     reading_id,
 )
-from meshforge.synthesis.paper.search import Explained, search_by_paper
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.enumeration import enumerate_consistent
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -68,36 +68,36 @@ class LearningRun:
         self._tried: list[SearchEffort] = []
         self._question: Question | None = None
         self._searching = 0.0
-        self._followed = list(find_obstacles(task, task.follow)) if task.follow else []
+        self._followed = list(find_obstacles(task, task.options.follow)) if task.options.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
         self._repairs = RepairCollector(task, meshes, budget)
 
     def run(self) -> LearningOutcome:
         """What comes of it."""
-        for agreed in self._task.rules:
-            failed = self._learn(agreed)
+        for spec in self._task.rules:
+            failed = self._learn(spec)
             if failed:
                 return failed
         return self._propose_repairs() if self._repairs.repairs else self._finish()
 
-    def _learn(self, agreed: RuleSpec) -> LearningOutcome | None:
+    def _learn(self, spec: RuleSpec) -> LearningOutcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
         while True:
-            examples, rest = self._replays.examples(agreed)
+            examples, rest = self._replays.examples(spec)
             names = (*(example.name for example in examples), *(replay.name for replay in rest))
             start = self._budget.elapsed
-            found = self._find_readings(agreed, examples, [replay.mesh for replay in rest])
+            found = self._find_readings(spec, examples, [replay.mesh for replay in rest])
             self._searching += self._budget.elapsed - start
             if not isinstance(found, tuple):
-                self._follow(agreed, found if isinstance(found, RankedReadings) else None, names, examples)
+                self._follow(spec, found if isinstance(found, RankedReadings) else None, names, examples)
             match found:
                 case RankedReadings():
-                    self._accept(agreed, found, names)
+                    self._accept(spec, found, names)
                     return None
                 case Miss():
-                    return self._fail(agreed, found, examples)
+                    return self._fail(spec, found, examples)
                 case Unfinished():
-                    nearest = _to_nearest(agreed.number, found.nearest) if found.nearest else None
+                    nearest = _to_nearest(spec.number, found.nearest) if found.nearest else None
                     return TimedOut(nearest=nearest, **self._common_fields())
                 case tuple():
                     self._replays.correct(found)
@@ -105,86 +105,85 @@ class LearningRun:
                     assert_never(found)
 
     def _find_readings(
-        self, agreed: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+        self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
         task, budget = self._task, self._budget
         if task.options.strategy == "paper":
-            return self._find_by_paper(agreed, examples, rest)
-        search = Search(examples, task.frame.labels, budget, task.options, task.extremity, rest)
+            return self._find_by_paper(spec, examples, rest)
+        search = Search(examples, task.frame.labels, budget, task.options, rest)
         found = search.run()
-        self._record_effort(agreed, found.tried)
+        self._record_effort(spec, found.tried)
         if isinstance(found, Unfinished):
             return found
         try:
-            corrections = self._repairs.find_corrections(agreed.number, examples, found)
+            corrections = self._repairs.find_corrections(spec.number, examples, found)
         except OutOfTime:
             corrections = ()
         if corrections:
             return corrections
         if isinstance(found, Miss):
             return found
-        refused = self._replays.rejections(agreed.number, search.field.meshes)
+        refused = self._replays.rejections(spec.number, search.field.meshes)
         return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), refused)
 
     def _find_by_paper(
-        self, agreed: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+        self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         task = self._task
-        found = search_by_paper(
+        found = PaperSearch(
             examples,
             task.frame.labels,
             self._budget,
             task.options,
-            task.extremity,
-            make_confirmer(agreed.number, self._confirm) if self._confirm else None,
+            make_confirmer(spec.number, self._confirm) if self._confirm else None,
             task.rejected,
             self._repairs.counts,
-        )
-        self._record_effort(agreed, found.tried)
-        if isinstance(found, Explained):
-            return self._repairs.record_inferred(agreed.number, found)
+        ).run()
+        self._record_effort(spec, found.tried)
+        if isinstance(found, HitWithCorrections):
+            return self._repairs.record_inferred(spec.number, found)
         if not isinstance(found, Hit):
             return found
-        search = Search(examples, task.frame.labels, self._budget, task.options, task.extremity, rest)
+        search = Search(examples, task.frame.labels, self._budget, task.options, rest)
         return RankedReadings.of_single(search, found.extractor)
 
     def _follow(
-        self, agreed: RuleSpec, weighed: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
+        self, spec: RuleSpec, ranked: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
     ) -> None:
-        wanted = self._task.follow
-        if wanted and agreed.number <= len(wanted.rules):
-            extractor = wanted.rules[agreed.number - 1].extractor
-            self._followed.append(follow_rule(agreed, extractor, weighed, names, examples, self._task))
+        wanted = self._task.options.follow
+        if wanted and spec.number <= len(wanted.rules):
+            extractor = wanted.rules[spec.number - 1].extractor
+            self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
 
-    def _accept(self, agreed: RuleSpec, weighed: RankedReadings, names: tuple[str, ...]) -> None:
-        rule = Rule(weighed.extractor, agreed.action, agreed.label)
-        self._learned.append(RuleOutcome(rule, weighed, names))
+    def _accept(self, spec: RuleSpec, ranked: RankedReadings, names: tuple[str, ...]) -> None:
+        rule = Rule(ranked.extractor, spec.action, spec.label)
+        self._learned.append(RuleOutcome(rule, ranked, names))
         if not self._question:
-            declined = {a.asset for a in self._task.answers if a.rule == agreed.number and a.select is None}
-            self._question = choose_question(agreed.number, weighed, names, self._repairs.trust, declined)
-        self._replays.advance(agreed.number, rule, last=agreed.number == len(self._task.rules))
+            declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
+            self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
+        self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
 
     def _finish(self) -> LearningOutcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
         known = [(learned.readings, learned.names) for learned in self._learned]
-        ahead, looks = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         if self._question:
             return Ambiguous(
-                program=program, question=self._question, hint=ahead, sample=looks, **self._common_fields()
+                program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return Found(program=program, settled=settled, hint=ahead, sample=looks, **self._common_fields())
+        return Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
 
     def _propose_repairs(self) -> LearningOutcome:
         return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
 
-    def _fail(self, agreed: RuleSpec, miss: Miss, examples: Sequence[Example]) -> LearningOutcome:
-        nearest, repairs = _to_nearest(agreed.number, miss.nearest), self._repairs.repairs
+    def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> LearningOutcome:
+        nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
             return NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
-        answered = self._replays.assets_with_answers(agreed.number)
+        answered = self._replays.assets_with_answers(spec.number)
         return NoProgram(
             why=miss.why,
             nearest=nearest,
@@ -213,8 +212,8 @@ class LearningRun:
         rules = tuple(learned.rule for learned in self._learned)
         return replace(self._task.frame, rules=rules)
 
-    def _record_effort(self, agreed: RuleSpec, tried: SearchEffort) -> None:
-        self._tried = [*self._tried[: agreed.number - 1], tried]
+    def _record_effort(self, spec: RuleSpec, tried: SearchEffort) -> None:
+        self._tried = [*self._tried[: spec.number - 1], tried]
 
     def _common_fields(self) -> _OutcomeFields:
         elapsed = self._budget.elapsed
@@ -232,9 +231,9 @@ class LearningRun:
         }
 
 
-def _list_readings(rule: int, weighed: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
-    for place, (term, belief) in enumerate(zip(weighed.terms, weighed.beliefs, strict=True)):
-        differs = tuple(names[k] for k in weighed.differences(place))
+def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
+    for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
+        differs = tuple(names[k] for k in ranked.differences(place))
         yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
+
+from meshforge.language import EXTREMITY, Program
+from meshforge.synthesis.questions import LabelCorrection
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
 LAYERS: tuple[Layers, ...] = get_args(Layers)
@@ -47,6 +50,10 @@ class Options:
     repair: whether wrong labels are looked for; eta: corrections a mesh, over all rules, at most.
     max_size: in syntax nodes; budget: for the whole program [s].
     above: readings have up to so many nodes more than the smallest; effort: how many operands they may take to find.
+    contact, extremity: thresholds that the program is to set.
+    rejected: corrections that a person refused, so the labels stand.
+    follow: a program somebody had in mind; the outcome says what became of each of its rules.
+    stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
     """
 
     strategy: Strategy = "default"
@@ -58,6 +65,17 @@ class Options:
     above: int = 4
     effort: int = 100_000
     shortcuts: Shortcuts = Shortcuts()
+    contact: float | None = None
+    extremity: float | None = None
+    rejected: Collection[LabelCorrection] = ()
+    follow: Program | None = None
+    clock: Clock = time.monotonic
+    stop: Callable[[], bool] | None = None
+
+    @property
+    def geo_extremity(self) -> float:
+        """The threshold of `Geo`: the language's own where none is set."""
+        return EXTREMITY if self.extremity is None else self.extremity
 
 
 class OutOfTime(Exception):  # noqa: N818 (not an error: the search's way out)

@@ -53,8 +53,8 @@ class _OutcomeBase:
     rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
-    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results tell best whether
-    the program is what is meant, most telling first; overruled: assets whose result was accepted, which no program
+    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
+    the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
     keeps. followed: what became of a program that was to be followed, a sentence each.
     """
 

@@ -71,10 +71,10 @@ def example_of(replay: Replay, rule: RuleSpec) -> Example | None:
 def advance(
     replay: Replay, number: int, rule: Rule, templates: Mapping[str, Template], extremity: float | None = None
 ) -> Replay:
-    """The replay after one more rule: on the hulls that were shown, or where nothing was said on those it selects."""
-    said = replay.demo.step(number) is not None
+    """The replay after one more rule: on the hulls that were shown, or where nothing was shown on those it selects."""
+    is_given = replay.demo.step(number) is not None
     delta = EXTREMITY if extremity is None else extremity
-    mask = _mask_of_step(replay, number) if said else select_mask(rule.extractor, replay.mesh, delta)
+    mask = _mask_of_step(replay, number) if is_given else select_mask(rule.extractor, replay.mesh, delta)
     try:
         applied = _apply(replay, mask, rule, templates)
     except MeshForgeError as error:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge.common import MeshForgeError
-from meshforge.language import EXTREMITY, Program, Rule, Template
+from meshforge.language import Program, Rule, Template
 from meshforge.symbolic import Label, SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
@@ -22,9 +22,8 @@ Batch = Mapping[str, SymbolicMesh]
 class LearningTask:
     """Demonstrations, the batch they stand for, and what a person said since.
 
-    frame: the program without its rules; rejected: corrections of labels that a person refused;
-    confirmed: those that were made, as a person said that they are right;
-    follow: a program of which is to be told why it is not what was learned.
+    frame: the program without its rules; rejected: corrections of labels not to propose; confirmed: those that were
+    made, as a person said that they are right.
     """
 
     rules: tuple[RuleSpec, ...]
@@ -35,13 +34,7 @@ class LearningTask:
     answers: tuple[Answer, ...]
     rejected: frozenset[LabelCorrection]
     options: Options
-    follow: Program | None = None
     confirmed: tuple[LabelCorrection, ...] = ()
-
-    @property
-    def extremity(self) -> float:
-        """The threshold of `Geo`."""
-        return EXTREMITY if self.frame.extremity is None else self.frame.extremity
 
 
 def name_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
@@ -126,18 +119,18 @@ class ReplaySet:
     def assets_with_answers(self, rule: int) -> tuple[str, ...]:
         """The meshes of which an answer, and no demonstration, says what the rule selects."""
         silent = {replay.name for replay in [*self.shown, *self.others] if not replay.demo.step(rule)}
-        said = {a.asset: a.select for a in self._answers if a.rule == rule}
-        return tuple(name for name, select in said.items() if select is not None and name in silent)
+        selections = {a.asset: a.select for a in self._answers if a.rule == rule}
+        return tuple(name for name, select in selections.items() if select is not None and name in silent)
 
     def rejections(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
         """What a person said is not meant: places in the list of meshes, and hulls there, as bit sets."""
         places = {id(mesh): place for place, mesh in enumerate(meshes)}
-        met = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
+        by_name = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
         return [
-            (places[id(met[answer.asset])], mask_of(met[answer.asset].index[name] for name in names))
+            (places[id(by_name[answer.asset])], mask_of(by_name[answer.asset].index[name] for name in names))
             for answer in {a.asset: a for a in self._answers if a.rule == rule}.values()
             for names in answer.refused
-            if answer.asset in met and names <= met[answer.asset].index.keys()
+            if answer.asset in by_name and names <= by_name[answer.asset].index.keys()
         ]
 
     def advance(self, number: int, rule: Rule, last: bool) -> None:

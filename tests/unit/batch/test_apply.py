@@ -295,6 +295,7 @@ def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path
     assert isinstance(outcomes[0], Failed) and "longer than 2 seconds" in outcomes[0].error
 
 
+@pytest.mark.slow
 def test_a_full_disk_ends_the_run_and_the_next_one_goes_on(
     assets: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -19,7 +19,7 @@ from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, tree, write_tables
 
 ray = pytest.importorskip("ray")
-pytestmark = pytest.mark.filterwarnings("ignore")  # Ray's own
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]  # the warnings are Ray's own
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +81,7 @@ def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> N
         found.append([examined.to_json() for examined in check_assets(work, wanted, spread) if examined])
         made = Project.create(tmp_path / spread.backend, [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
         made.set_labels("table0/model.obj", {name: label_of(name) for name in table_boxes()})
-        named, told = made.label_from_names(spread=spread), made.propagate_labels(spread=spread)
+        named, told = made.label_from_names(execution=spread), made.propagate_labels(execution=spread)
         labels.append((named, told, tree(made.folder / "labels")))
     assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
     assert labels[0] == labels[1] and len(labels[0][2]) == 5

@@ -75,6 +75,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal here")
 def test_ctrl_c_leaves_finished_work_intact_and_no_process_behind(tmp_path: Path) -> None:
     assets, out = tmp_path / "assets", tmp_path / "out"

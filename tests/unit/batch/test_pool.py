@@ -8,6 +8,8 @@ import time
 import weakref
 from pathlib import Path
 
+import pytest
+
 from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
 from meshforge.batch.workers import worker_context
 
@@ -66,6 +68,7 @@ def test_nothing_to_do_starts_no_process() -> None:
     assert list(run_isolated(square, [], ExecutionOptions(4, None))) == []
 
 
+@pytest.mark.slow
 def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     call = "print(list(run_isolated(abs, [1, -2], ExecutionOptions(1))))"

@@ -126,6 +126,7 @@ def test_headline_counts_assets_hulls_and_seconds(tree: Any) -> None:
     }
 
 
+@pytest.mark.slow
 def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: Path) -> None:
     summary = RunSummary()
     for k in range(5000):
@@ -163,6 +164,7 @@ def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: P
     assert texts(page, "//span[@id='kinds']/button") == ["all", "clean"]
 
 
+@pytest.mark.slow
 def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
     mesh, shown = table(), []
     for hulls in ((), (mesh.hulls[0].name,), tuple(mesh.index)):
@@ -211,6 +213,7 @@ def test_the_page_is_small(page: str) -> None:
     assert len(page) < 400_000
 
 
+@pytest.mark.slow
 def test_the_same_batch_gives_the_same_page(page: str, tmp_path: Path) -> None:
     assert written(tmp_path, assets(), seconds=3.21, about="four <assets>") == page
 

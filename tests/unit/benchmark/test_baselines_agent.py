@@ -12,26 +12,26 @@ from benchmark.baselines.demonstrated import Shown, demonstrated
 from benchmark.baselines.judging import programmed
 from benchmark.baselines.refining import ROUNDS, fenced, refined
 from benchmark.study import FULL, NOISY, Bench, Session
-from benchmark.tasks import task
 from meshforge.language import ACTIONS, Program, show
 from tests.loopback import CUT, Asked
+from tests.unit.benchmark.conftest import few
 from tests.unit.benchmark.model_asking import asking, block, by_turn, cost, key, tokens_in, tokens_out, turn
 
 __all__ = ["key"]
-pytestmark = pytest.mark.usefixtures("key")
+pytestmark = pytest.mark.usefixtures("key", "few_meshes")
 NAME = "cup-medium"
 ROOM = 500
 
 
 @pytest.fixture(scope="module")
 def bench() -> Bench:
-    return Bench(task(NAME))
+    return few(NAME)
 
 
 @pytest.fixture(scope="module")
 def taught(bench: Bench) -> Session:
-    """A session with two meshes shown, on which every rule has something to do."""
-    busy = [name for name, done in bench.truth.reference.items() if done and all(done)]
+    """Two meshes shown, on which every rule has something to do; few hulls, so that two pictures show all."""
+    busy = [name for name, done in bench.truth.reference.items() if done and all(done) and "fine" not in name]
     return Session(NAME, FULL.name, 100, shown=[busy[0], busy[1], busy[0]])
 
 
@@ -80,6 +80,7 @@ def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_sho
     assert agent.opening == Agent(bench.task, shown).opening
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
     bench: Bench, agent: Agent, shown: list[Shown], right: str
 ) -> None:
@@ -106,6 +107,7 @@ def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
     assert written.cost == pytest.approx(cost(written.input, written.output))
 
 
+@pytest.mark.usefixtures("small_pictures")
 @pytest.mark.parametrize(
     "answer",
     ["", "I am sorry, I cannot do that.", "```mf\n```", "```\nlabels wall\n```", "{\x00\ud7ff[", "```mf\nAll =>"],
@@ -122,6 +124,7 @@ def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
     assert judged.failures.keys() == bench.samples.keys() - set(taught.shown)
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_of_answers_that_are_all_wrong_the_one_that_did_best_counts_and_is_judged(
     bench: Bench, taught: Session, agent: Agent, right: str
 ) -> None:
@@ -173,6 +176,7 @@ def test_labels_that_are_wrong_stay_so_but_for_landmarks_that_a_person_could_sho
     assert changed < 8 * len(seeds)
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_an_answer_that_is_cut_off_is_said_to_be(agent: Agent, right: str) -> None:
     def fault(asked: Asked) -> object:
         return CUT if not asked.is_probe and not turn(asked) else None

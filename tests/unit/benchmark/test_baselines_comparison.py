@@ -17,10 +17,11 @@ from benchmark.study import FULL, NOISY, Condition, Session
 from benchmark.tasks import Task, task
 from tests.loopback import Asked, Fault, serving, status
 from tests.unit.benchmark.blender_script import SHELLS
+from tests.unit.benchmark.conftest import few
 from tests.unit.benchmark.model_asking import block, cost, key, settings_file, tokens_in, tokens_out
 
 __all__ = ["key"]
-pytestmark = pytest.mark.usefixtures("key")
+pytestmark = pytest.mark.usefixtures("key", "few_meshes", "small_pictures")
 CUPS = [task("cup-easy"), task("cup-medium")]
 PYTHON = found()
 FIELDS = Session("", "", 0).to_json().keys()
@@ -31,7 +32,6 @@ def few_sessions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sessions in which nobody was taught, since only what was shown counts here."""
     monkeypatch.setattr(journal, "JOURNALS", tmp_path / "journals")
     monkeypatch.setattr("benchmark.baselines.playing.JOURNALS", tmp_path / "journals")
-    monkeypatch.setattr("os.cpu_count", lambda: 1)  # other tests run beside it
     monkeypatch.setattr(comparison, "found", lambda: None)
 
     def sessions(conditions: list[Condition], tell: object, quick: bool) -> list[Session]:
@@ -41,9 +41,9 @@ def few_sessions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def session(one: Task, condition: Condition) -> Session:
-    able = [sample.name for sample in one.samples() if one.run(one.program, sample.mesh).mesh]
-    begin = (FULL, NOISY).index(condition) * 10
-    return Session(one.name, condition.name, 100, shown=able[begin : begin + 2], judged=70)
+    able = [name for name, selected in few(one.name).truth.reference.items() if selected is not None]
+    begin = (FULL, NOISY).index(condition) * 4
+    return Session(one.name, condition.name, 100, shown=able[begin : begin + 2], judged=len(few(one.name).samples) - 2)
 
 
 def asked_about(asked: Asked) -> Task:

@@ -22,7 +22,6 @@ PARTS = ["ceiling", "calibration", "effectiveness", "comparison", "contest"]
 @pytest.fixture
 def journals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(journal, "JOURNALS", tmp_path / "journals")
-    monkeypatch.setattr("os.cpu_count", lambda: 1)  # other tests run beside it
     return tmp_path / "journals"
 
 
@@ -37,6 +36,7 @@ def without_times(data: Any) -> Any:
     return [without_times(value) for value in data] if isinstance(data, list) else data
 
 
+@pytest.mark.usefixtures("few_meshes")
 def test_a_quick_run_writes_the_page_and_its_pictures(journals: Path, tmp_path: Path) -> None:
     found = run(PARTS, tmp_path / "out")
     page = (tmp_path / "out" / "README.md").read_text("utf-8")
@@ -53,6 +53,7 @@ def test_a_quick_run_writes_the_page_and_its_pictures(journals: Path, tmp_path: 
     assert all(ceiling.values()), ceiling
 
 
+@pytest.mark.usefixtures("few_meshes")
 def test_a_run_is_the_same_again_and_takes_what_is_in_the_journal(journals: Path, tmp_path: Path) -> None:
     first = run(["comparison"], tmp_path / "one")
     (kept,) = journals.glob("*-sessions.jsonl")

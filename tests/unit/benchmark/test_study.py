@@ -17,13 +17,14 @@ from benchmark.study.labels import ACCURACY, FEW, MOST, noisy, wrong
 from benchmark.study.person import Person
 from benchmark.tasks import task
 from meshforge.language import Is
+from tests.unit.benchmark.conftest import few
 
 EASY = task("cup-easy")
 
 
 @pytest.fixture(scope="module")
 def bench() -> Bench:
-    return Bench(task("cup-medium"))
+    return few("cup-medium")
 
 
 def without_times(session: Session) -> Session:

@@ -98,6 +98,7 @@ def test_a_visual_mesh_that_is_not_finite_is_left_out() -> None:
     assert found is not None and found.closed == pytest.approx(INSIDE, rel=0.08)
 
 
+@pytest.mark.slow
 def test_a_grid_never_grows_without_bound() -> None:
     found = measure_clearance(cup(WHOLE), cell=1e-7)
     assert found is not None and 0.1 / found.cell < 400

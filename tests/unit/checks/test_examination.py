@@ -101,6 +101,7 @@ def test_options_that_say_nothing_are_refused(run: Run, words: tuple[str, ...], 
     assert told.code == 2 and problem in told.err
 
 
+@pytest.mark.slow
 def test_the_report_shows_what_was_found_failures_first(tmp_path: Path) -> None:
     good, bad = cup(BOTTOM, *WALLS), cup(WHOLE)
     assets = [

@@ -37,6 +37,7 @@ def test_what_fills_a_cup_sticks_out_into_its_inside() -> None:
     assert row.out == pytest.approx(0.04, rel=0.02)  # the middle of the opening, from the walls
 
 
+@pytest.mark.slow
 def test_a_visual_surface_without_a_hull_is_bare_beside_the_nearest_one() -> None:
     found = measure_fit(cup(BOTTOM, *WALLS[:3]))
     assert found.bare == pytest.approx(0.04, rel=0.01)  # the middle of the wall, from the walls beside it

@@ -23,6 +23,7 @@ def mesh(*shapes: Shape) -> SymbolicMesh:
     )
 
 
+@pytest.mark.slow
 def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() -> None:
     before = mesh(ball(300), Box.of_bounds(Aabb([1, 0, 0], [2, 1, 1])))
     fixed = fix(before, find_engine("physx-gpu"))
@@ -37,6 +38,7 @@ def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() 
     assert not fixed.left
 
 
+@pytest.mark.slow
 def test_what_would_stick_out_too_far_is_left_and_told() -> None:
     before = mesh(ball(300))
     fixed = fix(before, find_engine("physx-gpu"), tolerance=0.001)
@@ -76,6 +78,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_the_command_line_writes_mended_files_and_leaves_the_input(run: Run) -> None:
     source = Path("in/ball.obj").read_bytes()
     words = ("check", "in", "--engine", "physx-gpu", "--fix", "--out", "out", "--tolerance", "0.02", "--json")

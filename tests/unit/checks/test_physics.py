@@ -143,6 +143,7 @@ def test_the_same_mesh_gives_the_same_figures() -> None:
     assert simulate(mesh).to_json() == simulate(mesh).to_json()
 
 
+@pytest.mark.slow
 def test_very_many_bodies_in_a_chain_are_refused_or_simulated_never_more() -> None:
     def chain(count: int) -> SymbolicMesh:
         shapes = [box([2 * k, 0, 0], [2 * k + 1, 1, 1]) for k in range(count)]

@@ -27,6 +27,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_what_failed_comes_first_then_what_has_findings(run: Run) -> None:
     told = run("check", "mixed/*", "--fit", "--clearance", "--physics", "--report", "r.html", "--json")
     assert told.code == 1 and "report: r.html" in told.err
@@ -44,6 +45,7 @@ def test_what_failed_comes_first_then_what_has_findings(run: Run) -> None:
     assert any(line.startswith("fit: hulls stick out by") for line in texts(page, "//p[@class='note']"))
 
 
+@pytest.mark.slow
 def test_what_the_journal_kept_is_on_the_page_too(run: Run) -> None:
     words = ("check", "mixed/*", "--engine", "unity", "--fit", "--physics", "--journal", "j")
     assert run(*words, "--report", "one.html").code == 1
@@ -86,6 +88,7 @@ def faces(sides: int) -> str:
     return "".join(f"f {' '.join(map(str, face))}\n" for face in (*ends, *ring))
 
 
+@pytest.mark.slow
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("meshforge.batch.report.contents.TopItems.__init__.__defaults__", (2,))
     run("check", "mixed/*", "--report", "r.html", "--fit")

@@ -96,6 +96,7 @@ sys.exit(", ".join(sorted(heavy & sys.modules.keys())) or 0)
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).returncode == 0
 
 
+@pytest.mark.slow
 def test_no_command_shows_the_commands(run: Run) -> None:
     assert all(command in run().out + run("--help").out for command in COMMANDS)
 

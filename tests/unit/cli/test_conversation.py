@@ -90,9 +90,9 @@ def test_neither_leads_to_the_labels(tmp_path: Path) -> None:
 Then a label may be wrong. The choices differ on:
   shelf  board
   top  board
-HULL=LABEL to mend one (more with commas), Enter to leave them: shelf=lek
+HULL=LABEL to correct one (more with commas), Enter to leave them: shelf=lek
 there is no label 'lek'; did you mean 'leg'?
-HULL=LABEL to mend one (more with commas), Enter to leave them: shelf
+HULL=LABEL to correct one (more with commas), Enter to leave them: shelf
 'shelf' is not of the form HULL=LABEL
 """
         in seen
@@ -163,8 +163,8 @@ def test_a_confirmed_repair_is_made_and_learned_from(tmp_path: Path) -> None:
     assert lines[3:] == [
         "  how sure: 99 %",
         "  picture: racks/.meshforge/questions/label-rack0.png",
-        "Mend it? y, n, s to stop asking: y",
-        "mended: knob of rack0.obj: leg -> knob",
+        "Repair it? y, n, s to stop asking: y",
+        "repaired: knob of rack0.obj: leg -> knob",
     ]
 
 
@@ -172,7 +172,7 @@ def test_a_refused_repair_is_not_asked_about_again(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     outcome, seen, _ = talk(project, "n")
     assert not isinstance(outcome, NeedsRepair)
-    assert seen.count("Mend it?") == 1
+    assert seen.count("Repair it?") == 1
     assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 

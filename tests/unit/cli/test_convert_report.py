@@ -43,6 +43,7 @@ def test_what_failed_comes_first_and_losses_are_told(run: Run) -> None:
     assert "<i>" not in Path("r.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_outputs_of_an_earlier_run_are_shown_again(run: Run) -> None:
     for _ in range(2):
         run("convert", "in", "out", "--to", "usda", "--report", "r.html")

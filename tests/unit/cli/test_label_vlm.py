@@ -166,6 +166,7 @@ def test_a_model_that_may_not_see_is_told(run: Run, server: Server) -> None:
     assert "The model took a red picture for another one: it may not see pictures at all." in told.err
 
 
+@pytest.mark.slow
 def test_ctrl_c_waits_for_what_is_under_way_and_the_next_run_goes_on(server: Server, tmp_path: Path) -> None:
     server.delay = 0.3
     settings = tmp_path / "p/meshforge.toml"

@@ -110,6 +110,7 @@ def test_negative_coordinates_are_understood(run: Run, project: str) -> None:
     assert told.code == 0 and "frame/foot: 2 hulls" in told.out
 
 
+@pytest.mark.slow
 def test_a_split_that_divides_nothing_says_what_to_do(run: Run, project: str) -> None:
     run("prepare", project, "stand.urdf", *VOXELS)
     told = run("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=1")

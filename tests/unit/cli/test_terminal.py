@@ -13,6 +13,7 @@ from tests.unit.cli.terminal import Terminal
 from tests.unit.project.shelves import ambiguous
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
@@ -23,10 +24,11 @@ def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None
         terminal.interrupt()
         assert terminal.end() == 0  # there is a program, if an open one
     assert "stopped; what you said so far is kept" in terminal.text
-    assert "not settled: it is open what rule 1 does on rack2.obj" in terminal.text
+    assert "ambiguous: it is open what rule 1 does on rack2.obj" in terminal.text
     assert project.answers().ids == ("1:rack2.obj",)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 def test_results_go_into_a_file_while_the_bar_is_at_the_terminal(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 4)

@@ -38,6 +38,7 @@ def test_the_page_tells_what_conversions_keep(name: str) -> None:
     assert f"{_START.format(name)}\n{matrix(_MATRICES[name])}\n{_END.format(name)}" in PAGE.read_text()
 
 
+@pytest.mark.slow
 def test_every_test_that_the_page_names_exists() -> None:
     named: list[tuple[str, str]] = []
     for file, test in re.findall(r"`([\w/.]*)::(\w+)`", PAGE.read_text()):

@@ -274,6 +274,7 @@ def test_what_is_seen_of_an_instanced_node_is_all_instances_with_their_colours(t
     assert volumes == pytest.approx([1] * 4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("places", "expected"),
     [

@@ -138,6 +138,7 @@ def test_a_reference_puts_no_file_outside_of_the_output_that_is_not_of_an_asset(
     assert not out.joinpath(reference).exists()
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_attributes_and_elements_are_read(tmp_path: Path) -> None:
     many = " ".join(f'a{k}="{k}"' for k in range(100_000))
     path = tmp_path / "wide.urdf"
@@ -145,6 +146,7 @@ def test_a_hundred_thousand_attributes_and_elements_are_read(tmp_path: Path) -> 
     assert read(path).geoms == ()
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_nested_elements_are_read(tmp_path: Path) -> None:
     path = tmp_path / "deep.urdf"
     path.write_text(f'<robot name="r"><link name="l"/>{"<x>" * 100_000}{"</x>" * 100_000}</robot>', encoding="utf-8")

@@ -68,6 +68,7 @@ assert layer.Export(out)
 BEFORE = ("0.4.0", "0.5.0", "0.6.0", "0.7.0", "0.8.0")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("version", [*BEFORE, "new"])
 def test_all_kinds_of_values_that_the_library_writes_pass(tmp_path: Path, version: str) -> None:
     made = tmp_path / "made.usdc"

@@ -38,6 +38,7 @@ def test_no_hulls_have_no_rows_and_one_alone_has_one() -> None:
     assert np.isfinite(alone).all()
 
 
+@pytest.mark.slow
 @given(yaw=st.floats(-3.0, 3.0), x=st.floats(-100.0, 100.0), scale=st.sampled_from([0.001, 1.0, 40.0]))
 def test_neither_place_nor_size_nor_yaw_changes_a_row(yaw: float, x: float, scale: float) -> None:
     pose = Pose.from_rpy((x * scale, -x * scale, x * scale), (0.0, 0.0, yaw))
@@ -53,6 +54,7 @@ def test_the_order_of_hulls_does_not_matter() -> None:
     assert described(turned)[::-1] == pytest.approx(described(CHAIR), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_very_many_hulls_are_described_in_bounded_memory() -> None:
     rows = [
         Hull(

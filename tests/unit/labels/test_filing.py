@@ -40,7 +40,7 @@ def labels(project: Project, asset: str = ASSET) -> dict[str, tuple[str, float, 
 
 def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path: Path) -> None:
     project = partnet(tmp_path)
-    (report,) = project.label_from_files(how=LabelFileOptions(MEANINGS))
+    (report,) = project.label_from_files(options=LabelFileOptions(MEANINGS))
     assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
     assert labels(project) == {
         "link_2/geom0": ("frame", 1.0, "file"),
@@ -236,7 +236,7 @@ def test_faces_of_the_asset_itself_need_no_points(tmp_path: Path) -> None:
     )
     count = project.path("t.obj").read_text().count("\nf ")
     np.save(tmp_path / "assets/t.points.npy", faces.reshape(count, -1)[:, 0])
-    (report,) = project.label_from_files(how=named("vocabulary"))
+    (report,) = project.label_from_files(options=named("vocabulary"))
     assert report.taken == 6 and right(project)
 
 

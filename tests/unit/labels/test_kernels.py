@@ -32,6 +32,7 @@ def carried(kernel: str, without: str = "") -> str | None:
     return done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kernel", _KERNELS)
 def test_labels_and_advice_are_the_same_whatever_kernel_multiplies(kernel: str) -> None:
     found = carried(kernel)
@@ -40,5 +41,6 @@ def test_labels_and_advice_are_the_same_whatever_kernel_multiplies(kernel: str) 
     assert found == carried("")
 
 
+@pytest.mark.slow
 def test_labels_and_advice_are_the_same_without_wide_registers() -> None:
     assert carried("", "AVX2 FMA3 AVX512F AVX512_SKX X86_V3 X86_V4") == carried("")

@@ -67,6 +67,7 @@ def said_by_people(folder: Path) -> dict[tuple[str, str], str]:
     }
 
 
+@pytest.mark.slow
 @examples(6)
 @given(rounds=ROUNDS)
 def test_what_a_person_said_outlives_every_kill(

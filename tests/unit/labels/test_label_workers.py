@@ -20,9 +20,9 @@ from tests.unit.labels.test_propagating import family
 
 NAMES = tuple(table_boxes())
 WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]] = {
-    "names": lambda project, spread: project.label_from_names(spread=spread),
-    "file": lambda project, spread: project.label_from_files(spread=spread),
-    "propagate": lambda project, spread: project.propagate_labels(spread=spread).reports,
+    "names": lambda project, spread: project.label_from_names(execution=spread),
+    "file": lambda project, spread: project.label_from_files(execution=spread),
+    "propagate": lambda project, spread: project.propagate_labels(execution=spread).reports,
 }
 
 
@@ -67,11 +67,11 @@ def test_each_asset_is_told_in_order_when_its_labels_are_there(tmp_path: Path) -
         there = [asset for asset in project.assets() if project.layout.labels(asset).exists()]
         assert there == sorted({"t0.obj", *told})
 
-    project.label_from_names(spread=ExecutionOptions(2), report=report)
+    project.label_from_names(execution=ExecutionOptions(2), report=report)
     assert told == list(project.assets())
     shutil.rmtree(project.folder)
     told.clear()
-    begun(tmp_path).propagate_labels(spread=ExecutionOptions(2), report=report)
+    begun(tmp_path).propagate_labels(execution=ExecutionOptions(2), report=report)
     assert told == list(project.assets())
 
 

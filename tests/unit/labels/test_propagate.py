@@ -47,6 +47,7 @@ def outcome(category: str, count: int) -> tuple[list[bool], list[float]]:
     return right, sure
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("category", ["cup", "door", "table"])
 def test_two_labelled_meshes_label_the_family(category: str) -> None:
     right, _ = outcome(category, 2)
@@ -80,12 +81,14 @@ def test_a_sure_label_is_right_more_often_than_an_unsure_one() -> None:
     assert right[sure > 0.95].mean() > 0.97 > right[sure < 0.8].mean()
 
 
+@pytest.mark.slow
 def test_the_same_comes_out_every_time() -> None:
     rows = samples("knife", calibration=True)
     one, other = (propagate(asking(rows, [0, 5])) for _ in range(2))
     assert np.array_equal(one.chances, other.chances)
 
 
+@pytest.mark.slow
 def test_chances_are_chances() -> None:
     found, _ = advised("cup", 1)
     assert found.chances.min() >= 0
@@ -130,6 +133,7 @@ def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> N
     assert len(kinds) > len({hull.label for hull in rows[everyone[-1]].mesh.hulls})
 
 
+@pytest.mark.slow
 def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
     from meshforge.label_model.family import ColumnScale, FamilyTable
     from meshforge.label_model.posterior import vote_by_similarity

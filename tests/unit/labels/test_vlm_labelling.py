@@ -16,12 +16,11 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
-from meshforge.perception import vlm
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.labels import VlmResult
-from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm import label_by_vlm, prompt
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
@@ -67,9 +66,9 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
         project = family(tmp_path / name, 5)
         (project.path("t003.obj")).write_text("f 1 2 3\n")
         with serving(right) as server:
-            seen = project.forecast_vlm(settings(server), spread=spread)
+            seen = project.forecast_vlm(settings(server), execution=spread)
             assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
-            found = project.label_with_vlm(settings(server), spread=spread)
+            found = project.label_with_vlm(settings(server), execution=spread)
             asked.append(sorted(one.raw for one, _, _ in server.asked))
         assert [report.taken for report in found.reports] == [6, 6, 6, 0, 6]
         assert "t003.obj" in found.reports[3].problems[0]
@@ -80,7 +79,7 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
 def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), spread=ExecutionOptions(workers=1, timeout=0.001))
+        found = project.label_with_vlm(settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
     assert not server.asked
     assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
 
@@ -99,6 +98,7 @@ def lying(asked: Asked) -> str:
     return right(asked)[:-1] + ', "hulls": [{"number": 0, "label": "leg"}, {"number": 0, "label": "top"}]}'
 
 
+@pytest.mark.slow
 def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp_path: Path) -> None:
     project = family(tmp_path, MANY)
     hopeless = {f"t{k:03}.obj" for k in (7, 70)}
@@ -187,6 +187,7 @@ def test_a_label_given_by_hand_while_the_model_thinks_stays(tmp_path: Path) -> N
     assert labels(project, asset) == truth(asset) | {"top": "misc"}
 
 
+@pytest.mark.slow
 def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     (tmp_path / "assets/broken.obj").write_text("nothing of use")
@@ -209,6 +210,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
     assert broken.asset == "broken.obj"
 
 
+@pytest.mark.slow
 def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) -> None:
     project = family(tmp_path, 12)
     with serving(right) as server:
@@ -227,6 +229,7 @@ def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) ->
     assert all(labels(project, asset) == truth(asset) for asset in project.assets())
 
 
+@pytest.mark.slow
 def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path) -> None:
     project = family(tmp_path, 10)
     with serving(right, delay=0.01) as server:
@@ -245,11 +248,13 @@ def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path)
 _RUN = """
 import sys
 import time
-from meshforge.project import Project, VlmSettings
+from meshforge.project import Project
+from meshforge.store import VlmSettings
 Project.open(sys.argv[1]).label_with_vlm(VlmSettings.model_validate_json(sys.argv[2]))
 """
 
 
+@pytest.mark.slow
 def test_a_killed_run_loses_nothing_that_was_paid_for_but_what_was_under_way(tmp_path: Path) -> None:
     project = family(tmp_path, 16)
     kills = iter([4, 9])
@@ -398,7 +403,7 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
         inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
 
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), keeping=keeping)
+        found = project.label_with_vlm(settings(server), write_block=keeping)
     assert inside == [[0, 0, 6, 6]]
     assert [report.taken for report in found.reports] == [6, 6]
 
@@ -434,7 +439,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
             raise ZeroDivisionError("no room for the picture")
         return real(mesh, wanted, manner, name)
 
-    monkeypatch.setattr(vlm, "prompt", looks)
+    monkeypatch.setattr(label_by_vlm, "build_questions", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = project.label_with_vlm(settings(server))

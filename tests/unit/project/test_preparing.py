@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import IN_PROCESS, Edited, Failed
+from meshforge.batch import IN_PROCESS, Edited, ExecutionOptions, Failed
 from meshforge.batch import status_of as word
 from meshforge.common import AssetError, GeometryError, ProjectError
 from meshforge.formats import load
@@ -43,7 +43,7 @@ def fresh(folder: Path) -> Project:
 def decomposed(folder: Path) -> Project:
     """The same with hulls for all."""
     project = fresh(folder)
-    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [2, 2]
+    assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [2, 2]
     return project
 
 
@@ -60,7 +60,7 @@ def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     before = tree(tmp_path / "assets")
     assert names(project, HIGH) == ["frame/foot"]
-    done = list(project.decompose(settings=QUICK, workers=0))
+    done = list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert [(d.asset, d.problems, d.notes) for d in done] == [(HIGH, (), ()), (LOW, (), ())]
     assert names(project, HIGH) == ["frame/foot", *done[0].hulls]
     assert project.mesh(HIGH).hulls[1].parent == "frame/body"
@@ -70,7 +70,7 @@ def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
 def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     before = tree(project.folder / "prepared")
-    again = list(Project.open(project.folder).decompose(settings=VOXELS, workers=0))
+    again = list(Project.open(project.folder).decompose(settings=VOXELS, execution=IN_PROCESS))
     assert again == [PreparationResult(HIGH), PreparationResult(LOW)]
     assert tree(project.folder / "prepared") == before
 
@@ -80,7 +80,7 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
     for workers in (0, 2):
         monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / f"cache{workers}"))
         project = fresh(tmp_path / str(workers))
-        list(project.decompose(settings=QUICK, workers=workers))
+        list(project.decompose(settings=QUICK, execution=ExecutionOptions(workers=workers)))
         found.append(tree(project.folder / "prepared"))
     assert len(found[0]) == 4 and found[0] == found[1]
 
@@ -88,24 +88,24 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
 def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     (tmp_path / "assets" / HIGH).write_text("<robot")
-    high, low = project.decompose(settings=QUICK, workers=1)
+    high, low = project.decompose(settings=QUICK, execution=ExecutionOptions(workers=1))
     assert len(high.problems) == 1 and HIGH in high.problems[0]
     assert len(low.made) == 2
 
 
 def test_an_asset_that_takes_too_long_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    (done,) = fresh(tmp_path).decompose([HIGH], workers=1, timeout=0.05)
+    (done,) = fresh(tmp_path).decompose([HIGH], execution=ExecutionOptions(workers=1, timeout=0.05))
     assert "longer than 0.05 seconds" in done.problems[0]
 
 
 def test_stopping_in_the_midst_keeps_what_is_done(tmp_path: Path) -> None:
     project = fresh(tmp_path)
-    work = project.decompose(settings=QUICK, workers=0)
+    work = project.decompose(settings=QUICK, execution=IN_PROCESS)
     next(work)
     work.close()  # type: ignore[attr-defined]  # a generator
     assert [len(project.preparation(asset).steps) for asset in (HIGH, LOW)] == [1, 0]
-    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [0, 2]
+    assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [0, 2]
 
 
 def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path) -> None:
@@ -116,7 +116,7 @@ def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path
         project.mesh(HIGH)
     error = project.status(workers=0).assets[0].error
     assert error and "cover has another geometry now" in error
-    (done,) = project.decompose([HIGH], QUICK, workers=0)
+    (done,) = project.decompose([HIGH], QUICK, execution=IN_PROCESS)
     assert done.notes == ("given up, since cover has another geometry now",)
     assert [entry.what for entry in done.made] == ["cover"]
     assert len(names(project, HIGH)) == 5
@@ -173,7 +173,7 @@ def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_aga
     path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
     first, second = project.apply(execution=IN_PROCESS)
     assert isinstance(first, Failed) and "out of date" in first.error and word(second) == "skipped"
-    list(project.decompose(settings=QUICK, workers=0))
+    list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "skipped"]
 
 
@@ -232,7 +232,7 @@ def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(
     label_all(project, HIGH)
     before = label_file(project, HIGH)
     project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
-    list(project.decompose([HIGH], QUICK, again=True, workers=0))
+    list(project.decompose([HIGH], QUICK, again=True, execution=IN_PROCESS))
     assert label_file(project, HIGH) == before
 
 
@@ -249,7 +249,7 @@ def test_labels_of_a_split_go_back_to_the_hull_though_the_asset_changed(tmp_path
 def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     label_all(project, HIGH)
-    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, workers=0)
+    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, execution=IN_PROCESS)
     mesh = project.mesh(HIGH)
     made = [mesh.hull_of(name) for name in done.hulls]
     assert {hull.label for hull in made} == {"body"}
@@ -335,7 +335,7 @@ def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:
     found = project.status(workers=0)
     assert found.assets[0].hulls == 0
     assert found.next.command == f"meshforge prepare {project.folder} --decompose coacd"
-    list(project.decompose(settings=QUICK, workers=0))
+    list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert "prepare" not in (project.status(workers=0).next.command or "")
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.common import ProjectError
-from meshforge.store.toml_edit import TomlValue, set_value
+from meshforge.store.settings import TomlValue, set_value
 from tests.examples import examples
 
 TEXT = """\

@@ -86,6 +86,7 @@ def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], dat
     assert 1 <= len(in_place(taken)) <= most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "mesh",
     [
@@ -137,6 +138,7 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
     return found.reshape(height, width)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
     mesh = scattered(12, seed)
@@ -176,6 +178,7 @@ def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
         assert in_place(taken) == list(taken)
 
 
+@pytest.mark.slow
 def test_hidden_hulls_are_drawn_alone_and_a_deep_block_is_drawn_apart() -> None:
     names = [shot.name for shot in draw_labeling_pictures(nested(3))]
     assert [name.split(" alone")[0] for name in names if "alone" in name] == ["hulls 1, 2", "hull 2"]
@@ -301,6 +304,7 @@ def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> Non
         draw_labeling_pictures(table(), **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "hidden"),
     [

@@ -68,7 +68,7 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
 
 
 def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: Learner) -> None:
-    rows = learner.reach(1, BUNDLED).result()
+    rows = learner.reach(BUNDLED).result()
     assert [row.asset for row in rows] == list(project.assets())
     program = Program.parse(BUNDLED)
     templates = project.templates(program.templates)
@@ -82,7 +82,7 @@ def test_reach_is_what_the_program_selects_on_every_asset(project: Project, lear
 
 def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project, learner: Learner) -> None:
     text = "Is(leg) => Each(Merge) as post\nIs(post) => Scale(all, 2) as post\nIs(post) => Delete\n"
-    (row,) = (row for row in learner.reach(1, text).result() if row.asset == OTHER)
+    (row,) = (row for row in learner.reach(text).result() if row.asset == OTHER)
     legs = tuple(k for k, hull in enumerate(project.mesh(OTHER).hulls) if hull.label == "leg")
     assert row.rules == (legs, legs, legs)
 
@@ -100,7 +100,7 @@ def test_an_asset_on_which_the_program_fails_says_why(fresh: tuple[Project, Lear
     project, learner = fresh
     mesh = project.mesh(OTHER)
     project.set_labels(OTHER, {hull.name: None for hull in mesh.hulls if hull.label == "leg"})
-    (row,) = (row for row in learner.reach(1, BUNDLED).result() if row.asset == OTHER)
+    (row,) = (row for row in learner.reach(BUNDLED).result() if row.asset == OTHER)
     assert row.error
     assert "the landmark Is(leg) selects nothing" in row.error
 
@@ -127,10 +127,10 @@ def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("meshforge.project.family.MOST_ASSETS", 4)
-    bell = CancelFlag()
-    rows = process.compute_reach(project.folder, bell.make_token("reach"), BUNDLED)
-    found = process.generalise(project.folder, bell.make_token("generalise"), "Is(leg)", 1, None)
-    bell.close()
+    flag = CancelFlag()
+    rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
+    found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)
+    flag.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
     assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
@@ -190,7 +190,7 @@ def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh:
 def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
     lessons = [learner.learn(number, take=False) for number in range(20)]
-    reaches = [learner.reach(number, BUNDLED) for number in range(20)]
+    reaches = [learner.reach(BUNDLED) for _ in range(20)]
     assert lessons[-1].result().status == "found"
     assert reaches[-1].result()
     for lesson in lessons[1:-1]:
@@ -203,13 +203,13 @@ def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one
     workers = Workers(1)
     line = LatestOnlyQueue(workers)
     try:
-        died: Future[int] = line.put("lesson", os._exit, 3)
+        died: Future[int] = line.put("learn", os._exit, 3)
         waiting: Future[int] = line.put("reach", abs, -4)
         error = died.exception()
         assert isinstance(error, MeshForgeError)
         assert "died" in str(error)
         assert waiting.result() == 4
-        assert line.put("lesson", abs, -5).result() == 5
+        assert line.put("learn", abs, -5).result() == 5
     finally:
         line.close()
         workers.close()
@@ -217,7 +217,7 @@ def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one
 
 def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    died: Future[int] = learner._line.put("generalise", os._exit, 3)
+    died: Future[int] = learner._queue.put("generalise", os._exit, 3)
     assert isinstance(died.exception(), MeshForgeError)
     assert learner.learn(1, take=False).result().status == "found"
 
@@ -226,7 +226,7 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
     workers = Workers(1)
     line = LatestOnlyQueue(workers)
     try:
-        first: Future[int] = line.put("lesson", abs, -1)
+        first: Future[int] = line.put("learn", abs, -1)
         second: Future[int] = line.put("reach", abs, -2)
         second.cancel()
         third: Future[int] = line.put("generalise", abs, -3)
@@ -236,18 +236,18 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
         workers.close()
 
 
-def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
-    bell = CancelFlag()
+def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before() -> None:
+    flag = CancelFlag()
     try:
-        lesson, reach = bell.make_token("lesson"), bell.make_token("reach")
+        lesson, reach = flag.make_token("learn"), flag.make_token("reach")
         assert not lesson.stop()
-        bell.cancel("lesson")
+        flag.cancel("learn")
         assert lesson.stop()
         assert not reach.stop()
-        assert not bell.make_token("lesson").stop()
+        assert not flag.make_token("learn").stop()
     finally:
-        bell.close()
-    assert not bell.path.exists()
+        flag.close()
+    assert not flag.path.exists()
 
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:

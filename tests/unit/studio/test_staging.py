@@ -220,6 +220,7 @@ def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(tmp_path: Path) -> 
         previews.preview_action(project, OTHER, mesh, wrong)
 
 
+@pytest.mark.slow
 def test_the_output_is_what_was_written(tmp_path: Path) -> None:
     project = demo_project(tmp_path)
     program = project.synthesize().program

@@ -54,6 +54,7 @@ def told(project: Project, of: Literal["asset", "output"], measures: CheckOption
     return check_asset(path, path.parent, None, CheckTask(measures, against=against)).to_json()
 
 
+@pytest.mark.slow
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: OutputChecks) -> None:
     everything = CheckOptions(fit=True, clearance=True, physics=True)
     was, now = told(project, "asset", everything), told(project, "output", everything)

@@ -69,11 +69,11 @@ def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewe
 
     step = step_with()
     assert (step.stage, step.asset) == ("review", "d")
-    assert step.say == "Look at 3 results that tell best whether the program is right, first d."
+    assert step.say == "Look at 3 results that show best whether the program is right, first d."
     step = step_with("d")
-    assert (step.asset, step.say) == ("b", "Look at 2 results that tell best whether the program is right, first b.")
+    assert (step.asset, step.say) == ("b", "Look at 2 results that show best whether the program is right, first b.")
     step = step_with("d", "b")
-    assert (step.asset, step.say) == ("c", "Look at 1 result that tells best whether the program is right: c.")
+    assert (step.asset, step.say) == ("c", "Look at 1 result that shows best whether the program is right: c.")
     step = step_with("d", "b", "c")
     assert (step.asset, step.say) == ("a", "Look through the results: 1 asset to accept or flag.")
     assert "export" in step_with(*cards).say
@@ -111,7 +111,7 @@ def labelling(*cards: Card, carried: CarriedOver | None = None, program: bool = 
 
 def test_labels_of_a_labelled_asset_are_carried_over_to_those_that_have_none() -> None:
     step = labelling(BARE, WHOLE)
-    assert (step.stage, step.say) == ("label", "a has no label: carry labels over.")
+    assert (step.stage, step.say) == ("label", "a has no label: propagate labels.")
     assert labelling(BARE, BARE.model_copy(update={"asset": "b"}), WHOLE).say.startswith("2 assets have no label")
     assert labelling(BARE, LABELLED.model_copy(update={"asset": "b"})).stage == "demonstrate", "none is whole"
     assert labelling(BARE, WHOLE.model_copy(update={"given": 1})).stage == "demonstrate", "a machine labelled it"
@@ -129,7 +129,7 @@ def test_unsure_labels_are_looked_through_unless_something_else_is_less_work() -
 
 def test_what_was_said_is_used_when_it_outweighs_what_is_unsure() -> None:
     step = labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=3))
-    assert step.say == "Carry labels over again: 3 labels of yours not used yet."
+    assert step.say == "Propagate labels again: 3 labels of yours not used yet."
     assert "press N" in labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=2)).say
 
 

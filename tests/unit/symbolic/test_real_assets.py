@@ -13,6 +13,7 @@ REAL = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("family", "asset"), [(family, asset) for family, assets in REAL.items() for asset in assets])
 def test_contacts_of_a_real_asset_are_those_of_brute_force(family: str, asset: str) -> None:
     (path,) = sorted(corpus(family).rglob(asset))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from itertools import count
 
 import pytest
@@ -80,10 +81,9 @@ def learned(
         demos,
         {name: labelled(mesh, {}) for name, mesh in BATCH.items()},
         vocabulary=VOCABULARY,
-        options=options or Options(max_size=9),
+        options=replace(options or Options(max_size=9), rejected=rejected),
         confirm=confirm,
         answers=answers,
-        rejected=rejected,
     )
 
 
@@ -209,8 +209,7 @@ def test_time_does_not_run_while_a_person_thinks(strategy: Strategy) -> None:
         planted(WRONG),
         vocabulary=VOCABULARY,
         confirm=thinking,
-        options=Options(strategy=strategy, max_size=9, budget=1e5),
-        clock=lambda: next(ticks) + thought[0],
+        options=Options(strategy=strategy, max_size=9, budget=1e5, clock=lambda: next(ticks) + thought[0]),
     )
     assert thought[0] > 0
     assert not isinstance(outcome, TimedOut)
@@ -225,7 +224,8 @@ def test_a_person_who_stops_while_being_asked_is_not_asked_again() -> None:
         return False
 
     program = "Union(Is(leg), Is(handle)) => Delete"
-    outcome = synthesize(planted(WRONG, program), vocabulary=VOCABULARY, confirm=confirm, stop=lambda: bool(asked))
+    options = Options(stop=lambda: bool(asked))
+    outcome = synthesize(planted(WRONG, program), vocabulary=VOCABULARY, confirm=confirm, options=options)
     assert len(asked) == 1
     assert isinstance(outcome, TimedOut)
     assert outcome.program is None

@@ -158,6 +158,7 @@ def test_snap_alone_is_changed_where_that_is_enough() -> None:
     assert directive(suggested(*tops(meshes), now=both)) == both.replace("orient", "orient snap")
 
 
+@pytest.mark.slow
 def test_a_second_pair_is_found_where_one_is_not_enough() -> None:
     found = suggested(*[shown(mesh, "top", "front") for mesh in FRONTS])
     assert found and len(found.orient.pairs) == 2
@@ -249,6 +250,7 @@ def test_a_mesh_is_turned_as_a_run_does_it(text: str, contact: float | None) -> 
         assert [hull.aabb.min.tolist() for hull in mine.hulls] == [hull.aabb.min.tolist() for hull in staged.hulls]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("meshes", [TOPS, TILTED, FRONTS[:3]])
 def test_no_directive_with_one_pair_does_better(meshes: list[SymbolicMesh]) -> None:
     demos, options = tops(meshes), Options(max_size=7)

@@ -12,7 +12,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
-from meshforge.synthesis.paper.search import Explained, search_by_paper
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
@@ -30,8 +30,8 @@ def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
     return [Example(f"table {k}", mesh, select_mask(extractor, mesh)) for k, mesh in enumerate(meshes)]
 
 
-def run(examples: list[Example], options: Options = EXACT) -> SearchResult | Explained:
-    return search_by_paper(examples, LABELS, TimeBudget(60), options)
+def run(examples: list[Example], options: Options = EXACT) -> SearchResult | HitWithCorrections:
+    return PaperSearch(examples, LABELS, TimeBudget(60), options).run()
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
     budget = TimeBudget(30, clock=lambda: next(ticks))
     mesh = table()
     example = Example("table", mesh, select_mask(Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), mesh))
-    answer = search_by_paper([example], LABELS, budget, EXACT)
+    answer = PaperSearch([example], LABELS, budget, EXACT).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None
     assert answer.nearest.extractor == Is("drawer")
@@ -115,6 +115,6 @@ def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
 
 
 def test_when_there_is_no_time_at_all_there_is_no_nearest() -> None:
-    answer = search_by_paper(shown(Is("leg"), table()), LABELS, TimeBudget(0), EXACT)
+    answer = PaperSearch(shown(Is("leg"), table()), LABELS, TimeBudget(0), EXACT).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is None

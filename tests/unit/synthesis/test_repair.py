@@ -13,7 +13,7 @@ from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import Explanation, explain_by_corrections
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.synthesis_boxes import boxes, table
 
@@ -58,7 +58,7 @@ def explained(
     others = {f"other {k}": labelled(mesh, {}) for k, mesh in enumerate(batch)}
     labels = LabelBeliefs({example.name: example.mesh for example in examples}, others, VOCABULARY)
     exact = exact_of(examples)
-    return explain_by_corrections(
+    return CorrectionSearch(
         examples,
         VOCABULARY,
         labels,
@@ -67,7 +67,7 @@ def explained(
         exact=exact,
         spent=spent or {},
         rejected=frozenset(rejected),
-    )
+    ).run()
 
 
 def exact_of(examples: Sequence[Example]) -> Extractor | None:
@@ -195,4 +195,4 @@ def test_the_time_is_kept() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
     labels = LabelBeliefs({example.name: example.mesh for example in examples}, {}, VOCABULARY)
     with pytest.raises(OutOfTime):
-        explain_by_corrections(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0))
+        CorrectionSearch(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0)).run()

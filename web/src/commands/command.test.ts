@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { pressed } from "./command";
+import { pressedKeys } from "./command";
 
 const event = (key: string, code: string, more: Partial<Record<"ctrlKey" | "metaKey" | "altKey" | "shiftKey", boolean>> = {}) => ({
   key,
@@ -23,5 +23,5 @@ it.each([
   [event("Tab", "Tab", { shiftKey: true }), "Shift+Tab"],
   [event(".", "Period"), "."],
 ])("names the keys of %o", (given, name) => {
-  expect(pressed(given)).toBe(name);
+  expect(pressedKeys(given)).toBe(name);
 });

@@ -13,7 +13,7 @@ export interface Command {
 }
 
 /** The name of a pressed key combination, as commands list it. */
-export function pressed(event: {
+export function pressedKeys(event: {
   key: string;
   code: string;
   ctrlKey: boolean;

@@ -1,16 +1,30 @@
-// One asset: its picture, name, number of hulls, and how it stands.
-import { ArrowLeftRight } from "lucide-react";
+// One asset: its picture, name, number of hulls, and signs for how it stands, each a shape of its own with its words
+// behind it.
+import {
+  ArrowLeftRight,
+  Boxes,
+  Check,
+  CircleAlert,
+  CircleDashed,
+  CircleDot,
+  Flag,
+  Hand,
+  type LucideIcon,
+  Pencil,
+  RefreshCw,
+  Tag,
+  TriangleAlert,
+} from "lucide-react";
 import { memo, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
-import { openAsset, useDesk } from "../store/desk";
-import { setLayout } from "../store/layout";
+import { makeHulls, useIsDecomposing } from "../store/jobs";
+import { useLabelChangesOf } from "../store/labelChanges";
 import { useProject } from "../store/project";
-import { useRelabelledAsset } from "../store/relabelled";
+import { openAsset, setLayout, useWorkspace } from "../store/workspace";
+import { Button } from "../ui/Button";
 import type { Card as CardData, RelabelledAsset } from "../wire";
-import { Badges } from "./Badges";
 import css from "./card.module.css";
-import { MakeHulls } from "./NeedHulls";
-import { hulls, middle, relabelledText, spoken } from "./words";
+import { type Badge, badgesOf, cardText, fitBadges, hullsText, relabelledText, shortenMiddle } from "./cardText";
 
 interface CardProps {
   asset: string;
@@ -25,17 +39,17 @@ export const cardId = (asset: string): string => `card ${asset}`.replace(/\s/g, 
 
 export const Card = memo(function Card({ asset, width, place, of, large }: CardProps) {
   const card = useProject((state) => state.cards[asset]);
-  const current = useDesk((desk) => desk.asset === asset);
-  const found = useRelabelledAsset(asset);
-  const relabelled = useDesk((desk) => desk.stage === "label") ? found : null;
-  const engine = useDesk((desk) => desk.checks.engine);
+  const current = useWorkspace((workspace) => workspace.asset === asset);
+  const found = useLabelChangesOf(asset);
+  const relabelled = useWorkspace((workspace) => workspace.stage === "label") ? found : null;
+  const engine = useWorkspace((workspace) => workspace.checks.engine);
   if (!card) return null;
   return (
     <div
       id={cardId(asset)}
       role="option"
       aria-selected={current}
-      aria-label={[spoken(card, engine), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
+      aria-label={[cardText(card, engine), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}
@@ -48,7 +62,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
     >
       {card.error === null ? <Face card={card} large={large} relabelled={relabelled} /> : <Broken error={card.error} />}
       <div className={css.foot}>
-        <span className={css.name}>{middle(asset, Math.floor((width - 16) / 6.3))}</span>
+        <span className={css.name}>{shortenMiddle(asset, Math.floor((width - 16) / 6.3))}</span>
         <span className={css.line}>
           <Amount card={card} />
           <Badges card={card} room={width - 72} />
@@ -58,7 +72,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   );
 });
 
-/** Why an asset cannot be read; the folder, which all assets share, is told by the tooltip only. */
+/** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
 function Broken({ error }: { error: string }) {
   return (
     <p className={css.error} title={error}>
@@ -77,8 +91,8 @@ interface FaceProps {
 /** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
 function Face({ card, large, relabelled }: FaceProps) {
   const [over, setOver] = useState(false);
-  const results = useDesk((desk) => desk.stage === "review" && desk.highlight === null);
-  const marked = useDesk((desk) => (desk.highlight ? (desk.highlight.assets[card.asset] ?? NONE) : undefined));
+  const results = useWorkspace((workspace) => workspace.stage === "review" && workspace.highlight === null);
+  const marked = useWorkspace((workspace) => (workspace.highlight ? (workspace.highlight.assets[card.asset] ?? NONE) : undefined));
   const isKnown = marked !== NONE;
   const edited = results && card.edited_picture !== null && card.output !== "failed";
   const showing = edited && !(large && over) ? "output" : "source";
@@ -124,10 +138,66 @@ const NONE: readonly number[] = [];
 
 function Amount({ card }: { card: CardData }) {
   if (card.hulls === null) return <span className={css.amount}>{card.error === null ? "reading…" : "unreadable"}</span>;
-  if (card.after === null || card.output === "none") return <span className={css.amount}>{hulls(card.hulls)}</span>;
+  if (card.after === null || card.output === "none") return <span className={css.amount}>{hullsText(card.hulls)}</span>;
   return (
     <span className={css.amount}>
       {card.hulls} → {card.after}
+    </span>
+  );
+}
+
+/** The button that cuts the geometry of an asset into hulls. */
+function MakeHulls({ asset }: { asset: string }) {
+  const making = useIsDecomposing();
+  return (
+    <Button
+      icon={Boxes}
+      tip="Decompose its geometry into convex hulls (CoACD)"
+      disabled={making}
+      onClick={(event) => {
+        event.stopPropagation();
+        makeHulls([asset]);
+      }}
+    >
+      Make hulls
+    </Button>
+  );
+}
+
+/** Small signs on a card, each a shape of its own with its words behind it. */
+export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
+  unlabelled: Tag,
+  unsure: CircleDashed,
+  demonstrated: CircleDot,
+  edited: Pencil,
+  stale: RefreshCw,
+  accepted: Check,
+  flagged: Flag,
+  failed: CircleAlert,
+  corrected: Hand,
+  findings: TriangleAlert,
+};
+
+/** room: for signs and their counts [px]. */
+function Badges({ card, room }: { card: CardData; room: number }) {
+  const engine = useWorkspace((workspace) => workspace.checks.engine);
+  const { shown, rest } = fitBadges(badgesOf(card, engine), room);
+  return (
+    <span className={css.badges}>
+      {shown.map(({ name, text, count, old }) => {
+        const Icon = ICONS[name];
+        return (
+          <span key={name} className={css.badge} data-badge={name} data-old={old} title={text}>
+            <Icon size={12} aria-hidden />
+            {count}
+          </span>
+        );
+      })}
+      {rest.length > 0 && (
+        <span className={css.badge} title={rest.map((badge) => badge.text).join("\n")}>
+          +{rest.length}
+        </span>
+      )}
     </span>
   );
 }

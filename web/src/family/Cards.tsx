@@ -1,13 +1,11 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useRef } from "react";
-import { openAsset, setFilters, useDesk } from "../store/desk";
-import { setLayout, useLayout } from "../store/layout";
+import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { useShown } from "../store/family";
+import { openAsset, setFilters, setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Card, cardId } from "./Card";
 import css from "./family.module.css";
-import { useFollowed, useWidth } from "./useRoom";
-import { useShown } from "./useShown";
 
 const GAP = 8;
 const WORDS = 44; // pixels below the picture
@@ -16,7 +14,7 @@ const WORDS = 44; // pixels below the picture
 export function Cards({ least, large = false }: { least: number; large?: boolean }) {
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
-  const asset = useDesk((desk) => desk.asset);
+  const asset = useWorkspace((workspace) => workspace.asset);
   const width = useWidth(box);
   // larger where there is much room
   const wished = large ? Math.max(least, width / 10) : least;
@@ -31,7 +29,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
     paddingEnd: GAP,
   });
   useEffect(() => rows.measure(), [rows, card]);
-  useFollowed(asset, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
+  useScrollToOpen(asset, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
   if (shown.length === 0) {
     return (
       <div ref={box} className={css.cards}>
@@ -50,7 +48,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
       data-first
       data-tab-assets
       data-testid="family"
-      onKeyDown={(event) => moved(event, shown, columns)}
+      onKeyDown={(event) => moveByKey(event, shown, columns)}
     >
       <div className={css.rows} style={{ height: rows.getTotalSize() }} role="presentation">
         {rows.getVirtualItems().map(({ index, start }) => (
@@ -71,9 +69,9 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
 }
 
 /** Arrow keys go to the assets beside, above and below; Enter shows the one that is open in the view. */
-function moved(event: KeyboardEvent, shown: readonly string[], columns: number): void {
+function moveByKey(event: KeyboardEvent, shown: readonly string[], columns: number): void {
   if (event.altKey || event.ctrlKey || event.metaKey) return;
-  const { asset } = useDesk.getState();
+  const { asset } = useWorkspace.getState();
   const here = asset === null ? -1 : shown.indexOf(asset);
   const page = columns * 4;
   const by = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -columns, ArrowDown: columns, PageUp: -page, PageDown: page };
@@ -94,4 +92,37 @@ function NoMatch() {
       <Button onClick={() => setFilters({ search: "", only: [] })}>Clear filters</Button>
     </div>
   );
+}
+
+/** The width inside an element, as it changes. */
+function useWidth(box: RefObject<HTMLElement | null>): number {
+  const [width, setWidth] = useState(264);
+  useLayoutEffect(() => {
+    const element = box.current;
+    if (!element) return;
+    const measure = () => setWidth(element.clientWidth);
+    const observer = new ResizeObserver(measure);
+    observer.observe(element);
+    measure();
+    return () => observer.disconnect();
+  }, [box]);
+  return width;
+}
+
+/** Scrolls to the asset that is opened, wherever that was done. */
+function useScrollToOpen(
+  asset: string | null,
+  shown: readonly string[],
+  columns: number,
+  scrollTo: (row: number) => void,
+): void {
+  const latest = useRef({ shown, columns, scrollTo });
+  useLayoutEffect(() => {
+    latest.current = { shown, columns, scrollTo };
+  });
+  useEffect(() => {
+    const { shown: all, columns: across, scrollTo: go } = latest.current;
+    const at = asset === null ? -1 : all.indexOf(asset);
+    if (at >= 0) go(Math.floor(at / across));
+  }, [asset]);
 }

@@ -1,25 +1,104 @@
-// The left column: how many assets there are, what to show of them, and the cards.
+// The family as the left column, or in place of the view with larger pictures: how many assets there are, what to show
+// of them, and the cards.
+import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
+import { LabelChanges } from "./LabelChanges";
+import { useShown } from "../store/family";
+import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useProject } from "../store/project";
+import { setLayout, useLayout } from "../store/workspace";
+import { Button, IconButton } from "../ui/Button";
+import { AddMenu } from "./AddAssets";
 import { Cards } from "./Cards";
 import css from "./family.module.css";
-import { FamilyHead } from "./FamilyHead";
 import { Filters } from "./Filters";
-import { NeedHulls } from "./NeedHulls";
-import { Reading } from "./Reading";
 
 export function Family() {
   const any = useProject((state) => state.order.length > 0);
   return (
     <div className={css.family}>
       <FamilyHead />
-      <Reading />
+      <ReadProgress />
       {any && (
         <>
-          <NeedHulls />
+          <MissingHulls />
           <Filters />
           <Cards least={112} />
         </>
       )}
+    </div>
+  );
+}
+
+/** The family in place of the view, with larger pictures. */
+export function Gallery() {
+  return (
+    <div className={[css.family, css.gallery].join(" ")} data-tour="family">
+      <FamilyHead />
+      <ReadProgress />
+      <MissingHulls />
+      <Filters />
+      <div className={css.outcome}>
+        <LabelChanges />
+      </div>
+      <Cards least={216} large />
+    </div>
+  );
+}
+
+/** The head of the family: its number, adding assets, and how much room it has. */
+function FamilyHead() {
+  const all = useProject((state) => state.order.length);
+  const gallery = useLayout((layout) => layout.gallery);
+  const shown = useShown().length;
+  return (
+    <header className={css.head}>
+      <h2>Family</h2>
+      <span className={css.count} role="status" aria-label={`${shown} of ${all} assets shown`}>
+        {shown === all ? all : `${shown} of ${all}`}
+      </span>
+      <AddMenu />
+      <IconButton
+        icon={LayoutGrid}
+        name={gallery ? "Back to the view of one asset" : "Show the family in the centre"}
+        keys="Q"
+        on={gallery}
+        onClick={() => setLayout({ gallery: !gallery })}
+      />
+      {!gallery && (
+        <IconButton icon={PanelLeftClose} name="Hide the family" keys="F9" onClick={() => setLayout({ family: false })} />
+      )}
+    </header>
+  );
+}
+
+/** How far the reading of the assets is. */
+function ReadProgress() {
+  const job = useProject((state) => state.jobs.find((one) => one.kind === "read" && one.state === "running"));
+  if (!job) return null;
+  return (
+    <div className={css.reading} role="status">
+      <span>
+        {job.title} {job.total > 0 && `${job.done} of ${job.total}`}
+      </span>
+      <progress value={job.total ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
+    </div>
+  );
+}
+
+/** Assets that have geometry, yet no hulls: making them. */
+function MissingHulls() {
+  const bare = useProject((state) =>
+    state.order.filter((asset) => state.cards[asset]?.hulls === 0 && (state.cards[asset]?.sources ?? 0) > 0).join("\n"),
+  );
+  const making = useIsDecomposing();
+  if (!bare || making) return null;
+  const assets = bare.split("\n");
+  return (
+    <div className={css.notice}>
+      <span>{assets.length === 1 ? "One asset has no hulls." : `${assets.length} assets have no hulls.`}</span>
+      <Button icon={Boxes} onClick={() => makeHulls(assets)}>
+        Make them
+      </Button>
     </div>
   );
 }

@@ -1,11 +1,11 @@
 // What to show of the family: words to find, how it should stand, in which order.
 import { ArrowDownUp, Search, X } from "lucide-react";
-import { type Filters as FiltersState, setFilters, useDesk } from "../store/desk";
-import { counted, FILTERS } from "../store/family";
+import { type Filters as FiltersState, setFilters, useWorkspace } from "../store/workspace";
+import { countByFilter, FILTERS } from "../store/family";
 import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
-import { ICONS } from "./Badges";
+import { ICONS } from "./Card";
 import css from "./family.module.css";
 
 const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
@@ -27,7 +27,7 @@ export function Filters() {
 }
 
 function SearchField() {
-  const { search, sort } = useDesk((desk) => desk.filters);
+  const { search, sort } = useWorkspace((workspace) => workspace.filters);
   return (
     <div className={css.search}>
       <Search size={14} aria-hidden />
@@ -53,9 +53,9 @@ function SearchField() {
 
 /** A chip for each way to stand that some asset has; several together show any of them. */
 function Chips() {
-  const only = useDesk((desk) => desk.filters.only);
-  const engine = useDesk((desk) => desk.checks.engine);
-  const counts = counted(useProject((state) => state.cards), engine);
+  const only = useWorkspace((workspace) => workspace.filters.only);
+  const engine = useWorkspace((workspace) => workspace.checks.engine);
+  const counts = countByFilter(useProject((state) => state.cards), engine);
   const there = FILTERS.filter((name) => counts[name] > 0 || only.includes(name));
   if (there.length === 0) return null;
   return (
@@ -70,7 +70,7 @@ function Chips() {
             className={css.chip}
             aria-pressed={on}
             data-badge={name}
-            title={on ? `No longer only ${name}` : `Show only ${name}`}
+            title={on ? `Do not show only ${name}` : `Show only ${name}`}
             onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
           >
             <Icon size={12} aria-hidden />

@@ -1,12 +1,12 @@
 // A picture of hulls in colours that the page chooses.
-import { useEffect, useMemo, useRef } from "react";
-import { rgb } from "./colors";
-import { painted } from "./idmap";
+import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import { useProject } from "../store/project";
+import { toRgb } from "./cssColor";
+import { type IdMap, paintPixels } from "./idMap";
+import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
-import { useIdMap, type Source } from "./useIdMap";
-import { useLook } from "./useLook";
 
-export type IdPictureProps = Source & {
+type IdPictureProps = Source & {
   /** Named for screen readers, where there is no label. */
   asset?: string;
   /** What a screen reader says; empty where words beside it say the same. */
@@ -22,12 +22,12 @@ export type IdPictureProps = Source & {
 export function IdPicture({ asset, label, colors, hatched, width, className, ...source }: IdPictureProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { map, current, failed } = useIdMap(source.png ? { png: source.png } : { url: source.url ?? "" });
-  const look = useLook();
-  const paint = useMemo(() => ({ color: (k: number) => rgb(colors(k)), hatched }), [colors, hatched]);
+  const look = useTheme();
+  const paint = useMemo(() => ({ color: (k: number) => toRgb(colors(k)), hatched }), [colors, hatched]);
   useEffect(() => {
     // what was painted before stays until the next picture is there: its hulls are others
     if (!map || !current || !canvas.current) return;
-    draw(canvas.current, new ImageData(painted(map, paint), map.width, map.height));
+    draw(canvas.current, new ImageData(paintPixels(map, paint), map.width, map.height));
   }, [map, current, paint, look]);
   const said = label ?? (asset === undefined ? "Picture of an asset" : `Picture of ${asset}`);
   return (
@@ -59,3 +59,57 @@ function draw(canvas: HTMLCanvasElement, image: ImageData): void {
   context.imageSmoothingQuality = "high";
   context.drawImage(whole, 0, 0, canvas.width, canvas.height);
 }
+
+type Source = { url: string; png?: undefined } | { url?: undefined; png: Blob };
+
+interface Had {
+  map: IdMap | null;
+  /** What the map is of. */
+  of: string | Blob | undefined;
+}
+
+/** failed: it could not be had. current: whether the map is of what is asked for, not of what was before. */
+function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; failed: boolean } {
+  const [{ map, of }, setMap] = useState<Had>(() => ({ map: url === undefined ? null : findPicture(url), of: url }));
+  const [failed, setFailed] = useState(false);
+  const connected = useProject((state) => state.connected);
+  useEffect(() => {
+    const there = url === undefined ? null : findPicture(url);
+    if (there) {
+      setMap((had) => (had.map === there && had.of === url ? had : { map: there, of: url }));
+      return setFailed(false);
+    }
+    let mounted = true;
+    let drop: (() => void) | undefined;
+    const good = (value: IdMap) => {
+      if (!mounted) return;
+      setMap({ map: value, of: png ?? url });
+      setFailed(false);
+    };
+    const bad = () => mounted && setFailed(true);
+    const ask = () => {
+      if (png) return void decodePicture(png).then(good, bad);
+      const asked = requestPicture(url);
+      drop = asked.drop;
+      asked.picture.then(good, bad);
+    };
+    // a card that is only scrolled past asks for nothing
+    const timer = setTimeout(ask, png ? 0 : 50);
+    return () => {
+      mounted = false;
+      clearTimeout(timer);
+      drop?.();
+    };
+  }, [url, png, connected]);
+  return { map, current: of === (png ?? url), failed };
+}
+
+function watch(changed: () => void): () => void {
+  const observer = new MutationObserver(changed);
+  observer.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+  return () => observer.disconnect();
+}
+
+/** The look that the page has now, so that what is drawn by hand is drawn again when it changes. */
+const useTheme = (): string =>
+  useSyncExternalStore(watch, () => document.documentElement.dataset.theme ?? "light");

@@ -2,11 +2,11 @@
 import { memo, useCallback, useMemo } from "react";
 import { api } from "../server/api";
 import { useProject } from "../store/project";
-import { hueOf } from "./colors";
+import { hueOf } from "./cssColor";
 import { IdPicture } from "./IdPicture";
 import css from "./pictures.module.css";
 
-export interface ThumbnailProps {
+interface ThumbnailProps {
   asset: string;
   of: "source" | "output";
   /** Positions of hulls to point out; the others are pale. */

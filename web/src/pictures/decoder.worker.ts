@@ -1,26 +1,26 @@
 // Decodes pictures beside the page, so that scrolling goes on meanwhile.
-import { type IdMap, idMap } from "./idmap";
+import { type IdMap, readIdMap } from "./idMap";
 import { readPng } from "./png";
 
 /** What the worker is asked, and what it answers; map: null where the bytes are no such picture. */
-export interface Asked {
+export interface DecodeRequest {
   readonly number: number;
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
-export interface Answer {
+export interface DecodeAnswer {
   readonly number: number;
   readonly map: IdMap | null;
 }
 
 /** The part of a worker's global scope that is used here; the page's types know it as a window. */
 const page = self as unknown as {
-  onmessage: (event: MessageEvent<Asked>) => void;
-  postMessage(answer: Answer, handedOver: ArrayBufferLike[]): void;
+  onmessage: (event: MessageEvent<DecodeRequest>) => void;
+  postMessage(answer: DecodeAnswer, handedOver: ArrayBufferLike[]): void;
 };
 
 page.onmessage = ({ data: { number, bytes } }) => {
   void readPng(bytes)
-    .then(idMap)
+    .then(readIdMap)
     .then(
       (map) => page.postMessage({ number, map }, [map.ids.buffer, map.shade.buffer, map.coverage.buffer]),
       () => page.postMessage({ number, map: null }, []),

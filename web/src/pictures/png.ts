@@ -25,16 +25,16 @@ export async function readPng(bytes: Uint8Array<ArrayBuffer>): Promise<Pixels> {
     if (kind === "IDAT") parts.push(bytes.subarray(at + 8, at + 8 + length));
     at += 12 + length;
   }
-  return { width, height, data: unfiltered(await inflated(parts), width, height) };
+  return { width, height, data: removeFilters(await inflate(parts), width, height) };
 }
 
-async function inflated(parts: readonly Uint8Array<ArrayBuffer>[]): Promise<Uint8Array> {
+async function inflate(parts: readonly Uint8Array<ArrayBuffer>[]): Promise<Uint8Array> {
   const stream = new Blob([...parts]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** Takes the filters of the rows back (PNG specification, section 9). */
-function unfiltered(raw: Uint8Array, width: number, height: number): Uint8Array {
+function removeFilters(raw: Uint8Array, width: number, height: number): Uint8Array {
   const row = 4 * width;
   if (raw.length < height * (row + 1)) throw new Error("the PNG is cut short");
   const out = new Uint8Array(height * row);

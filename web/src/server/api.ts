@@ -20,25 +20,25 @@ import type {
   Uploaded,
 } from "../wire";
 import { address, getBytes, getJson, postForBytes, postJson, putBytes } from "./http";
-import { opened, openedPicture, type EditedPacket, type ShapesPacket } from "./packet";
+import { readPacket, readPicture, type EditedPacket, type ShapesPacket } from "./packet";
 
 export const api = {
   asset: (asset: string) => getJson<AssetView>("api/asset", { asset }),
   shapes: async (asset: string): Promise<ShapesPacket> =>
-    opened<ShapesHeader>(await getBytes("api/shapes", { asset })),
+    readPacket<ShapesHeader>(await getBytes("api/shapes", { asset })),
   visual: async (asset: string): Promise<ShapesPacket> =>
-    opened<ShapesHeader>(await getBytes("api/visual", { asset })),
+    readPacket<ShapesHeader>(await getBytes("api/visual", { asset })),
   stage: async (asset: string, steps: number): Promise<EditedPacket> =>
-    opened<EditedHeader>(await getBytes("api/stage", { asset, steps })),
+    readPacket<EditedHeader>(await getBytes("api/stage", { asset, steps })),
   result: async (asset: string, of: "program" | "output"): Promise<EditedPacket> =>
-    opened<EditedHeader>(await getBytes("api/result", { asset, of })),
+    readPacket<EditedHeader>(await getBytes("api/result", { asset, of })),
   preview: async (request: PreviewRequest, stop?: AbortSignal): Promise<EditedPacket> =>
-    opened<EditedHeader>(await postForBytes("api/preview", request, stop)),
+    readPacket<EditedHeader>(await postForBytes("api/preview", request, stop)),
   select: (request: SelectRequest, stop?: AbortSignal) => postJson<Selected>("api/select", request, stop),
   generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
     postJson<Generalised>("api/generalise", { extractor, rule }, stop),
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
-  picture: async (asset: string, rule: number) => openedPicture(await getBytes("api/picture", { asset, rule })),
+  picture: async (asset: string, rule: number) => readPicture(await getBytes("api/picture", { asset, rule })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     address("api/thumbnail", { asset, of, v: version }),
   checked: (asset: string, part: Checked["part"], stop: AbortSignal) =>

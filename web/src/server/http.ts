@@ -14,51 +14,51 @@ let token = "";
 export const page = Math.random().toString(36).slice(2, 10);
 
 /** Takes the token of the address, or the one this tab had before. */
-export function useToken(given: string): void {
+export function setToken(given: string): void {
   token = given;
 }
 
 /** An address that an <img> or a WebSocket can use. */
 export function address(path: string, query: Record<string, string | number> = {}): string {
-  const words = new URLSearchParams({ ...mapped(query), token });
+  const words = new URLSearchParams({ ...toStrings(query), token });
   return `${path}?${words}`;
 }
 
 export async function getJson<T>(path: string, query: Record<string, string | number> = {}, stop?: AbortSignal): Promise<T> {
-  return (await asked(withQuery(path, query), { method: "GET", ...(stop ? { signal: stop } : {}) })).json() as Promise<T>;
+  return (await request(withQuery(path, query), { method: "GET", ...(stop ? { signal: stop } : {}) })).json() as Promise<T>;
 }
 
 export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
-  return (await asked(withQuery(path, query), { method: "GET" })).arrayBuffer();
+  return (await request(withQuery(path, query), { method: "GET" })).arrayBuffer();
 }
 
 export async function postJson<T>(path: string, body: unknown, stop?: AbortSignal): Promise<T> {
-  return (await asked(path, posting(body, stop))).json() as Promise<T>;
+  return (await request(path, postInit(body, stop))).json() as Promise<T>;
 }
 
 export async function postForBytes(path: string, body: unknown, stop?: AbortSignal): Promise<ArrayBuffer> {
-  return (await asked(path, posting(body, stop))).arrayBuffer();
+  return (await request(path, postInit(body, stop))).arrayBuffer();
 }
 
 export async function putBytes<T>(path: string, query: Record<string, string>, body: Blob): Promise<T> {
-  return (await asked(withQuery(path, query), { method: "PUT", body })).json() as Promise<T>;
+  return (await request(withQuery(path, query), { method: "PUT", body })).json() as Promise<T>;
 }
 
-function posting(body: unknown, stop?: AbortSignal): RequestInit {
+function postInit(body: unknown, stop?: AbortSignal): RequestInit {
   const init: RequestInit = { method: "POST", headers: { "Content-Type": "application/json" } };
   return { ...init, body: JSON.stringify(body), ...(stop ? { signal: stop } : {}) };
 }
 
 function withQuery(path: string, query: Record<string, string | number>): string {
-  const words = new URLSearchParams(mapped(query)).toString();
+  const words = new URLSearchParams(toStrings(query)).toString();
   return words ? `${path}?${words}` : path;
 }
 
-function mapped(query: Record<string, string | number>): Record<string, string> {
+function toStrings(query: Record<string, string | number>): Record<string, string> {
   return Object.fromEntries(Object.entries(query).map(([key, value]) => [key, String(value)]));
 }
 
-async function asked(path: string, init: RequestInit): Promise<Response> {
+async function request(path: string, init: RequestInit): Promise<Response> {
   const headers = { ...init.headers, Authorization: `Bearer ${token}`, "X-Page": page };
   let answer: Response;
   try {
@@ -74,7 +74,7 @@ async function asked(path: string, init: RequestInit): Promise<Response> {
 const unreachable: Problem = {
   message: "The studio's server does not answer.",
   where: null,
-  remedy: "Start it again in the terminal: meshforge studio PROJECT. Nothing that was acknowledged is lost.",
+  remedy: "Start it again in the terminal: meshforge studio PROJECT. No confirmed edit is lost.",
   conflict: false,
 };
 

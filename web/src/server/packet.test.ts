@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { ShapesHeader } from "../wire";
-import { opened, openedPicture } from "./packet";
+import { readPacket, readPicture } from "./packet";
 
 function packet(header: object, ...arrays: (Float32Array | Uint32Array)[]): ArrayBuffer {
   const text = JSON.stringify(header);
@@ -22,7 +22,7 @@ it("takes each row's vertices and triangles from its own place", () => {
     { name: "b", vertices: 3, faces: 1, rgba: null },
   ];
   const vertices = Float32Array.from([9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0]);
-  const { shapes } = opened<ShapesHeader>(packet({ rows }, vertices, Uint32Array.from([0, 1, 2])));
+  const { shapes } = readPacket<ShapesHeader>(packet({ rows }, vertices, Uint32Array.from([0, 1, 2])));
   expect([...(shapes[0]?.positions ?? [])]).toEqual([9, 9, 9]);
   expect(shapes[0]?.index).toHaveLength(0);
   expect([...(shapes[1]?.positions ?? [])]).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 0]);
@@ -30,7 +30,7 @@ it("takes each row's vertices and triangles from its own place", () => {
 });
 
 it("splits a picture from the names of its hulls", async () => {
-  const { names, png } = openedPicture(packet({ names: ["a", "b"] }, Float32Array.from([1])));
+  const { names, png } = readPicture(packet({ names: ["a", "b"] }, Float32Array.from([1])));
   expect(names).toEqual(["a", "b"]);
   expect(png.size).toBe(4);
 });

@@ -7,7 +7,7 @@ export interface Shape {
   readonly index: Uint32Array;
 }
 
-export interface Packet<Header> {
+interface Packet<Header> {
   readonly header: Header;
   readonly rows: readonly ShapeRow[];
   readonly shapes: readonly Shape[];
@@ -16,7 +16,7 @@ export interface Packet<Header> {
 export type ShapesPacket = Packet<ShapesHeader>;
 export type EditedPacket = Packet<EditedHeader>;
 
-export function opened<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuffer): Packet<Header> {
+export function readPacket<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuffer): Packet<Header> {
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as Header;
   const vertices = header.rows.reduce((sum, row) => sum + row.vertices, 0);
@@ -35,7 +35,7 @@ export function opened<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuffer)
 }
 
 /** A picture packet: names of hulls in order, and the PNG that shows their positions. */
-export function openedPicture(buffer: ArrayBuffer): { names: string[]; png: Blob } {
+export function readPicture(buffer: ArrayBuffer): { names: string[]; png: Blob } {
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as { names: string[] };
   return { names: header.names, png: new Blob([new Uint8Array(buffer, 4 + length)], { type: "image/png" }) };

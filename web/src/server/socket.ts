@@ -1,8 +1,8 @@
-// The WebSocket on which the server tells what changed; it connects again by itself.
+// The WebSocket on which the server sends what changed; it connects again by itself.
 import type { Event } from "../wire";
 import { address } from "./http";
 
-export interface Listener {
+interface Listener {
   receive(event: Event): void;
   connected(is: boolean): void;
 }

@@ -1,21 +1,23 @@
-// The window: a bar, the family, the view with its steps, the panel of the stage.
+// The window: a bar, the family, the view with its steps, the panel of the stage; without assets, what to do.
+import { FolderPlus } from "lucide-react";
 import { Tooltip } from "radix-ui";
-import { Adding } from "../family/Adding";
-import { Family } from "../family/Family";
-import { useDesk } from "../store/desk";
-import { WIDTHS } from "../store/kept";
-import { setLayout, useLayout } from "../store/layout";
+import { AddMenu, DropZone } from "../family/AddAssets";
+import { Family, Gallery } from "../family/Family";
+import { StepStrip } from "../steps/StepStrip";
 import { useProject } from "../store/project";
-import { Tour } from "../tour/Tour";
+import { setLayout, useLayout, useWorkspace } from "../store/workspace";
+import { Viewport } from "../viewport/Viewport";
 import css from "./App.module.css";
-import { Centre } from "./Centre";
-import { ConnectionBar, Welcome } from "./Unconnected";
 import { Divider } from "./Divider";
 import { Help } from "./Help";
+import empty from "./nothing.module.css";
 import { Palette } from "./Palette";
-import { Side } from "./Side";
+import { WIDTHS } from "./preferences";
+import { StageColumn } from "./StageColumn";
 import { Toasts } from "./Toasts";
 import { TopBar } from "./TopBar";
+import { Tour } from "./Tour";
+import { ConnectionBar, Welcome } from "./ConnectionState";
 
 export function App() {
   const ready = useProject((state) => state.ready);
@@ -36,16 +38,16 @@ function Window() {
       <Help />
       <Palette />
       <Tour />
-      <Adding />
+      <DropZone />
     </div>
   );
 }
 
 function Columns() {
-  const { family, panel } = useDesk((desk) => desk.columns);
+  const { family, panel } = useWorkspace((workspace) => workspace.columns);
   const open = useLayout((layout) => layout.family && !layout.gallery);
   const widen = (change: Partial<{ family: number; panel: number }>) =>
-    useDesk.setState(({ columns }) => ({ columns: { ...columns, ...change } }));
+    useWorkspace.setState(({ columns }) => ({ columns: { ...columns, ...change } }));
   return (
     <div className={css.columns}>
       {open && (
@@ -73,8 +75,56 @@ function Columns() {
         onChange={(width) => widen({ panel: width })}
       />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
-        <Side />
+        <StageColumn />
       </aside>
     </div>
+  );
+}
+
+/** The middle of the window: the view of one asset with its steps below, or the whole family. */
+function Centre() {
+  const gallery = useLayout((layout) => layout.gallery);
+  const none = useProject(({ cards }) => Object.values(cards).every((card) => card.error !== null));
+  if (none) return <EmptyProject />;
+  return (
+    <main className={css.centre}>
+      <div className={css.view} data-part data-tour="view">
+        {gallery ? <Gallery /> : <Viewport />}
+      </div>
+      {!gallery && (
+        <div className={css.steps} data-part data-tour="steps">
+          <StepStrip />
+        </div>
+      )}
+    </main>
+  );
+}
+
+/** The window of a project without assets: what to do. */
+function EmptyProject() {
+  const broken = useProject((state) => state.order.length);
+  const folder = useProject((state) => state.project.folder);
+  const reading = useProject((state) => state.jobs.some((job) => job.kind === "read" && job.state === "running"));
+  if (reading) {
+    return (
+      <main className={empty.nothing}>
+        <p role="status">Reading the assets…</p>
+      </main>
+    );
+  }
+  return (
+    <main className={empty.nothing} data-part>
+      <FolderPlus size={40} strokeWidth={1.2} aria-hidden />
+      <h2>{broken ? "No asset can be read" : "No assets yet"}</h2>
+      {broken > 0 && <p>Each card on the left says what is wrong with its file and how to fix it.</p>}
+      <p>
+        Drop files or a folder onto this window: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they refer to.
+        They are copied into the project.
+      </p>
+      <AddMenu words="Add assets" />
+      <p className={empty.small}>
+        Project folder: <code>{folder}</code>
+      </p>
+    </main>
   );
 }

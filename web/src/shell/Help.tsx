@@ -2,27 +2,26 @@
 import { X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { useState } from "react";
-import { all } from "../commands/all";
 import type { Command } from "../commands/command";
-import { useDesk } from "../store/desk";
-import { beginTour } from "../store/tour";
+import { allCommands, foldCommands } from "../commands/list";
+import { startTour } from "../store/tour";
+import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
-import { folded } from "./folded";
 import css from "./overlay.module.css";
 
 const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "Demonstrate", "Learn", "Review", "Edit"];
 
 const HOW = [
-  ["Label", "Give hulls labels: pick them and press a digit, on a few assets or on all."],
-  ["Demonstrate", "On one or two assets, pick hulls and choose what becomes of them, step by step."],
-  ["Learn", "The program that does the same is found at once; answer what it asks, until it is settled."],
-  ["Review", "Apply it to the family, look at each, accept or flag, and export."],
+  ["Label", "Label hulls: select them and press a digit, on a few assets or on all."],
+  ["Demonstrate", "On one or two assets, select hulls and choose an action, step by step."],
+  ["Learn", "MeshForge finds the program that does the same. Answer its questions until it is unambiguous."],
+  ["Review", "Apply the program to the family, accept or flag each result, and export."],
 ] as const;
 
-const close = () => useDesk.setState({ overlay: "none" });
+const close = () => useWorkspace.setState({ overlay: "none" });
 
 export function Help() {
-  const open = useDesk((desk) => desk.overlay === "help");
+  const open = useWorkspace((workspace) => workspace.overlay === "help");
   return (
     <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
       <Dialog.Portal>
@@ -40,7 +39,7 @@ function Content() {
   const word = search.trim().toLowerCase();
   const fits = (command: Command) =>
     !word || `${command.title} ${command.group} ${command.keys.join(" ")}`.toLowerCase().includes(word);
-  const groups = GROUPS.map((group) => ({ group, commands: all.filter((one) => one.group === group && fits(one)) }));
+  const groups = GROUPS.map((group) => ({ group, commands: allCommands.filter((one) => one.group === group && fits(one)) }));
   const none = groups.every(({ commands }) => commands.length === 0);
   return (
     <>
@@ -57,7 +56,7 @@ function Content() {
         <Button
           onClick={() => {
             close();
-            beginTour();
+            startTour();
           }}
         >
           Guided tour
@@ -66,7 +65,7 @@ function Content() {
       </header>
       <div className={css.scroll} tabIndex={0}>
         {!word && <How />}
-        {none && <p className={css.none}>No command fits.</p>}
+        {none && <p className={css.none}>No command matches.</p>}
         <div className={css.groups}>
           {groups
             .filter(({ commands }) => commands.length > 0)
@@ -81,7 +80,7 @@ function Content() {
 
 function How() {
   return (
-    <ol className={css.how} aria-label="How it goes">
+    <ol className={css.how} aria-label="How it works">
       {HOW.map(([name, text], k) => (
         <li key={name}>
           <span className={css.number}>{k + 1}</span>
@@ -99,7 +98,7 @@ function Group({ name, commands }: { name: string; commands: readonly Command[] 
     <div className={css.group} role="group" aria-label={name}>
       <h3>{name}</h3>
       <dl>
-        {folded(commands).map((command) => (
+        {foldCommands(commands).map((command) => (
           <div key={command.id} className={css.pair}>
             <dt>{command.title}</dt>
             <dd>

@@ -1,16 +1,15 @@
 // A list of what can be done now, and of all assets, by name.
 import { Dialog } from "radix-ui";
 import { type KeyboardEvent, useEffect, useId, useMemo, useRef, useState } from "react";
-import { useDesk } from "../store/desk";
+import { type PaletteLine, paletteLines, rankLines } from "../commands/list";
+import { useWorkspace } from "../store/workspace";
 import css from "./overlay.module.css";
-import { type ChoiceLine, choices } from "./choices";
-import { ranked } from "./ranked";
 
 const MOST = 60;
-const close = () => useDesk.setState({ overlay: "none" });
+const close = () => useWorkspace.setState({ overlay: "none" });
 
 export function Palette() {
-  const open = useDesk((desk) => desk.overlay === "palette");
+  const open = useWorkspace((workspace) => workspace.overlay === "palette");
   return (
     <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
       <Dialog.Portal>
@@ -26,10 +25,10 @@ export function Palette() {
 
 function List() {
   const id = useId();
-  const all = useMemo(choices, []);
+  const all = useMemo(paletteLines, []);
   const [search, setSearch] = useState("");
   const [at, setAt] = useState(0);
-  const shown = ranked(all, search).slice(0, MOST);
+  const shown = rankLines(all, search).slice(0, MOST);
   const run = (place: number) => {
     const choice = shown[place];
     if (!choice) return;
@@ -61,7 +60,7 @@ function List() {
         }}
         onKeyDown={key}
       />
-      <ul id={id} role="listbox" aria-label="What fits" className={css.list}>
+      <ul id={id} role="listbox" aria-label="Matches" className={css.list}>
         {shown.map((choice, place) => (
           <Row
             key={choice.id}
@@ -72,7 +71,7 @@ function List() {
             onPoint={() => setAt(place)}
           />
         ))}
-        {shown.length === 0 && <li className={css.none}>Nothing fits.</li>}
+        {shown.length === 0 && <li className={css.none}>No match.</li>}
       </ul>
     </>
   );
@@ -80,7 +79,7 @@ function List() {
 
 interface RowProps {
   id: string;
-  choice: ChoiceLine;
+  choice: PaletteLine;
   on: boolean;
   onRun: () => void;
   onPoint: () => void;

@@ -2,7 +2,7 @@
 import { Check, CircleX, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { undo } from "../store/edits";
-import { dismissed, type Toast, useToasts } from "../store/toasts";
+import { dismissToast, type Toast, useToasts } from "../store/toasts";
 import { Button, IconButton } from "../ui/Button";
 import css from "./toasts.module.css";
 
@@ -29,7 +29,7 @@ function ToastLine({ toast }: { toast: Toast }) {
   const fades = toast.kind === "done" && !held;
   useEffect(() => {
     if (!fades) return;
-    const timer = setTimeout(() => dismissed(toast.id), FADES_AFTER);
+    const timer = setTimeout(() => dismissToast(toast.id), FADES_AFTER);
     return () => clearTimeout(timer);
   }, [fades, toast.id]);
   const Icon = toast.kind === "done" ? Check : CircleX;
@@ -51,14 +51,14 @@ function ToastLine({ toast }: { toast: Toast }) {
         <Button
           keys="Ctrl+Z"
           onClick={() => {
-            dismissed(toast.id);
+            dismissToast(toast.id);
             void undo();
           }}
         >
           Undo
         </Button>
       )}
-      <IconButton icon={X} name="Dismiss" onClick={() => dismissed(toast.id)} />
+      <IconButton icon={X} name="Dismiss" onClick={() => dismissToast(toast.id)} />
     </div>
   );
 }

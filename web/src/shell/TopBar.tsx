@@ -1,14 +1,16 @@
 // The bar above: project, search, undo and redo, what works in the background, theme, help.
-import { CircleQuestionMark, PanelLeftOpen, Redo2, Search, Undo2 } from "lucide-react";
-import { useDesk } from "../store/desk";
+import { CircleQuestionMark, Monitor, Moon, PanelLeftOpen, Redo2, Search, Sun, Undo2 } from "lucide-react";
+import { Popover } from "radix-ui";
+import { api } from "../server/api";
 import { redo, undo } from "../store/edits";
-import { setLayout, useLayout } from "../store/layout";
 import { useProject } from "../store/project";
-import { IconButton } from "../ui/Button";
-import { Jobs } from "./Jobs";
-import { ThemeMenu } from "./ThemeMenu";
+import { reportError } from "../store/toasts";
+import { setLayout, useLayout, useWorkspace, type WorkspaceState } from "../store/workspace";
+import { Button, IconButton } from "../ui/Button";
+import { Menu } from "../ui/Menu";
+import { Wordmark } from "../ui/Wordmark";
+import type { Job } from "../wire";
 import css from "./TopBar.module.css";
-import { Wordmark } from "./Wordmark";
 
 export function TopBar() {
   const { name, folder } = useProject((state) => state.project);
@@ -33,7 +35,7 @@ export function TopBar() {
         icon={CircleQuestionMark}
         name="Keys and help"
         keys="?"
-        onClick={() => useDesk.setState({ overlay: "help" })}
+        onClick={() => useWorkspace.setState({ overlay: "help" })}
       />
     </header>
   );
@@ -41,7 +43,7 @@ export function TopBar() {
 
 function SearchButton() {
   return (
-    <button type="button" className={css.search} onClick={() => useDesk.setState({ overlay: "palette" })}>
+    <button type="button" className={css.search} onClick={() => useWorkspace.setState({ overlay: "palette" })}>
       <Search size={14} aria-hidden />
       <span>Find a command or an asset</span>
       <kbd>Ctrl+K</kbd>
@@ -81,5 +83,99 @@ function Learning() {
         </span>
       )}
     </span>
+  );
+}
+
+/** Work that takes long: how far it is, what came of it, and stopping it. */
+function Jobs() {
+  const jobs = useProject((state) => state.jobs);
+  if (jobs.length === 0) return null;
+  const running = jobs.filter((job) => job.state === "running");
+  const [first] = running;
+  const latest = jobs[jobs.length - 1];
+  return (
+    <Popover.Root>
+      <Popover.Trigger className={css.jobButton}>
+        {first ? (
+          <>
+            {first.title}
+            <progress value={first.total ? first.done : undefined} max={first.total || 1} aria-label={first.title} />
+            {first.total > 0 && `${first.done}/${first.total}`}
+            {running.length > 1 && ` +${running.length - 1}`}
+          </>
+        ) : (
+          <>
+            <Sign state={latest?.state ?? "done"} /> Jobs
+          </>
+        )}
+      </Popover.Trigger>
+      <Popover.Portal>
+        <Popover.Content className={css.jobs} align="end" sideOffset={5} aria-label="Jobs">
+          <ul>
+            {[...jobs].reverse().map((job) => (
+              <JobRow key={job.id} job={job} />
+            ))}
+          </ul>
+        </Popover.Content>
+      </Popover.Portal>
+    </Popover.Root>
+  );
+}
+
+const SIGNS = { running: "…", done: "✓", failed: "✗", cancelled: "–" } as const;
+const WORDS = { running: "running", done: "done", failed: "failed", cancelled: "stopped" } as const;
+
+function Sign({ state }: { state: Job["state"] }) {
+  return (
+    <span role="img" aria-label={WORDS[state]}>
+      {SIGNS[state]}
+    </span>
+  );
+}
+
+function JobRow({ job }: { job: Job }) {
+  return (
+    <li className={css.job}>
+      <div className={css.jobHead}>
+        <Sign state={job.state} />
+        <span className={css.jobTitle}>{job.title}</span>
+        {job.total > 0 && `${job.done} of ${job.total}`}
+        {job.state === "running" && job.kind !== "read" && (
+          <Button onClick={() => void api.cancelJob(job.id).catch(reportError)}>Stop</Button>
+        )}
+      </div>
+      {job.state === "running" && (
+        <progress value={job.total ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
+      )}
+      {job.message && <p className={css.message}>{job.message}</p>}
+      {job.lines.length > 0 && (
+        <ul className={css.lines} tabIndex={0} aria-label="Results by asset">
+          {job.lines.map((line) => (
+            <li key={line.asset} data-status={line.status}>
+              <b>{line.asset}</b> {line.status}
+              {line.text && `: ${line.text}`}
+            </li>
+          ))}
+        </ul>
+      )}
+    </li>
+  );
+}
+
+type Theme = WorkspaceState["theme"];
+const THEME_NAMES: Readonly<Record<Theme, string>> = { light: "Light", dark: "Dark", system: "Like the system" };
+const ICONS = { light: Sun, dark: Moon, system: Monitor } as const;
+
+/** Theme: light, dark, or like the system has it. */
+function ThemeMenu() {
+  const theme = useWorkspace((workspace) => workspace.theme);
+  return (
+    <Menu
+      trigger={<IconButton icon={ICONS[theme]} name={`Theme: ${THEME_NAMES[theme].toLowerCase()}`} />}
+      lines={(["light", "dark", "system"] as const).map((value) => ({
+        label: value === theme ? `✓ ${THEME_NAMES[value]}` : THEME_NAMES[value],
+        onSelect: () => useWorkspace.setState({ theme: value }),
+      }))}
+    />
   );
 }

@@ -1,9 +1,8 @@
 // Keys mean commands, unless a person types, or a control that was reached by key wants them itself.
-import { all, commandFor } from "../commands/all";
-import { pressed } from "../commands/command";
-import { isBusy, typed } from "../commands/turns";
-import { useDesk } from "../store/desk";
-import { toNextPart } from "./parts";
+import { pressedKeys } from "../commands/command";
+import { allCommands, commandFor } from "../commands/list";
+import { isBusy, runKey } from "../commands/queue";
+import { useWorkspace } from "../store/workspace";
 
 const IN_FIELDS = new Set(["Escape", "Ctrl+Enter", "Ctrl+K"]);
 const OF_CONTROLS = new Set(["Enter", "Space"]);
@@ -24,21 +23,21 @@ export function bindKeys(): void {
   window.addEventListener("pointerdown", () => (byKey = false), true);
   window.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.isComposing) return;
-    const key = pressed(event);
+    const key = pressedKeys(event);
     const { target } = event;
     const open = isOpen(key, target, byKey && target !== document.body);
-    const isOurs = open && (meaning(key) !== undefined || (isBusy() && isCommand(key)));
+    const isOurs = open && (actionOf(key) !== undefined || (isBusy() && isCommand(key)));
     if (isOurs ? isToPart(key) : MOVES.test(key)) byKey = true;
     if (!isOurs) return;
     event.preventDefault();
-    if (!event.repeat || MAY_REPEAT.test(key)) typed(() => meaning(key));
+    if (!event.repeat || MAY_REPEAT.test(key)) runKey(() => actionOf(key));
   });
 }
 
 /** Whether a key pressed on an element is not left to the element and the browser. */
 function isOpen(key: string, target: EventTarget | null, byKey: boolean): boolean {
   if (!(target instanceof Element)) return false;
-  const { overlay } = useDesk.getState();
+  const { overlay } = useWorkspace.getState();
   if (overlay === "help" || overlay === "palette") return false;
   if (target.closest("[role=dialog]:not([data-modeless]), [role=menu]")) return false;
   if (isToPart(key)) return true;
@@ -50,9 +49,27 @@ function isOpen(key: string, target: EventTarget | null, byKey: boolean): boolea
 const isToPart = (key: string): boolean => key === "F6" || key === "Shift+F6";
 
 /** What a key does now. */
-function meaning(key: string): (() => unknown) | undefined {
+function actionOf(key: string): (() => unknown) | undefined {
   return isToPart(key) ? () => toNextPart(key === "F6" ? 1 : -1) : commandFor(key)?.run;
 }
 
 /** Whether a key may mean something once the commands that are on their way are done. */
-const isCommand = (key: string): boolean => all.some((command) => command.keys.includes(key));
+const isCommand = (key: string): boolean => allCommands.some((command) => command.keys.includes(key));
+
+const FOCUSABLE = "button:not(:disabled), input:not([hidden]), [tabindex='0'], [role=tab][aria-selected=true]";
+
+/** Puts the focus on the next part, or the one before, that can take it. */
+function toNextPart(by: 1 | -1): void {
+  const parts = [...document.querySelectorAll<HTMLElement>("[data-part]")].filter((part) => firstIn(part) !== null);
+  // parts may lie in parts: the innermost counts
+  const here = parts.findLastIndex((part) => part.contains(document.activeElement));
+  const next = here < 0 ? (by === 1 ? 0 : parts.length - 1) : (here + by + parts.length) % parts.length;
+  const part = parts[next];
+  if (part) firstIn(part)?.focus();
+}
+
+function firstIn(part: HTMLElement): HTMLElement | null {
+  const chosen = part.querySelector<HTMLElement>("[data-first]");
+  if (chosen) return chosen;
+  return [...part.querySelectorAll<HTMLElement>(FOCUSABLE)].find((one) => one.offsetParent !== null) ?? null;
+}

@@ -1,18 +1,18 @@
 // One step: its number, what it does to how many hulls, and the menu of what can be done with it.
 import { Ellipsis, TriangleAlert } from "lucide-react";
 import { type KeyboardEvent, useEffect } from "react";
-import { inTurn } from "../commands/turns";
-import { select, show, useDesk } from "../store/desk";
-import { draftStep } from "../store/beginning";
-import { light, unlight } from "../store/lighting";
+import { runInTurn } from "../commands/queue";
+import { draftStep } from "../store/draft";
+import { splitAction } from "../store/actions";
+import { clearStepHighlight, highlightStep } from "../store/highlight";
 import { useProject } from "../store/project";
-import { actionOf } from "../store/steps";
-import { amount, splitAction } from "../store/stepWords";
+import { actionOf, amountText } from "../store/steps";
+import { select, show, useWorkspace } from "../store/workspace";
 import { IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
 import type { AssetView, StepView } from "../wire";
-import { actionIcon } from "./actionLooks";
-import { moveRule, stepLines, takeAway } from "./stepMenu";
+import { actionIcon } from "./actionIcon";
+import { moveRule, stepMenu, removeStepHere } from "./stepMenu";
 import css from "./steps.module.css";
 
 interface StepChipProps {
@@ -25,11 +25,11 @@ interface StepChipProps {
 export function StepChip({ view, place, count, drag }: StepChipProps) {
   const step = view.steps[place];
   const family = useProject((state) => state.project.rules[place]?.action);
-  const shown = useDesk(({ showing }) => showing.kind === "steps" && showing.steps === place + 1);
-  const inHand = useDesk((desk) => desk.draft?.editing === place && desk.stage === "demonstrate");
+  const shown = useWorkspace(({ showing }) => showing.kind === "steps" && showing.steps === place + 1);
+  const inHand = useWorkspace((workspace) => workspace.draft?.editing === place && workspace.stage === "demonstrate");
   const text = step?.action ?? family ?? actionOf(place);
   const { action, label } = splitAction(text);
-  useEffect(() => unlight, []);
+  useEffect(() => clearStepHighlight, []);
   const Icon = actionIcon(text);
   const isOpen = step?.select == null;
   return (
@@ -39,37 +39,37 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
       data-shown={shown || undefined}
       data-in-hand={inHand || undefined}
       data-error={step?.error ? true : undefined}
-      onPointerEnter={() => light(view, step?.select ?? [], place)}
-      onPointerLeave={unlight}
+      onPointerEnter={() => highlightStep(view, step?.select ?? [], place)}
+      onPointerLeave={clearStepHighlight}
       {...drag}
     >
       <button
         type="button"
         className={css.chipButton}
         aria-pressed={shown}
-        aria-label={`Step ${place + 1}: ${text}, ${amount(step)}${step?.error ? `, ${step.error}` : ""}`}
+        aria-label={`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}
         data-chip
         tabIndex={-1}
-        title={step?.error ?? (isOpen ? `${text}: nothing is said here, so that the program decides` : text)}
-        onClick={() => open(view, place)}
-        onKeyDown={(event) => keyed(event, view, place, count)}
+        title={step?.error ?? (isOpen ? `${text}: not demonstrated here, so the program decides` : text)}
+        onClick={() => showStep(view, place)}
+        onKeyDown={(event) => handleKey(event, view, place, count)}
       >
         <span className={css.number}>{place + 1}</span>
         {step?.error ? <TriangleAlert size={14} aria-hidden /> : <Icon size={14} aria-hidden />}
         <span className={css.action}>{action}</span>
-        <span className={css.amount}>{amount(step)}</span>
-        {label && <Made label={label} />}
+        <span className={css.amount}>{amountText(step)}</span>
+        {label && <MadeLabel label={label} />}
       </button>
       <Menu
         trigger={<IconButton icon={Ellipsis} name={`More for step ${place + 1}`} className={css.more} />}
-        lines={stepLines(view, place, count)}
+        lines={stepMenu(view, place, count)}
       />
       {step?.error && <span className={css.error}>{step.error}</span>}
     </li>
   );
 }
 
-function Made({ label }: { label: string }) {
+function MadeLabel({ label }: { label: string }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === label)?.color);
   return (
     <span className={css.made} style={{ borderColor: color }}>
@@ -78,29 +78,29 @@ function Made({ label }: { label: string }) {
   );
 }
 
-/** Shows the asset after a step, with what is left or made of its hulls selected; an open one is taken into the hand. */
-function open(view: AssetView, place: number): void {
+/** Shows the asset after a step, with what is left or made of its hulls selected; an open one becomes the action in hand. */
+function showStep(view: AssetView, place: number): void {
   const step = view.steps[place];
-  if (step?.select == null || step.error) return inTurn(() => draftStep(place));
+  if (step?.select == null || step.error) return runInTurn(() => draftStep(place));
   show({ kind: "steps", steps: place + 1 });
-  select(after(step));
+  select(hullsAfter(step));
 }
 
-function after({ select: selected, made, removed }: StepView): string[] {
+function hullsAfter({ select: selected, made, removed }: StepView): string[] {
   const gone = new Set(removed);
   return [...(selected ?? []).filter((name) => !gone.has(name)), ...made];
 }
 
-function keyed(event: KeyboardEvent, view: AssetView, place: number, count: number): void {
-  const act = meant(event, view, place, count);
+function handleKey(event: KeyboardEvent, view: AssetView, place: number, count: number): void {
+  const act = keyAction(event, view, place, count);
   if (!act) return;
   event.preventDefault();
   act();
 }
 
-function meant(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
-  if (event.key === "Enter") return () => inTurn(() => draftStep(place));
-  if (event.key === "Delete" || event.key === "Backspace") return () => takeAway(view.asset, place);
+function keyAction(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
+  if (event.key === "Enter") return () => runInTurn(() => draftStep(place));
+  if (event.key === "Delete" || event.key === "Backspace") return () => removeStepHere(view.asset, place);
   if (event.altKey && event.key === "ArrowLeft" && place > 0) return () => moveRule(place, place - 1);
   if (event.altKey && event.key === "ArrowRight" && place < count - 1) return () => moveRule(place, place + 1);
   return null;

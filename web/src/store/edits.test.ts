@@ -2,7 +2,7 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
 import { page, ServerProblem } from "../server/http";
-import { onTheirWay, perform, sentence, undo } from "./edits";
+import { pendingEdits, perform, capitalize, undo } from "./edits";
 import { emptyProject, receive, useProject } from "./project";
 import { useToasts } from "./toasts";
 
@@ -18,13 +18,13 @@ beforeEach(() => {
   useProject.setState(emptyProject, true);
 });
 
-test("what was done is told, and can be undone", async () => {
+test("what was done is notified, and can be undone", async () => {
   edit.mockResolvedValue({ said: "labelled 3 hulls" });
   expect(await perform(labels)).toBe(true);
   expect(toasts()[0]).toMatchObject({ text: "Labelled 3 hulls", undo: true });
 });
 
-test("what changed nothing offers no undo; what is quiet is not told", async () => {
+test("what changed nothing offers no undo; what is quiet is not notified", async () => {
   edit.mockResolvedValue({ said: "nothing to label", nothing: true });
   await perform(labels);
   expect(toasts()[0]?.undo).toBe(false);
@@ -51,7 +51,7 @@ test("an edit waits for those before it, also where one is refused", async () =>
   expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
 });
 
-test("an edit is over when the page was told what it changed, or is not connected any more", async () => {
+test("an edit is over when the page knows what it changed, or is not connected any more", async () => {
   useProject.setState({ connected: true });
   edit.mockResolvedValue({ said: "done" });
   const over = vi.fn();
@@ -59,9 +59,9 @@ test("an edit is over when the page was told what it changed, or is not connecte
   const history = { kind: "history", history: emptyProject.history, did: "edit", said: "done" } as const;
   receive({ ...history, by: "another page" });
   await new Promise((soon) => setTimeout(soon, 20));
-  expect([over.mock.calls.length, onTheirWay() === null]).toEqual([0, false]);
+  expect([over.mock.calls.length, pendingEdits() === null]).toEqual([0, false]);
   receive({ ...history, by: page });
-  await expect.poll(() => [over.mock.calls.length, onTheirWay()]).toEqual([1, null]);
+  await expect.poll(() => [over.mock.calls.length, pendingEdits()]).toEqual([1, null]);
   void perform(labels).then(over);
   await new Promise((soon) => setTimeout(soon, 20));
   expect(over).toHaveBeenCalledTimes(1);
@@ -70,7 +70,7 @@ test("an edit is over when the page was told what it changed, or is not connecte
 });
 
 test("names of files keep their first letter", () => {
-  expect(["table_1.obj: fine", "vocabulary: a, b", "step 1", "a/b: fine"].map(sentence)).toEqual([
+  expect(["table_1.obj: fine", "vocabulary: a, b", "step 1", "a/b: fine"].map(capitalize)).toEqual([
     "table_1.obj: fine",
     "Vocabulary: a, b",
     "Step 1",

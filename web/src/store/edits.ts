@@ -3,7 +3,7 @@
 import { api } from "../server/api";
 import type { AnyEdit, Done } from "../wire";
 import { type ProjectState, useProject } from "./project";
-import { complainedOf, told } from "./toasts";
+import { reportError, notify } from "./toasts";
 
 /** What takes longer to reach the page, as where the connection hangs, is no longer waited for [ms]. */
 const PATIENCE = 3000;
@@ -11,30 +11,30 @@ const PATIENCE = 3000;
 let queue: Promise<unknown> | null = null;
 
 /** Fulfilled when all edits that are on their way now are done; null where there is none. */
-export const onTheirWay = (): Promise<unknown> | null => queue;
+export const pendingEdits = (): Promise<unknown> | null => queue;
 
-/** Makes an edit; tells what was done, or what went wrong. */
+/** Makes an edit; notifies what was done, or what went wrong. */
 export function perform(edit: AnyEdit, options: { quiet?: boolean } = {}): Promise<boolean> {
-  return inTurn(() => api.edit(edit), options.quiet ? null : sentence);
+  return enqueue(() => api.edit(edit), options.quiet ? null : capitalize);
 }
 
-export const undo = (): Promise<boolean> => inTurn(api.undo, (said) => `Undone: ${said}`);
-export const redo = (): Promise<boolean> => inTurn(api.redo, (said) => `Redone: ${said}`);
+export const undo = (): Promise<boolean> => enqueue(api.undo, (said) => `Undone: ${said}`);
+export const redo = (): Promise<boolean> => enqueue(api.redo, (said) => `Redone: ${said}`);
 
 /** What was done as a sentence: its first word, unless that is a name, with a capital letter. */
-export const sentence = (said: string): string => said.replace(/^[a-z](?=[a-z]*[ :])/, (first) => first.toUpperCase());
+export const capitalize = (said: string): string => said.replace(/^[a-z](?=[a-z]*[ :])/, (first) => first.toUpperCase());
 
 /** Does one request after those before; tell: what the toast says of what was done, null for no toast. */
-function inTurn(request: () => Promise<Done>, tell: ((said: string) => string) | null): Promise<boolean> {
+function enqueue(request: () => Promise<Done>, tell: ((said: string) => string) | null): Promise<boolean> {
   const mine = (queue ?? Promise.resolve()).then(async () => {
     const before = useProject.getState();
     try {
       const done = await request();
-      if (!done.nothing) await shown(before);
-      if (tell && done.said) told(tell(done.said), tell === sentence && !done.nothing);
+      if (!done.nothing) await whenShown(before);
+      if (tell && done.said) notify(tell(done.said), tell === capitalize && !done.nothing);
       return true;
     } catch (error) {
-      complainedOf(error);
+      reportError(error);
       return false;
     } finally {
       if (queue === mine) queue = null;
@@ -44,8 +44,8 @@ function inTurn(request: () => Promise<Done>, tell: ((said: string) => string) |
   return mine;
 }
 
-/** Waits until the page was told what its edit changed; before: the state when the edit was sent. */
-function shown(before: ProjectState): Promise<void> {
+/** Waits until the page knows what its edit changed; before: the state when the edit was sent. */
+function whenShown(before: ProjectState): Promise<void> {
   const isOver = (now: ProjectState) => !now.connected || now.own !== before.own || now.hellos !== before.hellos;
   return new Promise((pass) => {
     const end = () => {

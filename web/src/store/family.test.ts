@@ -1,8 +1,8 @@
 // What the family shows, and in which order one walks through it.
 import { expect, test } from "vitest";
 import type { Card } from "../wire";
-import type { Filters } from "./desk";
-import { counted, filtered, has, neighbour } from "./family";
+import type { Filters } from "./workspace";
+import { countByFilter, filterAssets, matchesFilter, neighbour } from "./family";
 import { sampleCard } from "./sample.test-help";
 
 const plain = sampleCard({ hulls: 2, labels: [0, 1] });
@@ -16,7 +16,7 @@ const project = {
   ],
 };
 const shown = (cards: Record<string, Card>, filters: Partial<Filters> = {}) =>
-  filtered(cards, Object.keys(cards), { ...all, ...filters }, project);
+  filterAssets(cards, Object.keys(cards), { ...all, ...filters }, project);
 
 test("names are sorted as people count", () => {
   expect(shown(family(card({ asset: "t10" }), card({ asset: "t2" }), card({ asset: "t1" })))).toEqual(["t1", "t2", "t10"]);
@@ -53,16 +53,16 @@ test("those that changed most come first, those without output last", () => {
 });
 
 test("an asset that cannot be read counts as failed", () => {
-  expect(has(card({ error: "no such mesh" }), "failed")).toBe(true);
+  expect(matchesFilter(card({ error: "no such mesh" }), "failed")).toBe(true);
 });
 
 test("only outputs get stale", () => {
-  expect(has(card({ stale: ["program"] }), "stale")).toBe(false);
-  expect(has(card({ stale: ["program"], output: "edited" }), "stale")).toBe(true);
+  expect(matchesFilter(card({ stale: ["program"] }), "stale")).toBe(false);
+  expect(matchesFilter(card({ stale: ["program"], output: "edited" }), "stale")).toBe(true);
 });
 
 test("every filter counts its cards", () => {
-  const counts = counted(family(card({ asset: "a", labels: [-1] }), card({ asset: "b", unsure: [0], demonstrated: true })));
+  const counts = countByFilter(family(card({ asset: "a", labels: [-1] }), card({ asset: "b", unsure: [0], demonstrated: true })));
   expect(counts).toMatchObject({ unlabelled: 1, unsure: 1, demonstrated: 1, flagged: 0 });
 });
 

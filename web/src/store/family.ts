@@ -1,8 +1,8 @@
 // Which assets the family shows, and in which order.
 import type { Card, ProjectView } from "../wire";
-import { type FilterName, type Filters, useDesk } from "./desk";
-import { faultsOf, weightOf } from "./faults";
+import { faultsOf, weightOf } from "./checks";
 import { useProject } from "./project";
+import { type FilterName, type Filters, useWorkspace } from "./workspace";
 
 export const FILTERS: readonly FilterName[] = [
   "unlabelled",
@@ -21,7 +21,7 @@ type Cards = Readonly<Record<string, Card>>;
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label < 0).length;
 
-const HAS: Readonly<Record<FilterName, (card: Card, engine: string) => boolean>> = {
+const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label < 0),
   unsure: (card) => card.unsure.length > 0,
   demonstrated: (card) => card.demonstrated,
@@ -34,16 +34,16 @@ const HAS: Readonly<Record<FilterName, (card: Card, engine: string) => boolean>>
 };
 
 /** engine: whose limits count as findings of checks. */
-export const has = (card: Card, filter: FilterName, engine = ""): boolean => HAS[filter](card, engine);
+export const matchesFilter = (card: Card, filter: FilterName, engine = ""): boolean => MATCHES[filter](card, engine);
 
 /** How many cards each filter would show. */
-export function counted(cards: Cards, engine = ""): Record<FilterName, number> {
+export function countByFilter(cards: Cards, engine = ""): Record<FilterName, number> {
   const all = Object.values(cards);
-  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => HAS[name](card, engine)).length])) as Record<FilterName, number>;
+  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => MATCHES[name](card, engine)).length])) as Record<FilterName, number>;
 }
 
 /** The assets to show: any of the filters that are on, every word of the search, sorted. */
-export function filtered(
+export function filterAssets(
   cards: Cards,
   order: readonly string[],
   filters: Filters,
@@ -55,14 +55,14 @@ export function filtered(
   const kept = order.filter((asset) => {
     const card = cards[asset];
     if (!card) return false;
-    const wanted = filters.only.length === 0 || filters.only.some((name) => HAS[name](card, engine));
-    return wanted && words.every((word) => found(card, word, labels));
+    const wanted = filters.only.length === 0 || filters.only.some((name) => MATCHES[name](card, engine));
+    return wanted && words.every((word) => matchesWord(card, word, labels));
   });
-  return sorted(kept, cards, filters.sort, engine);
+  return sortAssets(kept, cards, filters.sort, engine);
 }
 
 /** Whether a word stands in the id of an asset, or begins a label that one of its hulls has. */
-function found(card: Card, word: string, labels: readonly string[]): boolean {
+function matchesWord(card: Card, word: string, labels: readonly string[]): boolean {
   if (card.asset.toLowerCase().includes(word)) return true;
   return card.labels.some((label) => labels[label]?.startsWith(word));
 }
@@ -75,7 +75,7 @@ const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card, eng
   findings: (card, engine) => weightOf(card, engine),
 };
 
-function sorted(assets: readonly string[], cards: Cards, by: Filters["sort"], engine: string): readonly string[] {
+function sortAssets(assets: readonly string[], cards: Cards, by: Filters["sort"], engine: string): readonly string[] {
   const natural = [...assets].sort(byName.compare);
   if (by === "name") return natural;
   const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by, engine)]));
@@ -111,15 +111,24 @@ let last: { cards: Cards; order: readonly string[]; filters: Filters; engine: st
 /** The assets that the family shows now; the same array as long as it is the same. */
 export function shownAssets(): readonly string[] {
   const { cards, order, project } = useProject.getState();
-  const { filters, checks } = useDesk.getState();
+  const { filters, checks } = useWorkspace.getState();
   const { engine } = checks;
   const labels = project.vocabulary;
   const same = last?.cards === cards && last.order === order && last.filters === filters && last.labels === labels;
   if (last && same && last.engine === engine) return last.shown;
-  const fresh = filtered(cards, order, filters, project, engine);
-  const shown = last && equal(last.shown, fresh) ? last.shown : fresh;
+  const fresh = filterAssets(cards, order, filters, project, engine);
+  const shown = last && isEqual(last.shown, fresh) ? last.shown : fresh;
   last = { cards, order, filters, engine, labels, shown };
   return shown;
 }
 
-const equal = (a: readonly string[], b: readonly string[]) => a.length === b.length && a.every((x, k) => x === b[k]);
+const isEqual = (a: readonly string[], b: readonly string[]) => a.length === b.length && a.every((x, k) => x === b[k]);
+
+/** The assets that the family shows now. */
+export function useShown(): readonly string[] {
+  useProject((state) => state.cards);
+  useProject((state) => state.order);
+  useProject((state) => state.project.vocabulary);
+  useWorkspace((workspace) => workspace.filters);
+  return shownAssets();
+}

@@ -3,13 +3,12 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { Guess } from "../wire";
-import { useDesk } from "./desk";
-import { draftStep } from "./beginning";
+import { draftStep } from "./draft";
 import { useProject } from "./project";
-import { isDeclined, isPassedOver, sayStep } from "./saying";
-import { details } from "./scenes";
-import { openRules } from "./steps";
-import { complainedOf } from "./toasts";
+import { getDetails } from "./scenes";
+import { isDeclined, isSkipped, openRules, setStep } from "./steps";
+import { reportError } from "./toasts";
+import { useWorkspace } from "./workspace";
 
 interface GuessesState {
   asset: string | null;
@@ -19,9 +18,9 @@ interface GuessesState {
   error: string | null;
 }
 
-const none: GuessesState = { asset: null, guesses: [], loading: false, error: null };
+const noGuesses: GuessesState = { asset: null, guesses: [], loading: false, error: null };
 
-export const useGuesses = create<GuessesState>()(() => none);
+export const useGuesses = create<GuessesState>()(() => noGuesses);
 
 /** Keeps the guesses in step until the returned function is called, and offers the next one to an empty hand. */
 export function followGuesses(): () => void {
@@ -29,64 +28,64 @@ export function followGuesses(): () => void {
   let fresh = false;
   async function ask(key: string): Promise<void> {
     fresh = false;
-    const answer = await asked();
-    if (key !== state()) return;
+    const answer = await fetchGuesses();
+    if (key !== stateKey()) return;
     useGuesses.setState(answer);
     fresh = true;
     await offer();
   }
   function look(): void {
-    const key = state();
+    const key = stateKey();
     if (key === known) return;
     known = key;
-    ask(key).catch(complainedOf);
+    ask(key).catch(reportError);
   }
   const stops = [
-    useDesk.subscribe((now, before) => {
+    useWorkspace.subscribe((now, before) => {
       look();
-      if (fresh && before.draft && !now.draft) offer().catch(complainedOf);
+      if (fresh && before.draft && !now.draft) offer().catch(reportError);
     }),
     useProject.subscribe(look),
   ];
   look();
   return () => {
     stops.forEach((stop) => stop());
-    useGuesses.setState(none);
+    useGuesses.setState(noGuesses);
   };
 }
 
 /** All that guesses depend on. */
-function state(): string {
-  const { asset, stage } = useDesk.getState();
+function stateKey(): string {
+  const { asset, stage } = useWorkspace.getState();
   const { revisions, program, lesson } = useProject.getState();
   return JSON.stringify([asset, stage, revisions[asset ?? ""], program.version, lesson?.number]);
 }
 
-async function asked(): Promise<Partial<GuessesState>> {
-  const { asset, stage } = useDesk.getState();
+async function fetchGuesses(): Promise<Partial<GuessesState>> {
+  const { asset, stage } = useWorkspace.getState();
   const { program, lesson } = useProject.getState();
-  if (asset === null || stage !== "demonstrate" || !(program.text || lesson?.program)) return none;
-  if (useGuesses.getState().asset !== asset) useGuesses.setState({ ...none, asset, loading: true });
+  if (asset === null || stage !== "demonstrate" || !(program.text || lesson?.program)) return noGuesses;
+  if (useGuesses.getState().asset !== asset) useGuesses.setState({ ...noGuesses, asset, loading: true });
   try {
     const { guesses } = await api.guesses(asset);
-    return { ...none, asset, guesses };
+    return { ...noGuesses, asset, guesses };
   } catch (error) {
     if (!(error instanceof ServerProblem)) throw error;
-    return { ...none, asset, error: error.problem.message };
+    return { ...noGuesses, asset, error: error.problem.message };
   }
 }
 
-/** Puts the guess for the first open rule into the hand, unless that is full or put it down before. */
+/** Offers the guess for the first open rule as the action in hand, unless there is one or the guess was skipped. */
 async function offer(): Promise<void> {
   const { asset, error } = useGuesses.getState();
   if (asset === null || error !== null) return;
-  const { view } = await details(asset);
+  const { view } = await getDetails(asset);
   const place = openRules(view).find((k) => !isDeclined(asset, k));
   if (place === undefined) return;
   const guess = guessFor(place + 1);
-  const { asset: now, draft, selection, tool, stage } = useDesk.getState();
+  const { asset: now, draft, selection, tool, stage } = useWorkspace.getState();
   const isFree = now === asset && stage === "demonstrate" && draft === null && !selection.size && tool === "select";
-  if (guess?.select.length && isFree && !isPassedOver(asset, place)) await draftStep(place, guess.select);
+  if (guess?.select.length && isFree && !isSkipped(asset, place)) await draftStep(place, guess.select);
 }
 
 /** The guess for a rule (from 1), where there is a sound one. */
@@ -98,6 +97,6 @@ export function guessFor(rule: number): Guess | undefined {
 export async function acceptGuess(rule: number): Promise<void> {
   const { asset } = useGuesses.getState();
   const guess = guessFor(rule);
-  if (asset !== null && guess && useDesk.getState().asset === asset)
-    await sayStep(asset, rule - 1, guess.select, guess.action);
+  if (asset !== null && guess && useWorkspace.getState().asset === asset)
+    await setStep(asset, rule - 1, guess.select, guess.action);
 }

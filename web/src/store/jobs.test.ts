@@ -1,10 +1,10 @@
 import { beforeEach, expect, it, vi } from "vitest";
-import { commandFor } from "../commands/all";
-import { labelling } from "../commands/labelling";
+import { commandFor } from "../commands/list";
+import { labelCommands } from "../commands/label";
 import { api } from "../server/api";
 import type { Job } from "../wire";
-import { initialDesk, useDesk } from "./desk";
-import { notCarriable } from "./jobs";
+import { initialWorkspace, useWorkspace } from "./workspace";
+import { whyNotPropagate } from "./jobs";
 import { emptyProject, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
@@ -17,32 +17,32 @@ const project = { ...emptyProject.project, vocabulary };
 
 beforeEach(() => {
   useProject.setState({ ...emptyProject, project, order: ["a", "b"], cards: { a: whole, b: bare } }, true);
-  useDesk.setState(initialDesk, true);
+  useWorkspace.setState(initialWorkspace, true);
   useToasts.setState({ toasts: [] });
 });
 
-it("says why labels cannot be carried over", () => {
-  expect(notCarriable()).toBeNull();
+it("says why labels cannot be propagated", () => {
+  expect(whyNotPropagate()).toBeNull();
   useProject.setState({ jobs: [job] });
-  expect(notCarriable()).toContain("now");
+  expect(whyNotPropagate()).toContain("now");
   useProject.setState({ jobs: [{ ...job, state: "done" }], cards: { a: whole } });
-  expect(notCarriable()).toContain("Every hull");
+  expect(whyNotPropagate()).toContain("labelled every hull");
   useProject.setState({ cards: { a: { ...whole, given: 0 } } });
-  expect(notCarriable()).toContain("one asset first");
+  expect(whyNotPropagate()).toContain("one asset first");
   useProject.setState({ project: emptyProject.project });
-  expect(notCarriable()).toContain("called");
+  expect(whyNotPropagate()).toContain("names of the labels");
   useProject.setState({ order: [] });
-  expect(notCarriable()).toContain("no assets");
+  expect(whyNotPropagate()).toContain("no assets");
 });
 
-it("is one key in the stage of labels, which tells where it cannot be done", async () => {
+it("is one key in the stage of labels, which says where it cannot be done", async () => {
   const begun = vi.spyOn(api, "startJob").mockResolvedValue(job);
-  await commandFor("P", labelling)?.run();
+  await commandFor("P", labelCommands)?.run();
   expect(begun).toHaveBeenCalledWith({ kind: "propagate" });
   useProject.setState({ project: emptyProject.project });
-  await commandFor("P", labelling)?.run();
+  await commandFor("P", labelCommands)?.run();
   expect(begun).toHaveBeenCalledTimes(1);
-  expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Say first what the parts are called."]);
-  useDesk.setState({ stage: "review" });
-  expect(commandFor("P", labelling)).toBeUndefined();
+  expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Type the names of the labels first."]);
+  useWorkspace.setState({ stage: "review" });
+  expect(commandFor("P", labelCommands)).toBeUndefined();
 });

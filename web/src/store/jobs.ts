@@ -1,67 +1,78 @@
-// Long work that a person starts: carrying labels over, applying the program, exporting.
+// Long work that a person starts: propagating labels, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { JobRequest, Model } from "../wire";
+import type { Job, JobRequest, Model } from "../wire";
 import { useProject } from "./project";
-import { complainedOf } from "./toasts";
-import { givenLabels } from "./unsure";
+import { reportError } from "./toasts";
+import { givenLabels } from "./unsureHulls";
 
 /** Why the program cannot be applied, null where it can. */
-export function notApplicable(): string | null {
+export function whyNotApply(): string | null {
   const { program, project, order, jobs } = useProject.getState();
   if (!order.length) return "There are no assets yet.";
   if (program.error) return `The program cannot be read: ${program.error}`;
   if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
   if (project.problem) return project.problem;
-  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
+  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "The program is being applied now." : null;
 }
 
-/** Why labels cannot be carried over, null where they can. */
-export function notCarriable(): string | null {
+/** Why labels cannot be propagated, null where they can. */
+export function whyNotPropagate(): string | null {
   const { cards, project, order, jobs } = useProject.getState();
   const { hulls, given } = givenLabels(cards);
-  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "It is being done now.";
+  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "Labels are being propagated now.";
   if (!order.length) return "There are no assets yet.";
-  if (!project.vocabulary.length) return "Say first what the parts are called.";
+  if (!project.vocabulary.length) return "Type the names of the labels first.";
   if (!given) return "Label the hulls of one asset first.";
-  return given === hulls ? "Every hull is labelled by you or a file." : null;
+  return given === hulls ? "You or a file labelled every hull." : null;
 }
 
 /** Begins a job, and gives its id; null where it cannot be begun. */
-async function begin(request: JobRequest): Promise<string | null> {
+async function requestJob(request: JobRequest): Promise<string | null> {
   try {
     return (await api.startJob(request)).id;
   } catch (error) {
-    complainedOf(error);
+    reportError(error);
     return null;
   }
 }
 
-const start = async (request: JobRequest): Promise<boolean> => (await begin(request)) !== null;
+const startJob = async (request: JobRequest): Promise<boolean> => (await requestJob(request)) !== null;
 
 /** Applies the program to all assets, or to some. */
 export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
-  start({ kind: "apply", assets: assets && [...assets] });
+  startJob({ kind: "apply", assets: assets && [...assets] });
 
-export const carryOver = (): Promise<boolean> => start({ kind: "propagate" });
+export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propagate" });
 
 /** Finds out what asking the model would send and cost; gives the id of the job. */
-export const forecastAsking = (mode: Model["mode"]): Promise<string | null> => begin({ kind: "forecast", mode });
+export const forecastModel = (mode: Model["mode"]): Promise<string | null> => requestJob({ kind: "forecast", mode });
 
 export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<boolean> =>
-  start({ kind: "ask", mode, max_cost });
+  startJob({ kind: "ask", mode, max_cost });
 
 export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
-  start({ kind: "export", folder, accepted_only });
+  startJob({ kind: "export", folder, accepted_only });
 
 /** Why results cannot be checked, null where they can. */
-export function notCheckable(): string | null {
+export function whyNotCheck(): string | null {
   const { cards, jobs } = useProject.getState();
   if (jobs.some((job) => job.kind === "check" && job.state === "running")) return "They are being checked now.";
   return Object.values(cards).some((card) => card.check !== null) ? null : "Nothing is written yet: apply the program.";
 }
 
-export const checkAll = (): Promise<boolean> => start({ kind: "check" });
+export const checkAll = (): Promise<boolean> => startJob({ kind: "check" });
 
 export function cancelJob(id: string): void {
-  api.cancelJob(id).catch(complainedOf);
+  api.cancelJob(id).catch(reportError);
 }
+
+/** The latest job of a kind. */
+export function useJob(kind: Job["kind"]): Job | null {
+  return useProject((state) => state.jobs.findLast((job) => job.kind === kind) ?? null);
+}
+
+export const makeHulls = (assets: string[]) => void api.startJob({ kind: "decompose", assets }).catch(reportError);
+
+/** Whether an asset is waiting for hulls to be made. */
+export const useIsDecomposing = () =>
+  useProject((state) => state.jobs.some((job) => job.kind === "decompose" && job.state === "running"));

@@ -2,30 +2,30 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import type { ActionForm, LanguageView } from "../wire";
-import { complainedOf } from "./toasts";
+import { reportError } from "./toasts";
 
 export const useLanguage = create<{ language: LanguageView | null }>()(() => ({ language: null }));
 
-let asked: Promise<LanguageView> | null = null;
+let request: Promise<LanguageView> | null = null;
 
 /** The language; a request that failed is made again the next time. */
-export function language(): Promise<LanguageView> {
-  asked ??= api.language().then(
+export function getLanguage(): Promise<LanguageView> {
+  request ??= api.language().then(
     (view) => {
       useLanguage.setState({ language: view });
       return view;
     },
     (error: unknown) => {
-      asked = null;
+      request = null;
       throw error;
     },
   );
-  return asked;
+  return request;
 }
 
 /** Fetches the language for a part of the page that waits for it. */
-export function askLanguage(): void {
-  language().catch(complainedOf);
+export function loadLanguage(): void {
+  getLanguage().catch(reportError);
 }
 
 export function formOf(action: string, forms: readonly ActionForm[]): ActionForm | undefined {

@@ -1,7 +1,9 @@
 import { describe, expect, it } from "vitest";
 import type { LessonView, ReadingView } from "../wire";
-import { choiceText, differing, extractorOf, highlightOfRule, learnedDiffers, lessonSummary, reachOfRule, readingsOf, spreadText } from "./lessons";
+import { coverageOfRule, coverageText, summarizeLesson } from "./lessons";
+import { highlightOfRule } from "./highlight";
 import { emptyProject } from "./project";
+import { choiceText, differing, extractorOf, learnedDiffers, readingsOf } from "./readings";
 
 const lesson = (more: Partial<LessonView>): LessonView => ({
   number: 1,
@@ -42,16 +44,16 @@ const reach = {
 };
 
 describe("the summary of a lesson", () => {
-  it("says that all readings agree once it is settled", () => {
-    const said = lessonSummary(lesson({ settled: true, looked_at: 60 }), 60);
-    expect(said).toEqual({ mood: "good", title: "Settled", more: "All readings agree on your 60 assets." });
+  it("says that all readings agree once it is unambiguous", () => {
+    const said = summarizeLesson(lesson({ settled: true, looked_at: 60 }), 60);
+    expect(said).toEqual({ mood: "good", title: "Unambiguous", more: "All readings select the same hulls on your 60 assets." });
   });
 
   it("says so where not all assets were looked at", () => {
-    const said = lessonSummary(lesson({ settled: true, looked_at: 400 }), 12_000);
-    expect(said.more).toBe("All readings agree on the 400 assets looked at, of your 12,000 assets.");
+    const said = summarizeLesson(lesson({ settled: true, looked_at: 400 }), 12_000);
+    expect(said.more).toBe("All readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
     const spread = { hulls: 12, assets: 9, lookedAt: 400 };
-    expect([spreadText(spread, 12_000), spreadText(spread, 400), spreadText({ ...spread, hulls: 0 }, 400)]).toEqual([
+    expect([coverageText(spread, 12_000), coverageText(spread, 400), coverageText({ ...spread, hulls: 0 }, 400)]).toEqual([
       "12 hulls on 9 assets of the 400 looked at",
       "12 hulls on 9 assets",
       "selects nothing on any asset",
@@ -60,30 +62,30 @@ describe("the summary of a lesson", () => {
 
   it("names where a less believable reading differs", () => {
     const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
-    expect(lessonSummary(lesson({ readings }), 3).more).toBe("Rule 1 might mean something else on x and y.");
+    expect(summarizeLesson(lesson({ readings }), 3).more).toBe("Rule 1 may select other hulls on x and y.");
   });
 
   it("has words for every outcome", () => {
     const statuses = ["found", "ambiguous", "repair", "none", "timeout", "error"] as const;
-    const titles = statuses.map((status) => lessonSummary(lesson({ status, why: "so", error: "broken" }), 2).title);
+    const titles = statuses.map((status) => summarizeLesson(lesson({ status, why: "so", error: "broken" }), 2).title);
     expect(new Set(titles).size).toBe(statuses.length);
-    expect(lessonSummary(null, 2).title).toBe("Nothing is demonstrated yet");
+    expect(summarizeLesson(null, 2).title).toBe("No demonstration yet");
   });
 
   it("gives the reason why there is no program", () => {
-    const said = lessonSummary(lesson({ status: "none", why: "rule 2 takes two alike hulls apart" }), 2);
+    const said = summarizeLesson(lesson({ status: "none", why: "rule 2 takes two alike hulls apart" }), 2);
     expect(said).toMatchObject({ mood: "bad", more: "rule 2 takes two alike hulls apart" });
   });
 });
 
 describe("what a rule reaches", () => {
-  it("is pointed out on the assets on which the program runs", () => {
+  it("is highlighted on the assets on which the program runs", () => {
     expect(highlightOfRule(reach, 1)).toEqual({ what: "rule 1", assets: { one: [0, 2], two: [] } });
   });
 
   it("is counted in hulls and in assets that have some", () => {
-    expect(reachOfRule(reach, 1)).toEqual({ hulls: 2, assets: 1, lookedAt: 3 });
-    expect(reachOfRule({}, 1)).toBeNull();
+    expect(coverageOfRule(reach, 1)).toEqual({ hulls: 2, assets: 1, lookedAt: 3 });
+    expect(coverageOfRule({}, 1)).toBeNull();
   });
 });
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { clickedPair, directiveOf, directiveText, withoutPair, withPair } from "./orientation";
+import { pairFromClicks, parseDirective, directiveText, withoutPair, withPair } from "./orientation";
 
 const up = { direction: "+Z", from: "Is(leg)", to: "Is(panel)" };
 const front = { direction: "+X", from: "All", to: 'Is("front, door")' };
@@ -8,19 +8,19 @@ describe("the text of an orientation", () => {
   it.each(["", "+Z: Is(leg) -> Is(panel)", 'snap +Z: Is(leg) -> Is(panel), +X: All -> Is("front, door")'])(
     "is read and written again: %j",
     (text) => {
-      const read = directiveOf(text);
+      const read = parseDirective(text);
       expect(read && directiveText(read)).toBe(text);
     },
   );
 
   it("may have the word orient before it", () => {
-    expect(directiveOf("orient snap +Z: Is(leg)->Is(panel)")).toEqual({ snap: true, pairs: [up] });
+    expect(parseDirective("orient snap +Z: Is(leg)->Is(panel)")).toEqual({ snap: true, pairs: [up] });
   });
 
   it.each(["+Z", "+Z: Is(leg) -> ", "Is(a) -> Is(b)", "+Z: Is(leg) -> Is(panel) +X: All -> All"])(
     "is not understood: %j",
     (text) => {
-      expect(directiveOf(text)).toBeNull();
+      expect(parseDirective(text)).toBeNull();
     },
   );
 });
@@ -38,10 +38,10 @@ describe("a clicked direction", () => {
     expect(withPair({ snap: false, pairs: [up, front] }, side).pairs).toEqual([up, side]);
   });
 
-  it("is told by two different labels", () => {
-    expect(clickedPair("+Z", "leg", "table top")).toEqual({ direction: "+Z", from: "Is(leg)", to: 'Is("table top")' });
-    expect(clickedPair("+Z", "leg", null)).toMatch(/label it first/);
-    expect(clickedPair("+Z", "leg", "leg")).toMatch(/two different labels/);
+  it("is set by two different labels", () => {
+    expect(pairFromClicks("+Z", "leg", "table top")).toEqual({ direction: "+Z", from: "Is(leg)", to: 'Is("table top")' });
+    expect(pairFromClicks("+Z", "leg", null)).toMatch(/label it first/);
+    expect(pairFromClicks("+Z", "leg", "leg")).toMatch(/two different labels/);
   });
 
   it("can be taken away", () => {

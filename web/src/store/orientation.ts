@@ -1,7 +1,7 @@
 // The orientation directive as pairs of landmarks, read from its text and written back.
-import { labelText } from "./steps";
+import { labelText } from "./actions";
 
-export interface Pair {
+interface Pair {
   /** `+Z` and the like. */
   readonly direction: string;
   /** Base extractors: `Is(leg)`, `All`. */
@@ -18,7 +18,7 @@ const BASE = '(All|Is\\(\\s*(?:"(?:[^"\\\\]|\\\\.)*"|[^\\s")]+)\\s*\\))';
 const PAIR = `([+-]\\w+)\\s*:\\s*${BASE}\\s*->\\s*${BASE}`;
 
 /** What a directive's text says; null for one that is not understood. */
-export function directiveOf(text: string): Directive | null {
+export function parseDirective(text: string): Directive | null {
   const whole = /^\s*(?:orient\s+)?(snap\s+)?(.*?)\s*$/s.exec(text);
   const rest = whole?.[2] ?? "";
   if (!rest) return { snap: false, pairs: [] };
@@ -48,7 +48,7 @@ export function withoutPair(directive: Directive, at: number): Directive {
 }
 
 /** The landmarks that two clicked hulls stand for, or why they cannot be landmarks. */
-export function clickedPair(direction: string, start: string | null, end: string | null): Pair | string {
+export function pairFromClicks(direction: string, start: string | null, end: string | null): Pair | string {
   if (start === null || end === null) return "A hull without a label cannot be a landmark: label it first.";
   if (start === end) return `Both hulls are labelled ${start}: landmarks have two different labels.`;
   return { direction, from: `Is(${labelText(start)})`, to: `Is(${labelText(end)})` };

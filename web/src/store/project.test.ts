@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, Hello } from "../wire";
-import { emptyProject, received } from "./project";
+import { emptyProject, applyEvent } from "./project";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) => sampleCard({ asset, picture: "p", ...more });
@@ -20,7 +20,7 @@ const hello: Hello = {
   tour: false,
   engines: [],
 };
-const begun = received(emptyProject, hello);
+const begun = applyEvent(emptyProject, hello);
 
 describe("what the server says", () => {
   it("keeps the order that the server gives", () => {
@@ -28,53 +28,53 @@ describe("what the server says", () => {
     expect(begun.ready).toBe(true);
   });
 
-  it("changes only the cards that are told", () => {
-    const after = received(begun, { kind: "cards", cards: [card("a", { demonstrated: true })], gone: [] });
+  it("changes only the cards that are sent", () => {
+    const after = applyEvent(begun, { kind: "cards", cards: [card("a", { demonstrated: true })], gone: [] });
     expect(after.cards["a"]?.demonstrated).toBe(true);
     expect(after.cards["b"]).toBe(begun.cards["b"]);
     expect(after.order).toBe(begun.order);
   });
 
   it("takes new assets in by name, and forgets those that are gone", () => {
-    const after = received(begun, { kind: "cards", cards: [card("c")], gone: ["b"] });
+    const after = applyEvent(begun, { kind: "cards", cards: [card("c")], gone: ["b"] });
     expect(after.order).toEqual(["a", "c"]);
     expect(Object.keys(after.cards).sort()).toEqual(["a", "c"]);
   });
 
   it("counts the revisions of assets that changed, shapes only where they did", () => {
-    const after = received(begun, { kind: "assets", assets: ["a"], shapes: false });
+    const after = applyEvent(begun, { kind: "assets", assets: ["a"], shapes: false });
     expect(after.revisions["a"]).toBe((begun.revisions["a"] ?? 0) + 1);
     expect(after.shapeRevisions["a"]).toBe(begun.shapeRevisions["a"]);
-    expect(received(after, { kind: "assets", assets: ["a"], shapes: true }).shapeRevisions["a"]).toBe(2);
+    expect(applyEvent(after, { kind: "assets", assets: ["a"], shapes: true }).shapeRevisions["a"]).toBe(2);
   });
 
   it("takes everything for changed after a new connection", () => {
-    const again = received(begun, hello);
+    const again = applyEvent(begun, hello);
     expect(again.revisions["a"]).toBe(2);
     expect(again.shapeRevisions["b"]).toBe(2);
   });
 
   it("keeps the last lesson while the next one is learned", () => {
     const lesson = { number: 1, status: "found" } as never;
-    const learned = received(begun, { kind: "lesson", lesson, learning: false });
-    const busy = received(learned, { kind: "lesson", lesson: null, learning: true });
+    const learned = applyEvent(begun, { kind: "lesson", lesson, learning: false });
+    const busy = applyEvent(learned, { kind: "lesson", lesson: null, learning: true });
     expect(busy.learning).toBe(true);
     expect(busy.lesson).toBe(lesson);
-    expect(received(busy, { kind: "lesson", lesson: null, learning: false }).lesson).toBeNull();
+    expect(applyEvent(busy, { kind: "lesson", lesson: null, learning: false }).lesson).toBeNull();
   });
 
   it("has each job once, as it stands", () => {
     const job = { id: "1", kind: "apply", title: "", done: 0, total: 2, state: "running", message: "", lines: [], out: null };
-    const one = received(begun, { kind: "job", job: job as never });
-    const two = received(one, { kind: "job", job: { ...job, done: 1 } as never });
+    const one = applyEvent(begun, { kind: "job", job: job as never });
+    const two = applyEvent(one, { kind: "job", job: { ...job, done: 1 } as never });
     expect(two.jobs).toHaveLength(1);
     expect(two.jobs[0]?.done).toBe(1);
   });
 });
 
-it("what the last edit of all labels did is there until it is told otherwise", () => {
+it("what the last edit of all labels did is there until the server says otherwise", () => {
   const relabelled = { entry: 1, way: "propagate", assets: [], settled: 0 } as const;
-  const told = received(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
+  const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
   expect(told.relabelled?.entry).toBe(1);
-  expect(received(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
+  expect(applyEvent(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
 });

@@ -24,7 +24,7 @@ export interface ProjectState {
   tour: boolean;
   /** Engines whose limits can be checked. */
   engines: readonly EngineView[];
-  /** How often everything was told anew, and of how many edits of this page. */
+  /** How often everything was sent anew, and of how many edits of this page. */
   hellos: number;
   own: number;
   /** Counts up for each asset whose details changed, so that what is kept of it is fetched anew. */
@@ -83,7 +83,7 @@ export const emptyProject: ProjectState = {
 export const useProject = create<ProjectState>()(() => emptyProject);
 
 /** The state after an event. */
-export function received(state: ProjectState, event: Event): ProjectState {
+export function applyEvent(state: ProjectState, event: Event): ProjectState {
   switch (event.kind) {
     case "hello":
       return {
@@ -104,8 +104,8 @@ export function received(state: ProjectState, event: Event): ProjectState {
         engines: event.engines,
         hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection
-        revisions: raised(state.revisions, event.cards.map((card) => card.asset)),
-        shapeRevisions: raised(state.shapeRevisions, event.cards.map((card) => card.asset)),
+        revisions: increment(state.revisions, event.cards.map((card) => card.asset)),
+        shapeRevisions: increment(state.shapeRevisions, event.cards.map((card) => card.asset)),
       };
     case "cards": {
       const gone = new Set(event.gone);
@@ -125,8 +125,8 @@ export function received(state: ProjectState, event: Event): ProjectState {
     case "relabelled":
       return { ...state, relabelled: event.relabelled };
     case "assets": {
-      const shapes = event.shapes ? raised(state.shapeRevisions, event.assets) : state.shapeRevisions;
-      return { ...state, revisions: raised(state.revisions, event.assets), shapeRevisions: shapes };
+      const shapes = event.shapes ? increment(state.shapeRevisions, event.assets) : state.shapeRevisions;
+      return { ...state, revisions: increment(state.revisions, event.assets), shapeRevisions: shapes };
     }
     case "lesson":
       return event.learning
@@ -142,18 +142,18 @@ export function received(state: ProjectState, event: Event): ProjectState {
 }
 
 export function receive(event: Event): void {
-  useProject.setState((state) => received(state, event), true);
+  useProject.setState((state) => applyEvent(state, event), true);
 }
 
 /** How many assets could be read. */
-export const readable = (cards: ProjectState["cards"]): number =>
+export const countReadable = (cards: ProjectState["cards"]): number =>
   Object.values(cards).filter((card) => card.hulls !== null).length;
 
 function byAsset<T extends { asset: string }>(rows: readonly T[]): Record<string, T> {
   return Object.fromEntries(rows.map((row) => [row.asset, row]));
 }
 
-function raised(counts: Readonly<Record<string, number>>, keys: readonly string[]): Record<string, number> {
+function increment(counts: Readonly<Record<string, number>>, keys: readonly string[]): Record<string, number> {
   const out = { ...counts };
   for (const key of keys) out[key] = (out[key] ?? 0) + 1;
   return out;

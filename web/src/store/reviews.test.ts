@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditedHeader, HullView } from "../wire";
-import { acceptable, after, behind, exportable, type Group, grouped, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -31,23 +31,23 @@ const family = [
 
 describe("results in groups", () => {
   it("puts each card into one", () => {
-    const rows = grouped(family);
+    const rows = groupCards(family);
     expect(Object.fromEntries(Object.entries(rows).map(([group, cards]) => [group, cards.map((one) => one.asset)]))).toEqual({
       failed: ["c"],
       flagged: ["d", "e"],
       stale: ["f"],
-      telling: [],
+      informative: [],
       open: ["b"],
       accepted: ["a"],
       none: ["g", "h"],
     });
   });
 
-  it("keeps those that tell most apart, the most telling first, and only where nobody reviewed them", () => {
-    const rows = grouped([...family, card("x"), card("y")], ["y", "gone", "a", "c", "e", "f", "g", "b"]);
+  it("keeps those that tell most apart, the most informative first, and only where nobody reviewed them", () => {
+    const rows = groupCards([...family, card("x"), card("y")], ["y", "gone", "a", "c", "e", "f", "g", "b"]);
     const names = (group: Group) => rows[group].map((one) => one.asset);
-    expect([names("telling"), names("open")]).toEqual([["y", "b"], ["x"]]);
-    const rest = grouped(family);
+    expect([names("informative"), names("open")]).toEqual([["y", "b"], ["x"]]);
+    const rest = groupCards(family);
     for (const group of ["failed", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
   });
 
@@ -70,37 +70,37 @@ describe("the queue of what wants a look", () => {
   it("has those that tell most ahead of all others that nobody reviewed", () => {
     const queue = reviewQueue([...family, card("x"), card("y")], ["y", "x"]);
     expect(queue).toEqual(["c", "d", "e", "y", "x", "b"]);
-    expect([after(queue, [...order, "x", "y"], "y"), after(queue, [...order, "x", "y"], "x")]).toEqual(["x", "b"]);
+    expect([nextInQueue(queue, [...order, "x", "y"], "y"), nextInQueue(queue, [...order, "x", "y"], "x")]).toEqual(["x", "b"]);
   });
 
   it("goes round", () => {
-    expect(after(["c", "d", "b"], order, "d")).toBe("b");
-    expect(after(["c", "d", "b"], order, "b")).toBe("c");
+    expect(nextInQueue(["c", "d", "b"], order, "d")).toBe("b");
+    expect(nextInQueue(["c", "d", "b"], order, "b")).toBe("c");
   });
 
   it("goes on behind an asset that is not in it", () => {
-    expect(after(["c", "d", "b"], order, "a")).toBe("c");
-    expect(after(["c", "d", "b"], order, "h")).toBe("c");
-    expect(after(["c", "d", "b"], order, null)).toBe("c");
+    expect(nextInQueue(["c", "d", "b"], order, "a")).toBe("c");
+    expect(nextInQueue(["c", "d", "b"], order, "h")).toBe("c");
+    expect(nextInQueue(["c", "d", "b"], order, null)).toBe("c");
   });
 
   it("has no next but itself", () => {
-    expect(after(["b"], order, "b")).toBeNull();
-    expect(after([], order, "b")).toBeNull();
+    expect(nextInQueue(["b"], order, "b")).toBeNull();
+    expect(nextInQueue([], order, "b")).toBeNull();
   });
 });
 
 describe("what can be done with all", () => {
   it("accepts only what is up to date, unflagged and not reviewed", () => {
-    expect(acceptable(family)).toEqual(["b"]);
+    expect(listAcceptable(family)).toEqual(["b"]);
   });
 
   it("counts outputs that are missing or old, but not assets that cannot be read", () => {
-    expect(behind(family)).toEqual(["f", "g"]);
+    expect(listOutdated(family)).toEqual(["f", "g"]);
   });
 
   it("exports what is written, or only what is accepted", () => {
-    expect([exportable(family, false), exportable(family, true)]).toEqual([5, 2]);
+    expect([countExportable(family, false), countExportable(family, true)]).toEqual([5, 2]);
   });
 });
 

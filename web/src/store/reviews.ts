@@ -1,10 +1,12 @@
 // The results of the family: what to look at, in which order, and numbers about one; knows neither DOM nor three.js.
+import { create } from "zustand";
+import { api } from "../server/api";
 import type { Card, EditedHeader, HullView } from "../wire";
 
-export type Group = "failed" | "flagged" | "stale" | "telling" | "open" | "accepted" | "none";
+export type Group = "failed" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none";
 
 /** In the order in which they want a look. */
-export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "telling", "open", "accepted", "none"];
+export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "informative", "open", "accepted", "none"];
 
 /** Where the result of an asset belongs; sample: the assets whose results tell best whether the program is right. */
 export function groupOf(card: Card, sample: readonly string[] = []): Group {
@@ -13,25 +15,25 @@ export function groupOf(card: Card, sample: readonly string[] = []): Group {
   if (card.review === "flagged" || (card.flags.length > 0 && card.review === null)) return "flagged";
   if (card.stale.length) return "stale";
   if (card.review === "accepted") return "accepted";
-  return sample.includes(card.asset) ? "telling" : "open";
+  return sample.includes(card.asset) ? "informative" : "open";
 }
 
 /** The cards by group, in the family's order; those that tell most, in the order of the sample. */
-export function grouped(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
-  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], telling: [], open: [], accepted: [], none: [] };
+export function groupCards(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
+  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], informative: [], open: [], accepted: [], none: [] };
   for (const card of cards) rows[groupOf(card, sample)].push(card);
-  rows.telling.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
+  rows.informative.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
   return rows;
 }
 
-/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most telling ahead. */
+/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most informative ahead. */
 export function reviewQueue(cards: readonly Card[], sample: readonly string[]): readonly string[] {
-  const { failed, flagged, telling, open } = grouped(cards, sample);
-  return [...failed, ...flagged, ...telling, ...open].map((card) => card.asset);
+  const { failed, flagged, informative, open } = groupCards(cards, sample);
+  return [...failed, ...flagged, ...informative, ...open].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */
-export function after(queue: readonly string[], order: readonly string[], asset: string | null): string | null {
+export function nextInQueue(queue: readonly string[], order: readonly string[], asset: string | null): string | null {
   const at = queue.indexOf(asset ?? "");
   if (at >= 0) return queue[(at + 1) % queue.length] === asset ? null : (queue[(at + 1) % queue.length] ?? null);
   const places = new Map(order.map((name, k) => [name, k]));
@@ -40,24 +42,24 @@ export function after(queue: readonly string[], order: readonly string[], asset:
 }
 
 /** Assets whose output is up to date, legal as far as is known, and not flagged by anyone or anything. */
-export function acceptable(cards: readonly Card[]): readonly string[] {
+export function listAcceptable(cards: readonly Card[]): readonly string[] {
   return cards.filter((card) => groupOf(card) === "open").map((card) => card.asset);
 }
 
 /** Assets whose output is missing or older than what it is made of. */
-export function behind(cards: readonly Card[]): readonly string[] {
-  return cards.filter(isBehind).map((card) => card.asset);
+export function listOutdated(cards: readonly Card[]): readonly string[] {
+  return cards.filter(isOutdated).map((card) => card.asset);
 }
 
-const isBehind = (card: Card): boolean => card.hulls !== null && (card.output === "none" || card.stale.length > 0);
+const isOutdated = (card: Card): boolean => card.hulls !== null && (card.output === "none" || card.stale.length > 0);
 
 /** How many outputs an export takes. */
-export function exportable(cards: readonly Card[], acceptedOnly: boolean): number {
+export function countExportable(cards: readonly Card[], acceptedOnly: boolean): number {
   const written = cards.filter((card) => card.output === "edited" || card.output === "unchanged");
   return acceptedOnly ? written.filter((card) => card.review === "accepted").length : written.length;
 }
 
-export interface Numbers {
+interface Numbers {
   hulls: readonly [number, number];
   vertices: readonly [number, number];
   faces: readonly [number, number];
@@ -99,8 +101,39 @@ const STALE: Readonly<Record<string, string>> = {
   output: "written files are gone",
 };
 
-/** Assets a second, from when a job was first seen; null before that can be told. */
+/** Assets a second, from when a job was first seen; null before that is known. */
 export function rateOf(first: { done: number; at: number }, done: number, now: number): number | null {
   const seconds = (now - first.at) / 1000;
   return seconds < 0.5 || done <= first.done ? null : (done - first.done) / seconds;
+}
+
+type Verdict = ReturnType<typeof verdictOf>;
+
+/** Whether written outputs are legal, asked for when one wants to know and kept as long as the output stays. */
+export const useVerdicts = create<{ verdicts: Readonly<Record<string, Verdict>> }>()(() => ({ verdicts: {} }));
+
+/** So many are worked out at once; the others wait in one of these lines. */
+const lines: Promise<unknown>[] = [Promise.resolve(), Promise.resolve(), Promise.resolve()];
+const requests = new Map<string, Promise<Verdict>>();
+
+/** What a verdict is kept by: another output of the asset is another key. */
+export const verdictKey = (card: Card): string => `${card.asset}\n${card.edited_picture ?? ""}`;
+
+/** The verdict on a card's output. */
+export function getVerdict(card: Card): Promise<Verdict> {
+  const key = verdictKey(card);
+  const known = requests.get(key);
+  if (known) return known;
+  const line = requests.size % lines.length;
+  const mine = (lines[line] ?? Promise.resolve()).then(() => fetchVerdict(card.asset, key));
+  lines[line] = mine.catch(() => requests.delete(key));
+  requests.set(key, mine);
+  return mine;
+}
+
+async function fetchVerdict(asset: string, key: string): Promise<Verdict> {
+  const { header } = await api.result(asset, "output");
+  const found = verdictOf(header);
+  useVerdicts.setState(({ verdicts }) => ({ verdicts: { ...verdicts, [key]: found } }));
+  return found;
 }

@@ -1,15 +1,16 @@
-// The assets' details and shapes, fetched once and kept until the server says that they changed.
+// The assets' details and shapes, fetched once and kept until the server says that they changed, and the scene to show:
+// it goes with asset, stage and what the server says.
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { EditedPacket, Shape, ShapesPacket } from "../server/packet";
 import type { AssetView, EditedHeader, HullView, OpaqueView, Problem } from "../wire";
-import type { Showing } from "./desk";
 import { useProject } from "./project";
+import { openAsset, show, type Showing, useWorkspace, type WorkspaceState } from "./workspace";
 
 export interface SceneHull extends HullView {
   readonly shape: Shape;
-  /** Whether the asset as it comes does not have it. */
+  /** Whether the original asset lacks it. */
   readonly made: boolean;
 }
 
@@ -21,11 +22,11 @@ export interface Scene {
   readonly hulls: readonly SceneHull[];
   readonly opaque: readonly (OpaqueView & { shape: Shape })[];
   readonly contacts: readonly (readonly [string, string])[];
-  /** Header of the edit that led here; null for the asset as it comes. */
+  /** Header of the edit that led here; null for the original asset. */
   readonly edit: EditedHeader | null;
 }
 
-interface Kept {
+interface Details {
   view: AssetView;
   packet: ShapesPacket;
   /** The revisions that these are of. */
@@ -43,9 +44,9 @@ interface ScenesState {
 export const useScenes = create<ScenesState>()(() => ({ scene: null, loading: false, problem: null }));
 
 const MOST = 60;
-const kept = new Map<string, Kept>();
+const kept = new Map<string, Details>();
 /** What is on its way, or could not be had. */
-const asked = new Map<string, { revision: number; shapeRevision: number; result: Promise<Kept> }>();
+const asked = new Map<string, { revision: number; shapeRevision: number; result: Promise<Details> }>();
 const edited = new Map<string, EditedPacket>();
 let wanted = 0;
 
@@ -64,12 +65,12 @@ export async function showScene(asset: string | null, showing: Showing): Promise
 }
 
 export async function sceneOf(asset: string, showing: Showing): Promise<Scene> {
-  const [own, edit] = await Promise.all([details(asset), editOf(asset, showing)]);
+  const [own, edit] = await Promise.all([getDetails(asset), editOf(asset, showing)]);
   return sceneFrom(asset, showing, own.view, own.packet, edit);
 }
 
 /** Puts a scene together; hulls of an edit that the asset has, too, take their shape from there. */
-export function sceneFrom(
+function sceneFrom(
   asset: string,
   showing: Showing,
   view: AssetView,
@@ -93,13 +94,13 @@ export function sceneFrom(
   return { asset, showing, view, hulls, opaque, contacts, edit: edit?.header ?? null };
 }
 
-/** Fetches an asset ahead of time; failing is told only once it is opened. */
+/** Fetches an asset ahead of time; a failure is reported only once it is opened. */
 export function prefetch(asset: string): void {
-  void details(asset).catch(() => undefined);
+  void getDetails(asset).catch(() => undefined);
 }
 
 /** The asset's own details and shapes, as they are now: fetched once for all who ask, also where it cannot be read. */
-export async function details(asset: string): Promise<Kept> {
+export async function getDetails(asset: string): Promise<Details> {
   const { revisions, shapeRevisions } = useProject.getState();
   const revision = revisions[asset] ?? 0;
   const shapeRevision = shapeRevisions[asset] ?? 0;
@@ -109,7 +110,7 @@ export async function details(asset: string): Promise<Kept> {
   if (known && isOf(known)) return known;
   const before = asked.get(asset);
   if (before && isOf(before)) return before.result;
-  const mine = { revision, shapeRevision, result: fetched(asset, revision, shapeRevision) };
+  const mine = { revision, shapeRevision, result: fetchDetails(asset, revision, shapeRevision) };
   asked.set(asset, mine);
   const forget = () => {
     if (asked.get(asset) === mine) asked.delete(asset);
@@ -120,7 +121,7 @@ export async function details(asset: string): Promise<Kept> {
   return mine.result;
 }
 
-async function fetched(asset: string, revision: number, shapeRevision: number): Promise<Kept> {
+async function fetchDetails(asset: string, revision: number, shapeRevision: number): Promise<Details> {
   const known = kept.get(asset);
   const same = known?.shapeRevision === shapeRevision;
   const [view, packet] = await Promise.all([api.asset(asset), same ? known.packet : api.shapes(asset)]);
@@ -146,4 +147,84 @@ async function editOf(asset: string, showing: Showing): Promise<EditedPacket | n
   edited.set(key, packet);
   if (edited.size > MOST) edited.delete(edited.keys().next().value ?? "");
   return packet;
+}
+
+/** Details of the asset in hand; null while they are on their way. */
+export function useAssetView(): AssetView | null {
+  const asset = useWorkspace((workspace) => workspace.asset);
+  return useScenes(({ scene }) => (scene && scene.asset === asset ? scene.view : null));
+}
+
+/** Follows until the returned function is called. */
+export function followWorkspace(): () => void {
+  const stops = [
+    useWorkspace.subscribe((now, before) => {
+      if (now.asset !== before.asset || now.stage !== before.stage) void showUsual(now);
+      else if (now.showing !== before.showing) void showScene(now.asset, now.showing);
+    }),
+    useProject.subscribe((now, before) => {
+      const { asset, showing } = useWorkspace.getState();
+      if (asset !== null && !(asset in now.cards)) return openAsset(now.order[0] ?? null);
+      if (asset === null) return now.order.length ? openAsset(now.project.next.asset ?? now.order[0] ?? null) : undefined;
+      const other = (key: "revisions" | "shapeRevisions") => now[key][asset] !== before[key][asset];
+      const program = showing.kind === "result" && now.program.version !== before.program.version;
+      if (other("revisions") || other("shapeRevisions")) void showUsual(useWorkspace.getState());
+      else if (program) void showScene(asset, showing);
+    }),
+  ];
+  return () => stops.forEach((stop) => stop());
+}
+
+/** Shows an asset in the state that its stage is about, and fetches those beside it. */
+async function showUsual({ asset, stage }: WorkspaceState): Promise<void> {
+  if (asset === null) return void showScene(null, { kind: "source" });
+  const usually = await usualState(asset, stage).catch((): Showing => ({ kind: "source" }));
+  const now = useWorkspace.getState();
+  if (now.asset !== asset || now.stage !== stage) return;
+  const showing = now.asked ?? usually;
+  if (isSame(now.showing, showing)) void showScene(asset, showing);
+  else show(showing);
+  const { order } = useProject.getState();
+  const at = order.indexOf(asset);
+  for (const next of [order[at + 1], order[at - 1]]) if (next !== undefined) prefetch(next);
+}
+
+/** What a stage shows of an asset: its hulls, what its steps made of them so far, or the edited asset. */
+async function usualState(asset: string, stage: WorkspaceState["stage"]): Promise<Showing> {
+  if (stage === "label") return { kind: "source" };
+  if (stage === "demonstrate") {
+    const { view } = await getDetails(asset);
+    const broken = view.steps.findIndex((step) => step.error !== null);
+    return { kind: "steps", steps: broken < 0 ? view.steps.length : broken };
+  }
+  const { cards, program, reach } = useProject.getState();
+  const { output, stale } = cards[asset] ?? { output: "none", stale: [] };
+  if (stage === "review" && (output === "edited" || output === "unchanged")) return { kind: "result", of: "output" };
+  const fails = reach[asset] ? reach[asset].error !== null : output === "failed" && !stale.length;
+  return program.text && !fails ? { kind: "result", of: "program" } : { kind: "source" };
+}
+
+function isSame(a: Showing, b: Showing): boolean {
+  if (a.kind === "steps" && b.kind === "steps") return a.steps === b.steps;
+  if (a.kind === "result" && b.kind === "result") return a.of === b.of;
+  return a.kind === "source" && b.kind === "source";
+}
+
+const LATEST = 3000; // [ms] where nothing is shown at all
+
+let firstScene: Promise<void> | undefined;
+
+/** When the page has shown its first asset, so that what is wanted less can wait for it. */
+export function waitForFirstScene(): Promise<void> {
+  return (firstScene ??= new Promise((done) => {
+    const over = (): void => {
+      stop();
+      clearTimeout(timer);
+      // it is drawn in the next frame
+      requestAnimationFrame(() => setTimeout(done));
+    };
+    const timer = setTimeout(over, LATEST);
+    const stop = useScenes.subscribe(({ scene, problem }) => (scene ?? problem) && over());
+    if (useScenes.getState().scene) over();
+  }));
 }

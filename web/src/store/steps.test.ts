@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
-import type { Draft } from "./desk";
+import { draftText, labelText } from "./actions";
 import { emptyProject, useProject } from "./project";
-import { actionOf, draftText, labelText, shown, takenAway } from "./steps";
+import { actionOf, withoutStep, withStep } from "./steps";
+import type { Draft } from "./workspace";
 
 const draft = (more: Partial<Draft>): Draft => ({
   action: "Delete",
@@ -51,18 +52,18 @@ describe("changes to steps", () => {
   it("leaves the rules before open, with what other assets do there", () => {
     const rules = [{ rule: 1, action: "Each(Merge)", shown: [], nothing: [] }];
     useProject.setState({ project: { ...emptyProject.project, rules } });
-    expect(shown(2, step)([])).toEqual([{ select: null, action: "Each(Merge)" }, { select: null, action: "Delete" }, step]);
+    expect(withStep(2, step)([])).toEqual([{ select: null, action: "Each(Merge)" }, { select: null, action: "Delete" }, step]);
     expect(actionOf(5)).toBe("Delete");
   });
 
   it("puts a step in the place of the one before", () => {
-    expect(shown(0, step)([{ select: [], action: "Merge" }])).toEqual([step]);
+    expect(withStep(0, step)([{ select: [], action: "Merge" }])).toEqual([step]);
   });
 
   it("takes the last step away, and leaves another one open", () => {
     const other = { select: ["b"], action: "Merge" };
-    expect(takenAway(1)([step, other])).toEqual([step]);
-    expect(takenAway(0)([step, other])).toEqual([{ select: null, action: "Delete" }, other]);
+    expect(withoutStep(1)([step, other])).toEqual([step]);
+    expect(withoutStep(0)([step, other])).toEqual([{ select: null, action: "Delete" }, other]);
   });
 });
 

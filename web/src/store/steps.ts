@@ -1,10 +1,12 @@
-// The steps of an asset, and the changes to them, each one edit.
-import type { AssetView, StepText, StepView } from "../wire";
-import type { Draft } from "./desk";
-import { openPlaces } from "./drafts";
+// The steps of an asset, the changes to them, each one edit, and which steps are no longer offered as guesses.
+import { create } from "zustand";
+import type { ActionForm, AssetView, RuleLine, StepText, StepView } from "../wire";
+import { parseAction } from "./actions";
 import { perform } from "./edits";
-import { details } from "./scenes";
 import { useProject } from "./project";
+import { getDetails } from "./scenes";
+import { reportError } from "./toasts";
+import type { Draft } from "./workspace";
 
 type Change = (steps: readonly StepText[]) => readonly StepText[];
 
@@ -12,17 +14,17 @@ type Change = (steps: readonly StepText[]) => readonly StepText[];
 const NEWS = 1000;
 
 /** Changes the steps of an asset as they are on the server now; done once the page knows of it, too. */
-export async function changeSteps(asset: string, change: Change): Promise<boolean> {
-  const { view } = await details(asset);
-  const news = changed(asset);
-  const done = await perform({ kind: "steps", asset, version: view.version, steps: [...change(texts(view.steps))] });
+async function changeSteps(asset: string, change: Change): Promise<boolean> {
+  const { view } = await getDetails(asset);
+  const news = nextChange(asset);
+  const done = await perform({ kind: "steps", asset, version: view.version, steps: [...change(stepTexts(view.steps))] });
   if (done) await Promise.race([news.arrived, new Promise((late) => setTimeout(late, NEWS))]);
   news.stop();
   return done;
 }
 
 /** The next time that the server says that an asset changed. */
-function changed(asset: string): { arrived: Promise<void>; stop: () => void } {
+function nextChange(asset: string): { arrived: Promise<void>; stop: () => void } {
   let stop = (): void => undefined;
   const arrived = new Promise<void>((arrive) => {
     stop = useProject.subscribe((now, before) => {
@@ -32,11 +34,11 @@ function changed(asset: string): { arrived: Promise<void>; stop: () => void } {
   return { arrived, stop };
 }
 
-export const texts = (steps: readonly StepView[]): StepText[] =>
+const stepTexts = (steps: readonly StepView[]): StepText[] =>
   steps.map(({ select, action }) => ({ select, action }));
 
 /** Shows a rule on an asset: in place `at` (from 0), the rules before it left open where nothing is said yet. */
-export function shown(at: number, step: StepText): Change {
+export function withStep(at: number, step: StepText): Change {
   return (steps) => {
     const filled = [...steps];
     while (filled.length < at) filled.push({ select: null, action: actionOf(filled.length) });
@@ -50,33 +52,105 @@ export function actionOf(place: number): string {
   return useProject.getState().project.rules[place]?.action ?? "Delete";
 }
 
-export const takenAway =
+export const withoutStep =
   (at: number): Change =>
   (steps) =>
     at === steps.length - 1 ? steps.slice(0, at) : steps.map((s, k) => (k === at ? { ...s, select: null } : s));
 
-/** The text of an action as the language has it. */
-export function draftText(draft: Draft, order: readonly { name: string; kind: string }[]): string {
-  const words = order.flatMap(({ name, kind }) => {
-    const value = draft.arguments[name];
-    if (value === undefined || value === "" || value === false) return [];
-    if (kind === "flag") return [name];
-    const isWord = kind !== "file" && (kind !== "shape" || PRIMITIVES.has(String(value)));
-    return [isWord ? String(value) : JSON.stringify(value)];
-  });
-  const plain = words.length ? `${draft.action}(${words.join(", ")})` : draft.action;
-  const whole = draft.each ? `Each(${plain})` : plain;
-  return draft.label ? `${whole} as ${labelText(draft.label)}` : whole;
-}
-
-export const PRIMITIVES: ReadonlySet<string> = new Set(["box", "cylinder", "capsule", "sphere"]);
-
-const RESERVED = new Set("All Is Attach Geo Union Intersect Diff Delete Replace Add Merge Scale Each".split(" "));
-
-/** A label as programs write it: quoted where it is no single word, or a word of the language. */
-export function labelText(label: string): string {
-  return /^[\p{L}_][\p{L}\p{N}_]*$/u.test(label) && !RESERVED.has(label) ? label : JSON.stringify(label);
-}
-
 /** Places (from 0) of the family's rules that an asset says nothing about yet. */
 export const openRules = (view: AssetView): number[] => openPlaces(useProject.getState().project.rules, view);
+
+/** Places (from 0) of the family's rules that an asset says nothing about. */
+export function openPlaces(rules: readonly RuleLine[], view: Pick<AssetView, "steps">): number[] {
+  return rules.map((_, k) => k).filter((k) => view.steps[k]?.select == null);
+}
+
+/** The place of the first open rule that does such an action; null where there is none. */
+export function placeFor(
+  action: string,
+  rules: readonly RuleLine[],
+  view: Pick<AssetView, "steps">,
+  forms: readonly ActionForm[],
+): number | null {
+  const does = (place: number) => parseAction(rules[place]?.action ?? "", forms)?.action === action;
+  return openPlaces(rules, view).find(does) ?? null;
+}
+
+/** The place (from 0) that accepting a draft writes: that of its rule, or a new one after all others. */
+export function placeOf(draft: Pick<Draft, "editing">, rules: number, steps: number): number {
+  return draft.editing ?? Math.max(rules, steps);
+}
+
+/** How much a step takes: `4`, `nothing here` or `open`. */
+export function amountText(step: Pick<StepView, "select"> | undefined): string {
+  if (step?.select == null) return "open";
+  return step.select.length ? `×${step.select.length}` : "nothing here";
+}
+
+interface OfferState {
+  /** The step that was last sent or cancelled; it is not offered until the asset is another. */
+  last: string;
+  /** Steps that were left open on purpose; they are not offered. */
+  declined: ReadonlySet<string>;
+}
+
+/** What an asset says about a rule: the step is sent, and remembered so that it is not offered again. */
+export const initialOffers: OfferState = { last: "", declined: new Set() };
+
+export const useOffers = create<OfferState>()(() => initialOffers);
+
+/** Says what a rule selects on an asset: names of hulls, [] for nothing here, null for open. */
+export function setStep(
+  asset: string,
+  place: number,
+  hulls: string[] | null,
+  action = actionOf(place),
+): Promise<boolean> {
+  skipOffer(asset, place);
+  decline(asset, place, hulls === null);
+  return changeSteps(asset, withStep(place, { select: hulls, action }));
+}
+
+/** Takes the step in a place (from 0) away from an asset. */
+export function removeStep(asset: string, place: number): Promise<boolean> {
+  decline(asset, place, true);
+  return changeSteps(asset, withoutStep(place));
+}
+
+/** Does not offer a step until the server says that the asset changed. */
+export function skipOffer(asset: string, place: number): void {
+  useOffers.setState({ last: stateKey(asset, place) });
+}
+
+export const isSkipped = (asset: string, place: number): boolean =>
+  useOffers.getState().last === stateKey(asset, place);
+
+export const isDeclined = (asset: string, place: number): boolean =>
+  useOffers.getState().declined.has(placeKey(asset, place));
+
+function decline(asset: string, place: number, is: boolean): void {
+  const declined = new Set(useOffers.getState().declined);
+  if (is) declined.add(placeKey(asset, place));
+  else declined.delete(placeKey(asset, place));
+  useOffers.setState({ declined });
+}
+
+const placeKey = (asset: string, place: number): string => `${asset}\n${place}`;
+
+/** A step of an asset as it is now; another one once the asset changed. */
+const stateKey = (asset: string, place: number): string =>
+  `${placeKey(asset, place)}\n${useProject.getState().revisions[asset] ?? 0}`;
+
+/** Gives the step in a place (from 0) another action, on each of some assets. */
+export async function changeActionOn(assets: readonly string[], place: number, action: string): Promise<void> {
+  try {
+    for (const asset of assets) {
+      const done = await changeSteps(asset, (steps) =>
+        steps.map((step, k) => (k === place ? { ...step, action } : step)),
+      );
+      if (!done) return;
+    }
+  } catch (error) {
+    reportError(error);
+  }
+}

@@ -16,25 +16,25 @@ export const useToasts = create<{ toasts: readonly Toast[] }>()(() => ({ toasts:
 
 let count = 0;
 
-export function told(text: string, undo = false): void {
+export function notify(text: string, undo = false): void {
   add({ id: ++count, kind: "done", text, remedy: null, undo });
 }
 
-export function complained(problem: Problem): void {
+export function reportProblem(problem: Problem): void {
   const text = problem.where ? `${problem.where}: ${problem.message}` : problem.message;
   add({ id: ++count, kind: "problem", text, remedy: problem.remedy, undo: false });
 }
 
 /** Tells of any error; one that is no answer of the server is a fault of the page. */
-export function complainedOf(error: unknown): void {
-  if (error instanceof ServerProblem) return complained(error.problem);
+export function reportError(error: unknown): void {
+  if (error instanceof ServerProblem) return reportProblem(error.problem);
   if (error instanceof DOMException && error.name === "AbortError") return;
   const message = error instanceof Error ? error.message : String(error);
-  const remedy = "This is a fault of the studio; reloading the page loses nothing.";
-  complained({ message, where: null, remedy, conflict: false });
+  const remedy = "This is a bug in the studio. Reload the page: nothing is lost.";
+  reportProblem({ message, where: null, remedy, conflict: false });
 }
 
-export function dismissed(id: number): void {
+export function dismissToast(id: number): void {
   useToasts.setState(({ toasts }) => ({ toasts: toasts.filter((toast) => toast.id !== id) }));
 }
 

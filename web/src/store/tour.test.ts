@@ -1,57 +1,57 @@
 // The tour goes on by what the person does.
 import { beforeEach, expect, test } from "vitest";
 import type { Card } from "../wire";
-import { initialDesk, useDesk } from "./desk";
+import { initialWorkspace, useWorkspace } from "./workspace";
 import { emptyProject, useProject } from "./project";
 import { useScenes } from "./scenes";
-import { beginTour, endTour, followTour, MARKS, turnTour, useTour } from "./tour";
+import { startTour, endTour, followTour, TOUR_STOPS, moveTour, useTour } from "./tour";
 
 const step = () => useTour.getState().step;
-const title = () => MARKS[step() ?? -1]?.title;
+const title = () => TOUR_STOPS[step() ?? -1]?.title;
 const rule = (number: number) => ({ rule: number, action: "Delete", shown: ["a"], nothing: [] });
 const rules = (count: number) =>
   useProject.setState(({ project }) => ({ project: { ...project, rules: Array.from({ length: count }, (_, k) => rule(k + 1)) } }));
 
 beforeEach(() => {
   useProject.setState(emptyProject);
-  useDesk.setState(initialDesk);
+  useWorkspace.setState(initialWorkspace);
   useScenes.setState({ scene: null });
-  beginTour();
+  startTour();
 });
 
 test("one can go on, back and away at every mark", () => {
-  turnTour(-1);
+  moveTour(-1);
   expect(step()).toBe(0);
-  turnTour(1);
+  moveTour(1);
   expect(step()).toBe(1);
   endTour();
   expect(step()).toBe(null);
 });
 
 test("after the last mark the tour is over", () => {
-  MARKS.forEach(() => turnTour(1));
+  TOUR_STOPS.forEach(() => moveTour(1));
   expect(step()).toBe(null);
 });
 
 test("doing what a mark asks for goes on by itself", () => {
   const stop = followTour();
-  turnTour(1);
-  useDesk.setState({ stage: "demonstrate" });
-  expect(title()).toBe("Pick the splinters");
+  moveTour(1);
+  useWorkspace.setState({ stage: "demonstrate" });
+  expect(title()).toBe("Select the splinters");
   const hulls = [{ name: "h1", label: "misc" }, { name: "h2", label: "leg" }];
   useScenes.setState({ scene: { hulls } as never });
-  useDesk.setState({ selection: new Set(["h1", "h2"]) });
-  expect(title()).toBe("Pick the splinters");
-  useDesk.setState({ selection: new Set(["h1"]) });
+  useWorkspace.setState({ selection: new Set(["h1", "h2"]) });
+  expect(title()).toBe("Select the splinters");
+  useWorkspace.setState({ selection: new Set(["h1"]) });
   expect(title()).toBe("Delete them");
   rules(1);
   rules(2);
   expect(title()).toBe("The second table is easier");
   const card = { demonstrated: true, output: "none" } as Card;
   useProject.setState({ cards: { a: card, b: card } });
-  useDesk.setState({ stage: "learn" });
-  useDesk.setState({ stage: "review" });
-  expect(title()).toBe("Do it to all");
+  useWorkspace.setState({ stage: "learn" });
+  useWorkspace.setState({ stage: "review" });
+  expect(title()).toBe("Apply to all tables");
   useProject.setState({ cards: { a: { ...card, output: "edited" } } });
   expect(title()).toBe("That is all");
   stop();
@@ -59,20 +59,20 @@ test("doing what a mark asks for goes on by itself", () => {
 
 test("who did it already is not asked again", () => {
   rules(2);
-  useDesk.setState({ stage: "demonstrate" });
-  turnTour(1);
+  useWorkspace.setState({ stage: "demonstrate" });
+  moveTour(1);
   expect(title()).toBe("The second table is easier");
 });
 
 test("who goes back stays there until Next", () => {
   const stop = followTour();
-  useDesk.setState({ stage: "demonstrate" });
-  turnTour(1);
-  turnTour(-1);
+  useWorkspace.setState({ stage: "demonstrate" });
+  moveTour(1);
+  moveTour(-1);
   expect(title()).toBe("Four stages");
-  useDesk.setState({ hover: "x" });
+  useWorkspace.setState({ hover: "x" });
   expect(title()).toBe("Four stages");
-  turnTour(1);
-  expect(title()).toBe("Pick the splinters");
+  moveTour(1);
+  expect(title()).toBe("Select the splinters");
   stop();
 });

@@ -16,10 +16,29 @@ export function figureText(value: number | null, unit: Unit): string {
   if (value === null) return "–";
   const size = Math.abs(value);
   const small = SMALLER[unit];
-  if (size < NOTHING) return joined("0", unit);
-  return small && size < 0.1 ? joined(digits(value * small[1]), small[0]) : joined(digits(value), unit);
+  if (size < NOTHING) return withUnit("0", unit);
+  return small && size < 0.1 ? withUnit(threeDigits(value * small[1]), small[0]) : withUnit(threeDigits(value), unit);
 }
 
-const joined = (number: string, unit: string): string => (unit === "" || unit === "%" || unit === "°" ? number + unit : `${number} ${unit}`);
+const withUnit = (number: string, unit: string): string => (unit === "" || unit === "%" || unit === "°" ? number + unit : `${number} ${unit}`);
 
-const digits = (value: number): string => value.toLocaleString("en-GB", { maximumSignificantDigits: 3 });
+const threeDigits = (value: number): string => value.toLocaleString("en-GB", { maximumSignificantDigits: 3 });
+
+/** Three digits that matter, no more. */
+function shorten(value: number): string {
+  return String(Number(value.toPrecision(3)));
+}
+
+/** A length with the unit that suits it. */
+export function lengthText(meters: number): string {
+  const size = Math.abs(meters);
+  if (size >= 1) return `${shorten(meters)} m`;
+  return size >= 0.01 ? `${shorten(100 * meters)} cm` : `${shorten(1000 * meters)} mm`;
+}
+
+/** A volume with the unit that suits it. */
+export function volumeText(cubicMeters: number): string {
+  if (cubicMeters >= 1) return `${shorten(cubicMeters)} m³`;
+  if (cubicMeters >= 1e-3) return `${shorten(1e3 * cubicMeters)} l`;
+  return cubicMeters >= 1e-6 ? `${shorten(1e6 * cubicMeters)} cm³` : `${shorten(1e9 * cubicMeters)} mm³`;
+}

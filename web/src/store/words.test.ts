@@ -1,16 +1,16 @@
 import { describe, expect, it } from "vitest";
-import { changeText, counted, errorParts, listed, oneIn, shortName, sureness } from "./words";
+import { changeText, countText, errorParts, listText, shareText, shortName, confidenceText } from "./words";
 
 describe("words", () => {
   it("counts one and many", () => {
-    expect([counted(1, "hull"), counted(0, "hull"), counted(1200, "hull")]).toEqual(["1 hull", "0 hulls", "1,200 hulls"]);
+    expect([countText(1, "hull"), countText(0, "hull"), countText(1200, "hull")]).toEqual(["1 hull", "0 hulls", "1,200 hulls"]);
   });
 
   it("lists all of a few, and of many the first ones", () => {
-    expect(listed([])).toBe("");
-    expect(listed(["a", "b"])).toBe("a and b");
-    expect(listed(["a", "b", "c", "d", "e"])).toBe("a, b, c, d and e");
-    expect(listed(["a", "b", "c", "d", "e", "f"])).toBe("a, b, c, d and 2 more");
+    expect(listText([])).toBe("");
+    expect(listText(["a", "b"])).toBe("a and b");
+    expect(listText(["a", "b", "c", "d", "e"])).toBe("a, b, c, d and e");
+    expect(listText(["a", "b", "c", "d", "e", "f"])).toBe("a, b, c, d and 2 more");
   });
 
   it("shortens an asset to its last part", () => {
@@ -18,12 +18,12 @@ describe("words", () => {
     expect(shortName("c.urdf")).toBe("c.urdf");
   });
 
-  it("says a belief in words that grow surer", () => {
-    expect([0.99, 0.8, 0.5, 0.2].map(sureness)).toEqual(["almost certain", "likely", "about as likely as not", "a guess"]);
+  it("says a belief in words that grow more certain", () => {
+    expect([0.99, 0.8, 0.5, 0.2].map(confidenceText)).toEqual(["almost certain", "likely", "about even", "a guess"]);
   });
 
   it("says a share as one asset in so many", () => {
-    expect([0, 0.02, 0.2, 0.5, 1].map(oneIn)).toEqual([
+    expect([0, 0.02, 0.2, 0.5, 1].map(shareText)).toEqual([
       "no asset",
       "about 1 asset in 50",
       "about 1 asset in 5",

@@ -1,28 +1,28 @@
 // Counts and sizes as people write them.
 
 /** `1 hull`, `3 hulls`, `1,200 hulls`. */
-export function counted(count: number, one: string, many = `${one}s`): string {
+export function countText(count: number, one: string, many = `${one}s`): string {
   return `${count.toLocaleString("en-GB")} ${count === 1 ? one : many}`;
 }
 
 /** A text as a sentence: with a capital, and a full stop. */
-export function sentence(text: string): string {
+export function toSentence(text: string): string {
   return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
 }
 
 /** `a`, `a and b`, `a, b and c`; of more than `most` only the first ones and how many there are besides. */
-export function listed(words: readonly string[], most = 4): string {
+export function listText(words: readonly string[], most = 4): string {
   const rest = words.length - most;
   const all = rest > 1 ? [...words.slice(0, most), `${rest} more`] : words;
   return all.length < 2 ? all.join("") : `${all.slice(0, -1).join(", ")} and ${all.at(-1)}`;
 }
 
 /** How many assets a count is of, where that is not all of them: ` of the 400 looked at`. */
-export function among(lookedAt: number, assets: number): string {
+export function sampleText(lookedAt: number, assets: number): string {
   return lookedAt < assets ? ` of the ${lookedAt.toLocaleString("en-GB")} looked at` : "";
 }
 
-/** Who gave a label: `by you`, `carried over`. */
+/** Who gave a label: `by you`, `propagated`. */
 export function sourceText(source: string): string {
   return SOURCES[source] ?? "by machine";
 }
@@ -32,7 +32,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   name: "from its name",
   user: "by you",
   repair: "by you",
-  propagated: "carried over",
+  propagated: "propagated",
   vlm: "by a model",
   edit: "by an edit",
 };
@@ -43,14 +43,14 @@ export function shortName(asset: string): string {
 }
 
 /** How sure something is, in words; belief in 0..1. */
-export function sureness(belief: number): string {
+export function confidenceText(belief: number): string {
   if (belief >= 0.95) return "almost certain";
   if (belief >= 0.75) return "likely";
-  return belief >= 0.45 ? "about as likely as not" : "a guess";
+  return belief >= 0.45 ? "about even" : "a guess";
 }
 
 /** A share in 0..1 as `about 1 asset in 5`. */
-export function oneIn(share: number): string {
+export function shareText(share: number): string {
   if (share <= 0) return "no asset";
   if (share > 0.75) return "almost every asset";
   if (share > 0.4) return "about every second asset";

@@ -3,40 +3,39 @@ import { EditorState, Prec } from "@codemirror/state";
 import { EditorView, keymap, placeholder } from "@codemirror/view";
 import { Popover } from "radix-ui";
 import { useEffect, useMemo, useState } from "react";
-import { left, takeFound, typed, useExtracting } from "../store/extracting";
-import { askLanguage } from "../store/language";
-import { spreadText } from "../store/lessons";
-import { readable, useProject } from "../store/project";
+import { leaveExtractor, selectFound, typeExtractor, useExtractor } from "../store/extractor";
+import { loadLanguage } from "../store/language";
+import { coverageText } from "../store/lessons";
+import { countReadable, useProject } from "../store/project";
+import { countText } from "../store/words";
 import { Button } from "../ui/Button";
-import { counted } from "../store/words";
-import { editing } from "./editing";
-import { oneLine } from "./looks";
+import { editorExtensions, useEditor } from "./editor";
+import { oneLine } from "./theme";
 import css from "./text.module.css";
-import { useEditor } from "./useEditor";
 
 export function ExtractorField() {
   const [focused, setFocused] = useState(false);
-  const text = useExtracting((state) => state.text);
-  const mark = useExtracting((state) => state.found?.mark ?? null);
+  const text = useExtractor((state) => state.text);
+  const mark = useExtractor((state) => state.found?.mark ?? null);
   const marks = useMemo(() => (mark && text ? [mark] : []), [mark, text]);
-  useEffect(askLanguage, []);
+  useEffect(loadLanguage, []);
   const box = useEditor(text, marks, () => [
     Prec.high(
       keymap.of([
-        { key: "Enter", run: taken },
-        { key: "Escape", run: blurred },
+        { key: "Enter", run: takeSelection },
+        { key: "Escape", run: blur },
       ]),
     ),
-    editing(true, "Select by a rule"),
-    single,
+    editorExtensions(true, "Select by a rule"),
+    singleLine,
     oneLine,
     placeholder("Select by a rule: Is(…), Geo(…)"),
     EditorView.updateListener.of((update) => {
-      if (update.docChanged) typed(update.state.doc.toString());
+      if (update.docChanged) typeExtractor(update.state.doc.toString());
       if (!update.focusChanged) return;
       setFocused(update.view.hasFocus);
-      if (!update.view.hasFocus) left();
-      else if (update.state.doc.length) typed(update.state.doc.toString());
+      if (!update.view.hasFocus) leaveExtractor();
+      else if (update.state.doc.length) typeExtractor(update.state.doc.toString());
     }),
   ]);
   return (
@@ -54,7 +53,7 @@ export function ExtractorField() {
           onCloseAutoFocus={(event) => event.preventDefault()}
           onPointerDown={(event) => event.preventDefault()}
         >
-          <Found />
+          <Answer />
         </Popover.Content>
       </Popover.Portal>
     </Popover.Root>
@@ -62,10 +61,10 @@ export function ExtractorField() {
 }
 
 /** What the text selects in words, or what is wrong with it. */
-function Found() {
-  const found = useExtracting((state) => state.found);
-  const family = useExtracting((state) => state.family);
-  const assets = useProject((state) => readable(state.cards));
+function Answer() {
+  const found = useExtractor((state) => state.found);
+  const family = useExtractor((state) => state.family);
+  const assets = useProject((state) => countReadable(state.cards));
   if (!found) return <p role="status">Looking…</p>;
   if (found.mark)
     return (
@@ -78,13 +77,13 @@ function Found() {
       <p role="status">{found.sentence}</p>
       <div className={css.use}>
         <span>
-          <strong>{counted(found.select.length, "hull")}</strong> here
-          {family && `; in the family ${spreadText(family, assets)}`}
+          <strong>{countText(found.select.length, "hull")}</strong> here
+          {family && `; in the family ${coverageText(family, assets)}`}
         </span>
         <Button
           look="primary"
           disabled={!found.select.length}
-          onClick={() => void takeFound()}
+          onClick={() => void selectFound()}
           tip="Select these hulls"
           keys="Enter"
         >
@@ -95,17 +94,17 @@ function Found() {
   );
 }
 
-const single = [
+const singleLine = [
   EditorState.transactionFilter.of((change) => (change.newDoc.lines > 1 ? [] : change)),
   EditorView.clipboardInputFilter.of((pasted) => pasted.replaceAll(/\s*\n\s*/g, " ")),
 ];
 
-function taken(view: EditorView): boolean {
-  void takeFound().then((done) => done && view.contentDOM.blur());
+function takeSelection(view: EditorView): boolean {
+  void selectFound().then((done) => done && view.contentDOM.blur());
   return true;
 }
 
-function blurred(view: EditorView): boolean {
+function blur(view: EditorView): boolean {
   view.contentDOM.blur();
   return true;
 }

@@ -2,11 +2,10 @@
 import { EditorState } from "@codemirror/state";
 import { EditorView, highlightActiveLine, lineNumbers } from "@codemirror/view";
 import { useEffect, useRef } from "react";
-import { askLanguage } from "../store/language";
+import { loadLanguage } from "../store/language";
 import type { Mark } from "../wire";
-import { editing, reading } from "./editing";
+import { editorExtensions, useEditor, viewerExtensions } from "./editor";
 import css from "./text.module.css";
-import { useEditor } from "./useEditor";
 
 interface ProgramTextProps {
   text: string;
@@ -20,14 +19,14 @@ export function ProgramText({ text, onChange, marks, readOnly }: ProgramTextProp
   useEffect(() => {
     changed.current = onChange;
   }, [onChange]);
-  useEffect(askLanguage, []);
-  const told = EditorView.updateListener.of((update) => {
+  useEffect(loadLanguage, []);
+  const listener = EditorView.updateListener.of((update) => {
     if (update.docChanged) changed.current?.(update.state.doc.toString());
   });
   const box = useEditor(text, marks, () =>
     readOnly
-      ? [reading("Program"), EditorState.readOnly.of(true)]
-      : [editing(false, "Program"), told, lineNumbers(), highlightActiveLine()],
+      ? [viewerExtensions("Program"), EditorState.readOnly.of(true)]
+      : [editorExtensions(false, "Program"), listener, lineNumbers(), highlightActiveLine()],
   );
   return <div ref={box} className={css.program} data-testid="program-text" />;
 }

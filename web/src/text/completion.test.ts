@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { labelText } from "../store/steps";
-import { begun, type Context, openCall, suggestions } from "./completion";
+import { labelText } from "../store/actions";
+import { wordBefore, type Context, openCall, suggestions } from "./completion";
 
 const argument = (name: string, kind: "shape" | "words" | "factor", choices: string[], required = true) => ({
   name,
@@ -55,10 +55,10 @@ describe("what may follow in a program", () => {
   });
 
   it("takes the place of the word that was begun", () => {
-    expect(begun("Is(le")).toBe("le");
-    expect(begun('Is("table t')).toBe('"table t');
-    expect(begun("Geo(All, -")).toBe("-");
-    expect(begun("Is(leg) ")).toBe("");
+    expect(wordBefore("Is(le")).toBe("le");
+    expect(wordBefore('Is("table t')).toBe('"table t');
+    expect(wordBefore("Geo(All, -")).toBe("-");
+    expect(wordBefore("Is(leg) ")).toBe("");
   });
 
   it("knows the call around it", () => {

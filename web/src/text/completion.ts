@@ -18,13 +18,13 @@ export interface Context {
 }
 
 /** The word before the end of a text, which a suggestion takes the place of. */
-export function begun(text: string): string {
+export function wordBefore(text: string): string {
   return /(?:"[^"]*|[+-]?[\p{L}\p{N}_]*)$/u.exec(text)?.[0] ?? "";
 }
 
 /** What may follow the text of a line; only an extractor where `bare`. */
 export function suggestions(line: string, context: Context, bare: boolean): Suggestion[] {
-  const before = line.slice(0, line.length - begun(line).length);
+  const before = line.slice(0, line.length - wordBefore(line).length);
   const action = bare ? -1 : before.lastIndexOf("=>");
   if (action >= 0) return forAction(before.slice(action + 2), context);
   if (/^\s*(?:labels|contact|extremity)\b/.test(before)) return [];

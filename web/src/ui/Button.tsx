@@ -1,7 +1,7 @@
 // Buttons, with words or as an icon; every icon has a name for screen readers and a tooltip.
 import type { LucideIcon } from "lucide-react";
+import { Tooltip } from "radix-ui";
 import type { ButtonHTMLAttributes, ReactNode } from "react";
-import { Tip } from "./Tip";
 import css from "./ui.module.css";
 
 interface ButtonProps extends ButtonHTMLAttributes<HTMLButtonElement> {
@@ -50,5 +50,19 @@ export function IconButton({ icon: Icon, name, keys, on, className, ...rest }: I
         <Icon size={16} aria-hidden />
       </button>
     </Tip>
+  );
+}
+
+/** A tooltip: what a control does, and its key. */
+export function Tip({ text, keys, children }: { text: string; keys?: string | undefined; children: ReactNode }) {
+  return (
+    <Tooltip.Root>
+      <Tooltip.Trigger asChild>{children}</Tooltip.Trigger>
+      <Tooltip.Portal>
+        <Tooltip.Content className={css.tip} sideOffset={5} collisionPadding={6}>
+          {text} {keys && <kbd>{keys}</kbd>}
+        </Tooltip.Content>
+      </Tooltip.Portal>
+    </Tooltip.Root>
   );
 }

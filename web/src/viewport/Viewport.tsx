@@ -1,33 +1,33 @@
 // The view of an asset: a toolbar, the picture, and what lies over it.
 import { useEffect, useRef, useState } from "react";
-import { Outcome } from "../outcome/Outcome";
-import { useDesk } from "../store/desk";
+import type { WebGLRenderer } from "three";
+import { LabelChanges } from "../family/LabelChanges";
 import { useScenes } from "../store/scenes";
+import { setTool, useWorkspace } from "../store/workspace";
+import { type Canvas, getCanvas } from "./canvas";
 import { CutBar } from "./overlay/CutBar";
-import { Divider } from "./overlay/Divider";
-import { Drawn } from "./overlay/Drawn";
-import { Gaps } from "./overlay/Gaps";
-import { Hud } from "./overlay/Hud";
-import { Landmarks } from "./overlay/Landmarks";
-import { Legend } from "./overlay/Legend";
-import { NoWebGl, State } from "./overlay/State";
+import { CompareLine } from "./overlay/CompareLine";
+import { InfoLines, Legend } from "./overlay/InfoLines";
+import { DrawnRegion, Gaps, Landmarks } from "./overlay/Marks";
+import { Messages, NoWebGl } from "./overlay/Messages";
 import { ViewCube } from "./overlay/ViewCube";
-import { type Paper, paper } from "./paper";
-import { Picture } from "./Picture";
-import { StageContext } from "./stage/context";
-import { expose } from "./stage/exposed";
-import { settingsOf } from "./stage/settings";
+import { Gestures } from "./pointer/gestures";
+import { createPointerTool } from "./pointer/tools";
+import { StageContext, useStage } from "./stage/context";
+import { settingsOf } from "./stage/panes";
+import { exposeProbe } from "./stage/picking";
 import { Stage } from "./stage/stage";
+import { mountStage } from "./stage/sync";
 import { Toolbar } from "./toolbar/Toolbar";
 import css from "./viewport.module.css";
 
 export function Viewport() {
-  const [sheet] = useState(paper);
-  const [stage] = useState(() => new Stage(settingsOf(useDesk.getState().view), sheet?.smooth ?? true));
+  const [sheet] = useState(getCanvas);
+  const [stage] = useState(() => new Stage(settingsOf(useWorkspace.getState().view), sheet?.smooth ?? true));
   const root = useRef<HTMLElement>(null);
   const asset = useScenes(({ scene }) => scene?.asset ?? "");
   const loading = useScenes((state) => state.loading);
-  useEffect(() => (root.current ? expose(stage, root.current) : undefined), [stage]);
+  useEffect(() => (root.current ? exposeProbe(stage, root.current) : undefined), [stage]);
   return (
     <StageContext.Provider value={stage}>
       <section
@@ -40,29 +40,56 @@ export function Viewport() {
       >
         <Toolbar />
         <div className={css.stage}>
-          {sheet ? <Shown sheet={sheet} /> : <NoWebGl />}
-          <State />
+          {sheet ? <CanvasLayers sheet={sheet} /> : <NoWebGl />}
+          <Messages />
         </div>
       </section>
     </StageContext.Provider>
   );
 }
 
-function Shown({ sheet }: { sheet: Paper }) {
+function CanvasLayers({ sheet }: { sheet: Canvas }) {
   return (
     <>
-      <Picture gl={sheet.gl} />
-      <Drawn />
-      <Divider />
+      <CanvasView gl={sheet.gl} />
+      <DrawnRegion />
+      <CompareLine />
       <Gaps />
       <Landmarks />
       <ViewCube />
-      <Hud />
+      <InfoLines />
       <Legend />
       <CutBar />
       <div className={css.outcome}>
-        <Outcome />
+        <LabelChanges />
       </div>
     </>
   );
+}
+
+/** The canvas: three.js draws the stage on it when something changed, the pointer acts on it. */
+function CanvasView({ gl }: { gl: WebGLRenderer }) {
+  const stage = useStage();
+  const holder = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (!holder.current) return;
+    return new Gestures(holder.current, stage, createPointerTool(stage)).listen();
+  }, [stage]);
+  useEffect(() => (holder.current ? mountStage(stage, gl, holder.current) : undefined), [stage, gl]);
+  useEffect(leaveToolByEscape, []);
+  const cursor = useWorkspace(({ tool, brush }) => (tool === "select" ? (brush === null ? "select" : "brush") : tool));
+  const name = useScenes(({ scene }) => (scene ? `${scene.asset}, ${scene.hulls.length} hulls` : "nothing"));
+  return <div ref={holder} className={css.picture} data-tool={cursor} role="img" aria-label={`View of ${name}`} />;
+}
+
+/** Escape puts a tool down before it means anything else; the cutting tool sees to it itself. */
+function leaveToolByEscape(): () => void {
+  const press = (event: KeyboardEvent) => {
+    const { tool } = useWorkspace.getState();
+    if (event.key !== "Escape" || event.defaultPrevented || tool === "select" || tool === "cut") return;
+    event.preventDefault();
+    setTool("select");
+  };
+  window.addEventListener("keydown", press, true);
+  return () => window.removeEventListener("keydown", press, true);
 }

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError, ProjectError
@@ -28,14 +27,12 @@ from meshforge.labels.merge import (
 )
 from meshforge.labels.names.label_by_names import name_patterns
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.store import Store
 from meshforge.symbolic import Label, match_labels, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 def label_from_files(
-    project: Project, source: Path | None, how: LabelFileOptions, spread: ExecutionOptions, report: OutcomeCallback
+    store: Store, source: Path | None, options: LabelFileOptions, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
     """Take over what the file of each asset that has one says; a problem with one asset is told in its report.
 
@@ -44,87 +41,87 @@ def label_from_files(
     Raises ProjectError: no file at all; UsageError: a pattern that makes no sense, or one file for several assets;
     AssetError: a file that cannot be read, while a vocabulary is looked for.
     """
-    files = _require_files(project, source)
-    if not project.vocabulary:
-        project.set_vocabulary(_read_vocabulary(files, how))
-    patterns = name_patterns(project.folder, project.settings, project.vocabulary, how.meanings)
-    taker, reports = LabelWriter(project), list[LabelOutcome]()
-    for asset, says in read_label_files(project, files, how, taker.vocabulary, patterns, spread):
-        reports.append(_write_asset(taker, asset, says))
+    files = _require_files(store, source)
+    if not store.vocabulary:
+        store.set_vocabulary(_read_vocabulary(files, options))
+    patterns = name_patterns(store.folder, store.settings, store.vocabulary, options.meanings)
+    writer, reports = LabelWriter(store), list[LabelOutcome]()
+    for asset, content in read_label_files(store, files, options, writer.vocabulary, patterns, execution):
+        reports.append(_write_asset(writer, asset, content))
         report(reports[-1])
     return tuple(reports)
 
 
-def _write_asset(taker: LabelWriter, asset: str, says: LabelFileContent) -> LabelOutcome:
-    if says.error:
-        return LabelOutcome(asset, problems=(says.error,))
-    report = taker.try_write(asset, says.hulls, says.given.labels, can_replace_any)
-    return replace(report, problems=(*report.problems, *says.given.problems))
+def _write_asset(writer: LabelWriter, asset: str, content: LabelFileContent) -> LabelOutcome:
+    if content.error:
+        return LabelOutcome(asset, problems=(content.error,))
+    report = writer.try_write(asset, content.hulls, content.given.labels, can_replace_any)
+    return replace(report, problems=(*report.problems, *content.given.problems))
 
 
 def propose_from_files(
-    project: Project,
+    store: Store,
     source: Path | None,
-    how: LabelFileOptions,
+    options: LabelFileOptions,
     vocabulary: Sequence[str] | None,
-    spread: ExecutionOptions,
+    execution: ExecutionOptions,
 ) -> Proposals:
     """What `label_from_files` would take, with nothing written; vocabulary: that to be tried, the project's when
     None.
     """
-    files = _require_files(project, source)
-    words = (project.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, how)
-    patterns = name_patterns(project.folder, project.settings, words, how.meanings)
+    files = _require_files(store, source)
+    words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, options)
+    patterns = name_patterns(store.folder, store.settings, words, options.meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, says in read_label_files(project, files, how, words, patterns, spread):
+    for asset, content in read_label_files(store, files, options, words, patterns, execution):
         try:
-            current = match_labels(project.labels(asset), says.hulls).labels
+            current = match_labels(store.labels(asset), content.hulls).labels
         except AssetError as error:
             problems.append(f"{asset}: {error.message}")
             continue
-        _, report = merge_labels(asset, says.hulls, current, says.given.labels, words)
-        told = (says.error,) if says.error else (*report.problems, *says.given.problems)
-        problems += [f"{asset}: {problem}" for problem in told]
-        rows = list(_evidence_of_asset(asset, says, current, files[asset], words))
-        labelled += len(says.hulls) - len(rows)
+        _, report = merge_labels(asset, content.hulls, current, content.given.labels, words)
+        left_out = (content.error,) if content.error else (*report.problems, *content.given.problems)
+        problems += [f"{asset}: {problem}" for problem in left_out]
+        rows = list(_evidence_of_asset(asset, content, current, files[asset], words))
+        labelled += len(content.hulls) - len(rows)
         found += rows
     return group_evidence(found, words, labelled, problems)
 
 
 def _evidence_of_asset(
-    asset: str, says: LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
+    asset: str, content: LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
 ) -> Iterator[LabelEvidence]:
     """What becomes of the hulls whose label would change, or that have none."""
-    for hull in says.hulls:
-        label, now = says.given.labels.get(hull), current.get(hull)
+    for hull in content.hulls:
+        label, now = content.given.labels.get(hull), current.get(hull)
         if label and label.name in words and label != now and not is_protected(now, label):
-            yield LabelEvidence(asset, label, kind_of(file), says.given.names.get(hull) or file.name)
+            yield LabelEvidence(asset, label, kind_of(file), content.given.names.get(hull) or file.name)
         elif now is None:
             yield LabelEvidence(asset, None, "nothing said", hull)
 
 
-def _require_files(project: Project, source: Path | None) -> dict[str, Path]:
+def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     """The file of each asset that has one. Raises ProjectError where no asset has one."""
-    files = find_label_files(project.found, source)
+    files = find_label_files(store.found, source)
     if not files:
         raise ProjectError(
             "there is no labels file for any asset",
-            where=str(project.folder),
+            where=str(store.folder),
             remedy="Put a labels file beside each asset, or name a folder of them that mirrors the assets.",
         )
     return files
 
 
-def _read_vocabulary(files: Mapping[str, Path], how: LabelFileOptions) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, how)))
+def _read_vocabulary(files: Mapping[str, Path], options: LabelFileOptions) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, options)))
 
 
-def _read_words(file: Path, how: LabelFileOptions) -> Iterable[str]:
+def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:
     """The labels that a file speaks of, in its order."""
     match kind_of(file):
         case "labels file":
-            said = read_labels(file)
-            return (*said.vocabulary, *(label.name for label in said.labels.values()))
+            labels_file = read_labels(file)
+            return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))
         case "points":
-            return class_names_in_file(file, how.reading.classes)
+            return class_names_in_file(file, options.reading.classes)
     return read_link_names(file)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
@@ -18,12 +18,8 @@ from meshforge.labels.from_files.points import PointsOptions, label_by_points
 from meshforge.labels.names.hull_names import HullNames, NamePattern
 from meshforge.labels.names.label_by_names import PatternPairs, names_of_mesh
 from meshforge.labels.names.words import EXACT
-from meshforge.store import AssetFacts, hull_digests, iterate_survey
+from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
 from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 LabelFileKind = Literal["labels file", "points", "semantics"]
 _LINKS_SUFFIX = ".urdf"  # the format whose links semantics are about
@@ -158,41 +154,41 @@ class _Work:
     path: Path
     preparation: Path
     file: Path
-    how: LabelFileOptions
+    options: LabelFileOptions
     vocabulary: tuple[str, ...]
     patterns: tuple[NamePattern, ...]
 
 
 def read_label_files(
-    project: Project,
+    store: Store,
     files: Mapping[str, Path],
-    how: LabelFileOptions,
+    options: LabelFileOptions,
     vocabulary: Sequence[str],
     patterns: Sequence[NamePattern],
-    spread: ExecutionOptions,
+    execution: ExecutionOptions,
 ) -> Iterator[tuple[str, LabelFileContent]]:
     """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
     plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
-    layout, words, known = project.layout, tuple(vocabulary), tuple(patterns)
+    layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
     work = [
-        _Work(project.path(asset), layout.preparation(asset), file, how, words, known)
+        _Work(store.path(asset), layout.preparation(asset), file, options, words, known)
         for asset, file in files.items()
         if asset not in plain
     ]
     with (
-        closing(iterate_survey(project.found, layout, plain, spread=spread)) as facts,
-        closing(execute(_read_by_mesh, work, spread)) as others,
+        closing(iterate_survey(store.found, layout, plain, execution=execution)) as facts,
+        closing(execute(_read_by_mesh, work, execution)) as others,
     ):
         for asset, file in files.items():
             if asset in plain:
                 yield asset, _read_by_facts(next(facts)[1], file)
             else:
-                says = next(others)
+                content = next(others)
                 yield (
                     asset,
-                    LabelFileContent(error=f"{project.path(asset)}: {says.why}")
-                    if isinstance(says, WorkerFailure)
-                    else says,
+                    LabelFileContent(error=f"{store.path(asset)}: {content.why}")
+                    if isinstance(content, WorkerFailure)
+                    else content,
                 )
 
 
@@ -200,19 +196,19 @@ def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
     if facts.error:
         return LabelFileContent(error=facts.error)
     try:
-        said = read_labels(file)
+        labels_file = read_labels(file)
     except MeshForgeError as error:
         return LabelFileContent(facts.hulls, error=error.message)
-    homes = match_labels(said, facts.hulls)
+    homes = match_labels(labels_file, facts.hulls)
     present = {name: homes.labels[name] for name in facts.hulls if name in homes.labels}
-    return LabelFileContent(facts.hulls, FileLabels({name: said.labels[name] for name in homes.gone} | present))
+    return LabelFileContent(facts.hulls, FileLabels({name: labels_file.labels[name] for name in homes.gone} | present))
 
 
 def _read_by_mesh(work: _Work) -> LabelFileContent:
     try:
         mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
         if kind_of(work.file) == "points":
-            given = label_by_points(mesh, work.file, work.how.reading, work.vocabulary, work.patterns)
+            given = label_by_points(mesh, work.file, work.options.reading, work.vocabulary, work.patterns)
         else:
             given = label_by_links(mesh, work.file, work.vocabulary, work.patterns)
         return LabelFileContent(hull_digests(mesh), given)

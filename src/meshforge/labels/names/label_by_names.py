@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import SETTINGS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
 from meshforge.labels.names.hull_names import HullNames, NameMatch, NamePattern, match_names, pattern_of
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
-from meshforge.store import AssetFacts, Settings, iterate_survey
+from meshforge.store import AssetFacts, Settings, Store, iterate_survey
 from meshforge.symbolic import Label, SymbolicMesh, match_labels
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 PatternPairs = Sequence[tuple[str, str]]
 """Patterns of names, each with the label that such names mean, empty for none; the first that fits counts."""
@@ -46,35 +41,35 @@ def _check_pattern(text: str, label: str, vocabulary: Sequence[str]) -> NamePatt
 
 
 def label_from_names(
-    project: Project, meanings: PatternPairs, spread: ExecutionOptions, report: OutcomeCallback
+    store: Store, meanings: PatternPairs, execution: ExecutionOptions, report: OutcomeCallback
 ) -> tuple[LabelOutcome, ...]:
     """Give the labels that names say to hulls that have none; a problem with one asset is told in its report.
 
     meanings: patterns besides those of the project, which they precede.
     Raises ProjectError: no vocabulary; UsageError: a pattern that makes no sense.
     """
-    patterns = require_patterns(project, project.vocabulary, meanings)
-    taker, reports = LabelWriter(project), list[LabelOutcome]()
-    for asset, facts in iterate_survey(project.found, project.layout, spread=spread):
-        reports.append(_label_asset(taker, asset, facts, patterns))
+    patterns = require_patterns(store, store.vocabulary, meanings)
+    writer, reports = LabelWriter(store), list[LabelOutcome]()
+    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
+        reports.append(_label_asset(writer, asset, facts, patterns))
         report(reports[-1])
     return tuple(reports)
 
 
-def require_patterns(project: Project, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
+def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
     """The patterns that say what names mean. Raises as `label_from_names`."""
     if not vocabulary:
         remedy = "Say first what hulls can be."
-        raise ProjectError("the vocabulary is empty", where=str(project.folder), remedy=remedy)
-    return name_patterns(project.folder, project.settings, vocabulary, meanings)
+        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
+    return name_patterns(store.folder, store.settings, vocabulary, meanings)
 
 
-def _label_asset(taker: LabelWriter, asset: str, facts: AssetFacts, patterns: Sequence[NamePattern]) -> LabelOutcome:
+def _label_asset(writer: LabelWriter, asset: str, facts: AssetFacts, patterns: Sequence[NamePattern]) -> LabelOutcome:
     if facts.error:
         return LabelOutcome(asset, problems=(facts.error,))
-    said = ((names.hull, match_names(names, taker.vocabulary, patterns)) for names in names_of_facts(facts))
-    given = {hull: label for hull, one in said if one and (label := to_label(one))}
-    return taker.try_write(asset, facts.hulls, given, can_fill_gap)
+    matches = ((names.hull, match_names(names, writer.vocabulary, patterns)) for names in names_of_facts(facts))
+    given = {hull: label for hull, one in matches if one and (label := to_label(one))}
+    return writer.try_write(asset, facts.hulls, given, can_fill_gap)
 
 
 def to_label(one: NameMatch) -> Label | None:
@@ -94,18 +89,18 @@ def names_of_facts(facts: AssetFacts) -> Iterator[HullNames]:
 
 
 def propose_from_names(
-    project: Project, meanings: PatternPairs, vocabulary: Sequence[str] | None, spread: ExecutionOptions
+    store: Store, meanings: PatternPairs, vocabulary: Sequence[str] | None, execution: ExecutionOptions
 ) -> Proposals:
     """What names would give, told from the survey; vocabulary: that to be tried, the project's when None.
 
     Raises as `label_from_names`.
     """
-    words = project.vocabulary if vocabulary is None else tuple(vocabulary)
-    patterns = require_patterns(project, words, meanings)
+    words = store.vocabulary if vocabulary is None else tuple(vocabulary)
+    patterns = require_patterns(store, words, meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, facts in iterate_survey(project.found, project.layout, spread=spread):
+    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
         try:
-            present = match_labels(project.labels(asset), facts.hulls).labels
+            present = match_labels(store.labels(asset), facts.hulls).labels
         except MeshForgeError as error:
             problems.append(f"{asset}: {error.message}")
             continue

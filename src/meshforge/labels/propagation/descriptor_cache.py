@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,9 @@ from meshforge.batch import (
 )
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
-from meshforge.store import AssetFacts
+from meshforge.labels.propagation.describe import MeshDescriber
+from meshforge.store import AssetFacts, Store
 from meshforge.symbolic import EPSILON, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
 
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
@@ -83,13 +80,13 @@ class _Work:
 class DescriptorCache:
     """Those of some assets of a project, as they are known; spread: how the work is done."""
 
-    def __init__(self, project: Project, facts: Mapping[str, AssetFacts], spread: ExecutionOptions) -> None:
-        contact = project.settings.thresholds.contact or EPSILON
-        layout, base = project.layout, project.found.base
-        self._spread = spread
+    def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: ExecutionOptions) -> None:
+        contact = store.settings.thresholds.contact or EPSILON
+        layout, base = store.layout, store.found.base
+        self._execution = execution
         self._work = {
             asset: _Work(
-                project.path(asset),
+                store.path(asset),
                 base,
                 own.files,
                 layout.preparation(asset),
@@ -105,7 +102,9 @@ class DescriptorCache:
     def describe(self, assets: Sequence[str], done: Callable[[], None]) -> Iterator[tuple[str, str]]:
         """Describe some assets, and give those that cannot be, with why; done: called for each."""
         work = [self._work[asset] for asset in assets]
-        for asset, result in zip(assets, execute(_describe, work, replace(self._spread, progress=done)), strict=True):
+        for asset, result in zip(
+            assets, execute(_describe, work, replace(self._execution, progress=done)), strict=True
+        ):
             if isinstance(result, WorkerFailure):
                 yield asset, f"{self._work[asset].path}: {result.why}"
             elif result:
@@ -130,7 +129,7 @@ class DescriptorCache:
         """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
         for (asset, _), result in zip(
-            wanted, execute(_describe_sides, work, replace(self._spread, progress=done)), strict=True
+            wanted, execute(_describe_sides, work, replace(self._execution, progress=done)), strict=True
         ):
             yield asset, f"{self._work[asset].path}: {result.why}" if isinstance(result, WorkerFailure) else result
 
@@ -146,11 +145,9 @@ def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None
 
 def _describe(work: _Work) -> str | None:
     """Describe an asset and keep that; why that cannot be done."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
-        sketch = MeshDescriber(_read_mesh(work)).describe()
-        arrays = {"rows": sketch.rows, "touching": sketch.touching, "sides": sketch.sides}
+        descriptor = MeshDescriber(_read_mesh(work)).describe()
+        arrays = {"rows": descriptor.rows, "touching": descriptor.touching, "sides": descriptor.sides}
         write_arrays(work.place("seen"), work.key, arrays)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
@@ -159,16 +156,14 @@ def _describe(work: _Work) -> str | None:
 
 def _describe_sides(work: _Work) -> list[Floats] | str:
     """The rows of an asset on some of its sides, which are kept, too; or why there are none."""
-    from meshforge.labels.propagation.describe import MeshDescriber
-
     try:
         known = {side: _read_kept(work, f"side{side}", "rows") for side in work.sides}
-        sketcher = None if all(known.values()) else MeshDescriber(_read_mesh(work))
+        describer = None if all(known.values()) else MeshDescriber(_read_mesh(work))
         found = list[Floats]()
         for side, kept in known.items():
             if kept is None:
-                assert sketcher
-                kept = [sketcher.describe_side(side)]
+                assert describer
+                kept = [describer.describe_side(side)]
                 write_arrays(work.place(f"side{side}"), work.key, {"rows": kept[0]})
             found += kept
         return found

@@ -6,22 +6,24 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats
+from meshforge.label_model import FamilyTable, reference_label
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
 from meshforge.labels.propagation.descriptor_cache import DescriptorCache
+from meshforge.labels.propagation.propagate import (
+    FamilyPosterior,
+    build_family,
+    compute_posterior,
+    correct_upright,
+    find_doubtful_sides,
+    metric_weights,
+)
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
-from meshforge.store import AssetFacts, survey
+from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
-
-if TYPE_CHECKING:
-    from meshforge.label_model import FamilyTable
-    from meshforge.labels.propagation.propagate import FamilyPosterior
-    from meshforge.project import Project
-
 
 Stage = Callable[[int, str], AbstractContextManager[Callable[[], None]]]
 """Given how many assets a part of the work is about and what it is called, what is entered meanwhile: that gives the
@@ -65,36 +67,34 @@ class FamilyComparison:
 
 
 def compare_family(
-    sketches: DescriptorCache, told: Mapping[str, Sequence[str | None]], spread: ExecutionOptions, stage: Stage
+    cache: DescriptorCache, known: Mapping[str, Sequence[str | None]], execution: ExecutionOptions, stage: Stage
 ) -> FamilyComparison:
-    """Compare all hulls. told: of each asset the labels of its hulls, as far as known; spread, stage: of the work."""
-    from meshforge.labels.propagation.propagate import build_family, correct_upright, metric_weights
+    """Compare all hulls. known: of each asset the labels of its hulls, None where there is none."""
 
-    seen = {asset: sketches.read_rows(asset) for asset in told}
+    seen = {asset: cache.read_rows(asset) for asset in known}
     missing = [asset for asset, own in seen.items() if own is None]
     with stage(len(missing), "describing") as advance:
-        lost = dict(sketches.describe(missing, advance))
-    seen |= {asset: sketches.read_rows(asset) for asset in missing}
+        lost = dict(cache.describe(missing, advance))
+    seen |= {asset: cache.read_rows(asset) for asset in missing}
     described = {asset: own for asset, own in seen.items() if own}
     lost |= {asset: f"{asset}: how it is described was not kept" for asset in missing if asset not in described | lost}
     assets = tuple(described)
-    family = build_family([*described.values()]).with_labels([label for asset in assets for label in told[asset]])
+    family = build_family([*described.values()]).with_labels([label for asset in assets for label in known[asset]])
     del seen, described
-    doubtful = list(_find_doubtful(family, assets, sketches, spread.stop))
+    doubtful = list(_find_doubtful(family, assets, cache, execution.stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
-        looked = _collect_sides(sketches.describe_sides(doubtful, advance), places, lost)
-        family = correct_upright(family, looked, metric_weights())
-    return FamilyComparison(assets, _compute_isolated(family, spread.stop), lost)
+        sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
+        family = correct_upright(family, sides, metric_weights())
+    return FamilyComparison(assets, _compute_isolated(family, execution.stop), lost)
 
 
 def _find_doubtful(
-    family: FamilyTable, assets: Sequence[str], sketches: DescriptorCache, stop: Callable[[], bool] | None
+    family: FamilyTable, assets: Sequence[str], cache: DescriptorCache, stop: Callable[[], bool] | None
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-    from meshforge.labels.propagation.propagate import find_doubtful_sides, metric_weights
 
-    for place, sides in find_doubtful_sides(family, lambda place: sketches.read_sides(assets[place]), metric_weights()):
+    for place, sides in find_doubtful_sides(family, lambda place: cache.read_sides(assets[place]), metric_weights()):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
@@ -113,7 +113,6 @@ def _collect_sides(
 
 def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
-    from meshforge.labels.propagation.propagate import compute_posterior
 
     (found,) = run_isolated(compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
@@ -130,42 +129,46 @@ class PropagationResult:
 
 
 def propagate_labels(
-    project: Project, spread: ExecutionOptions, stage: Stage, report: OutcomeCallback, keeping: WriteBlock = nullcontext
+    store: Store,
+    execution: ExecutionOptions,
+    stage: Stage,
+    report: OutcomeCallback,
+    write_block: WriteBlock = nullcontext,
 ) -> PropagationResult:
     """Carry labels to all hulls that have none, or one that a machine was less sure of.
 
     stage: gives what is entered for each part of the work; keeping: the block in which all is written.
     Raises ProjectError: no vocabulary, or no label to begin with; StoppedError when it was told to stop.
     """
-    said = _compare_assets(project, project.vocabulary, spread, stage)
-    taker, reports = LabelWriter(project), list[LabelOutcome]()
-    with keeping(said.next), stage(len(project.assets()), "labelling") as advance:
-        for asset in project.assets():
-            if why := said.lost.get(asset):
+    findings = _compare_assets(store, store.vocabulary, execution, stage)
+    writer, reports = LabelWriter(store), list[LabelOutcome]()
+    with write_block(findings.next), stage(len(store.assets()), "labelling") as advance:
+        for asset in store.assets():
+            if why := findings.lost.get(asset):
                 reports.append(LabelOutcome(asset, problems=(why,)))
             else:
                 reports.append(
-                    taker.try_write(asset, said.hulls[asset], said.labels_of(asset), can_replace_less_certain)
+                    writer.try_write(asset, findings.hulls[asset], findings.labels_of(asset), can_replace_less_certain)
                 )
             report(reports[-1])
             advance()
-    return PropagationResult(tuple(reports), said.next)
+    return PropagationResult(tuple(reports), findings.next)
 
 
 def propose_propagated(
-    project: Project, vocabulary: Sequence[str] | None, spread: ExecutionOptions, stage: Stage
+    store: Store, vocabulary: Sequence[str] | None, execution: ExecutionOptions, stage: Stage
 ) -> Proposals:
     """What `propagate_labels` would write, with nothing written; vocabulary: one to be tried. Raises as that."""
-    words = project.vocabulary if vocabulary is None else tuple(vocabulary)
-    said = _compare_assets(project, words, spread, stage)
+    words = store.vocabulary if vocabulary is None else tuple(vocabulary)
+    findings = _compare_assets(store, words, execution, stage)
     found, labelled = list[LabelEvidence](), 0
-    for asset in (asset for asset in project.assets() if asset not in said.lost):
-        hulls, given = said.hulls[asset], said.labels_of(asset)
-        current = match_labels(project.labels(asset), hulls).labels
+    for asset in (asset for asset in store.assets() if asset not in findings.lost):
+        hulls, given = findings.hulls[asset], findings.labels_of(asset)
+        current = match_labels(store.labels(asset), hulls).labels
         taken = {name: label for name, label in given.items() if is_replaced(current.get(name), label)}
         found += [LabelEvidence(asset, label, "likeness", name) for name, label in taken.items()]
         labelled += len(hulls) - len(taken)
-    return group_evidence(found, words, labelled, said.lost.values())
+    return group_evidence(found, words, labelled, findings.lost.values())
 
 
 def is_replaced(current: Label | None, given: Label) -> bool:
@@ -189,36 +192,33 @@ class _Findings:
         return {name: label for name, label in rows if label}
 
 
-def _compare_assets(project: Project, vocabulary: Sequence[str], spread: ExecutionOptions, stage: Stage) -> _Findings:
+def _compare_assets(store: Store, vocabulary: Sequence[str], execution: ExecutionOptions, stage: Stage) -> _Findings:
     if not vocabulary:
         remedy = "Say first what hulls can be: --vocabulary a,b,c."
-        raise ProjectError("the vocabulary is empty", where=str(project.folder), remedy=remedy)
-    with stage(len(project.assets()), "reading") as advance:
-        facts = survey(project.found, project.layout, spread=spread, progress=advance)
+        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
+    with stage(len(store.assets()), "reading") as advance:
+        facts = survey(store.found, store.layout, execution=execution, progress=advance)
     lost = {asset: own.error for asset, own in facts.items() if own.error}
-    told = dict[str, list[str | None]]()
+    known = dict[str, list[str | None]]()
     for asset, own in facts.items():
         try:
-            told |= {asset: _reference_labels(project.labels(asset), own, vocabulary)} if asset not in lost else {}
+            known |= {asset: _reference_labels(store.labels(asset), own, vocabulary)} if asset not in lost else {}
         except AssetError as error:
             lost[asset] = error.message
-    sketches = DescriptorCache(project, {asset: facts[asset] for asset in told}, spread)
-    hulls = {asset: facts[asset].hulls for asset in told}
+    cache = DescriptorCache(store, {asset: facts[asset] for asset in known}, execution)
+    hulls = {asset: facts[asset].hulls for asset in known}
     del facts
-    found = compare_family(sketches, told, spread, stage)
+    found = compare_family(cache, known, execution, stage)
     if not found.has_labels:
         remedy = (
             f"Label the hulls of one asset first, best {found.next}." if found.next else "Decompose the assets first."
         )
-        raise ProjectError(
-            "there is no label that others could be taken from", where=str(project.folder), remedy=remedy
-        )
+        raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return _Findings(hulls, lost | found.lost, found.next, found)
 
 
 def _reference_labels(file: LabelFile, facts: AssetFacts, vocabulary: Sequence[str]) -> list[str | None]:
     """The labels of the hulls of an asset that others may be taken from."""
-    from meshforge.label_model import reference_label
 
     labels = match_labels(file, facts.hulls).labels
     found = (reference_label(labels.get(name)) for name in facts.hulls)

@@ -60,10 +60,10 @@ def find_doubtful_sides(
     """
     if not len(family.labelled):
         return
-    taught, scale = _rows_with_labels(family, metric)[:, SHAPE_COLUMNS], family.scale.of_columns(SHAPE_COLUMNS)
+    labelled_rows, scale = _rows_with_labels(family, metric)[:, SHAPE_COLUMNS], family.scale.of_columns(SHAPE_COLUMNS)
 
     def apart(shapes: Floats) -> float:
-        return _mean_distance(shapes * metric[SHAPE_COLUMNS], taught)
+        return _mean_distance(shapes * metric[SHAPE_COLUMNS], labelled_rows)
 
     for mesh, span in _spans_of(family):
         if (family.codes[span] != NO_LABEL).any():
@@ -74,19 +74,19 @@ def find_doubtful_sides(
         yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
 
 
-def correct_upright(family: FamilyTable, looked: Iterable[tuple[int, Sequence[Floats]]], metric: Floats) -> FamilyTable:
+def correct_upright(family: FamilyTable, closer: Iterable[tuple[int, Sequence[Floats]]], metric: Floats) -> FamilyTable:
     """The family with those meshes turned whose hulls are then clearly more like the hulls whose label is told.
 
     looked: meshes, each with its rows on those sides that `find_doubtful_sides` tells.
     """
-    taught, rows, spans = _rows_with_labels(family, metric), family.rows, dict(_spans_of(family))
+    labelled_rows, rows, spans = _rows_with_labels(family, metric), family.rows, dict(_spans_of(family))
     turned = rows.copy()
 
     def apart(found: Floats) -> float:
         """How far hulls are from those that are told, on the average."""
-        return _mean_distance(found * metric, taught)
+        return _mean_distance(found * metric, labelled_rows)
 
-    for mesh, sides in looked:
+    for mesh, sides in closer:
         span = spans[mesh]
         found = [family.scale(side) for side in sides]
         order = greatest_first(np.array([-apart(side) for side in found]))
@@ -108,8 +108,8 @@ def _spans_of(family: FamilyTable) -> Iterator[tuple[int, slice]]:
         yield mesh, slice(start, end)
 
 
-def _mean_distance(rows: Floats, taught: Floats) -> float:
-    return float(cdist(rows, taught, "cityblock").min(axis=1).mean())
+def _mean_distance(rows: Floats, labelled_rows: Floats) -> float:
+    return float(cdist(rows, labelled_rows, "cityblock").min(axis=1).mean())
 
 
 def choose_next(family: FamilyTable, chances: Floats, count: int) -> list[int]:
@@ -169,22 +169,22 @@ class Propagator:
     """Meshes of one kind, described once; labels may then be told again and again."""
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
-        sketches = [MeshDescriber(mesh).describe() for mesh in meshes]
-        self.family = build_family([(sketch.rows, sketch.touching) for sketch in sketches])
-        self._sides = [sketch.sides for sketch in sketches]
+        descriptors = [MeshDescriber(mesh).describe() for mesh in meshes]
+        self.family = build_family([(descriptor.rows, descriptor.touching) for descriptor in descriptors])
+        self._sides = [descriptor.sides for descriptor in descriptors]
         self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(MeshDescriber(meshes[mesh]).describe_side))
 
-    def propagate(self, told: Sequence[str | None], metric: Floats | None = None) -> FamilyPosterior:
+    def propagate(self, labels: Sequence[str | None], metric: Floats | None = None) -> FamilyPosterior:
         """What some labels say about all hulls, these included.
 
         told: of each hull of all meshes, None where its label is not known; metric: the weight of each column of a
         description, None for the one that ships.
         """
         metric = metric_weights() if metric is None else metric
-        family = self.family.with_labels(told)
+        family = self.family.with_labels(labels)
         doubtful = find_doubtful_sides(family, self._sides.__getitem__, metric)
-        looked = ((mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful)
-        return compute_posterior(correct_upright(family, looked, metric), metric)
+        closer = ((mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful)
+        return compute_posterior(correct_upright(family, closer, metric), metric)
 
 
 def compute_posterior(family: FamilyTable, metric: Floats | None = None) -> FamilyPosterior:

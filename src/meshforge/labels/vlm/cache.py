@@ -122,12 +122,12 @@ def _text_to_token(text: str) -> bytes:
     return text.encode(_ANY_BYTES)
 
 
-def write_page(folder: Path, name: str, said: VlmAnswers) -> Path:
+def write_page(folder: Path, name: str, answers: VlmAnswers) -> Path:
     """Write `pages/NAME.html` into a folder of answers; name: that of the mesh, maybe with folders."""
     path = folder / "pages" / f"{name}.html"
     pictures = relative_name(folder / "pictures", path.parent)
-    body = [f"<h1>{escape(name)}</h1>", *_label_rows(said)]
-    for number, digest in enumerate(said.asked, 1):
+    body = [f"<h1>{escape(name)}</h1>", *_label_rows(answers)]
+    for number, digest in enumerate(answers.asked, 1):
         file = folder / "answers" / f"{digest}.json"
         body += [f"<h2>Question {number}</h2>", *_format_question(file, pictures)]
     head = f'<meta charset="utf-8"><title>{escape(name)}</title><style>{_STYLE}</style>'
@@ -135,11 +135,11 @@ def write_page(folder: Path, name: str, said: VlmAnswers) -> Path:
     return path
 
 
-def _label_rows(said: VlmAnswers) -> Iterator[str]:
+def _label_rows(answers: VlmAnswers) -> Iterator[str]:
     yield "<table><tr><th>Hull</th><th>Label</th><th>Confidence</th></tr>"
-    for hull, label in said.labels.items():
+    for hull, label in answers.labels.items():
         yield f"<tr><td>{escape(hull)}</td><td>{escape(label.name)}</td><td>{label.confidence:.2f}</td></tr>"
-    for hull, why in said.open.items():
+    for hull, why in answers.open.items():
         yield f'<tr><td>{escape(hull)}</td><td class="open" colspan="2">none: {escape(why)}</td></tr>'
     yield "</table>"
 
@@ -148,10 +148,10 @@ def _format_question(file: Path, pictures: str) -> Iterator[str]:
     try:
         kept = json.loads(file.read_bytes())
         messages, answer = kept["asked"]["messages"], kept["answered"]
-        told = f"{answer['input_tokens']} tokens in, {answer['output_tokens']} out"
+        usage = f"{answer['input_tokens']} tokens in, {answer['output_tokens']} out"
         shown = [
             *_format_messages(messages, pictures),
-            f'<pre class="answer">{escape(answer["text"])}</pre><p>{told}.</p>',
+            f'<pre class="answer">{escape(answer["text"])}</pre><p>{usage}.</p>',
         ]
     except (OSError, ValueError, KeyError, TypeError):
         yield "<p>It got no answer.</p>"

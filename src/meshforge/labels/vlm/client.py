@@ -23,8 +23,8 @@ _DOWN = 2  # questions in a row, beyond those under way at once, that get no ans
 class Client:
     """Asks a model. Safe to use from several threads; at most `endpoint.concurrency` questions are under way at once.
 
-    folder: where answers are kept, None for nowhere; max_cost: the most that may be spent [$]; stop: says when to ask
-    no more. Raises UsageError for a limit on the cost without prices.
+    folder: where answers are kept, None for nowhere; max_cost: the most that may be spent [$]; stop: whether to ask no
+    more. Raises UsageError for a limit on the cost without prices.
     """
 
     def __init__(
@@ -37,22 +37,22 @@ class Client:
     ) -> None:
         self.endpoint = endpoint
         self._cache = AnswerCache(folder) if folder else None
-        self._purse = CostLimiter(endpoint, max_cost)
+        self._limiter = CostLimiter(endpoint, max_cost)
         self._stop = stop
-        self._patience = Backoff(endpoint.wait, stop)
+        self._backoff = Backoff(endpoint.wait, stop)
         self._transport = Transport(endpoint)
-        self._room = threading.BoundedSemaphore(endpoint.concurrency)
+        self._slots = threading.BoundedSemaphore(endpoint.concurrency)
         self._lock = threading.Lock()
         self._probing = threading.Lock()
         self._features: ServerFeatures | None = None
-        self._flying: dict[str, Future[Reply]] = {}
+        self._in_flight: dict[str, Future[Reply]] = {}
         self._end: EndError | None = None
         self._unanswered, self._answered = 0, False
 
     @property
     def usage(self) -> Usage:
-        """What was asked so far, and what it cost."""
-        return self._purse.usage
+        """What was asked so far, and its cost."""
+        return self._limiter.usage
 
     @property
     def end(self) -> EndError | None:
@@ -86,17 +86,17 @@ class Client:
     def ask(self, question: VlmQuestion) -> Reply:
         """The answer to a question; the same question asked at one time is asked once.
 
-        Raises AskingError where this one gets no answer, EndError where no further one would, among others where
+        Raises QuestionError where this one gets no answer, EndError where no further one would, among others where
         there is no key or no SDK.
         """
         key = question.digest(self.endpoint)
         with self._lock:
-            flying = self._flying.get(key)
-            if flying is None:
-                mine = self._flying[key] = Future[Reply]()
-        if flying is not None:
-            reply = flying.result()
-            self._purse.count(cached=1)
+            earlier = self._in_flight.get(key)
+            if earlier is None:
+                mine = self._in_flight[key] = Future[Reply]()
+        if earlier is not None:
+            reply = earlier.result()
+            self._limiter.count(cached=1)
             return replace(reply, cached=True)
         try:
             mine.set_result(self._find_or_ask(question, key))
@@ -105,7 +105,7 @@ class Client:
             raise
         finally:
             with self._lock:
-                del self._flying[key]
+                del self._in_flight[key]
         return mine.result()
 
     def close(self) -> None:
@@ -115,7 +115,7 @@ class Client:
     def _find_or_ask(self, question: VlmQuestion, key: str) -> Reply:
         known = self.find_answer(question)
         if known:
-            self._purse.count(cached=1)
+            self._limiter.count(cached=1)
             return known
         features = self.features()
         if not features.pictures and any(question.pictures):
@@ -136,46 +136,46 @@ class Client:
     def _ask_with_retries(
         self, question: VlmQuestion, features: ServerFeatures, key: str, *, is_probe: bool = False
     ) -> Reply:
-        """Ask until an answer is there, or patience ends."""
+        """Ask until an answer is there, or the attempts are used up."""
         body = features.body(question, self.endpoint)
-        with self._room:
+        with self._slots:
             try:
                 for attempt in range(self.endpoint.retries + 1):
                     self._raise_if_ended()
-                    self._patience.wait()
+                    self._backoff.wait()
                     try:
                         return self._ask_once(question, body, is_probe)
                     except TransientError as fault:
                         self._give_up(fault, attempt)
-                        self._purse.count(retries=1)
-                        self._patience.back_off(attempt, fault.after, _jitter(key, attempt))
+                        self._limiter.count(retries=1)
+                        self._backoff.back_off(attempt, fault.after, _jitter(key, attempt))
             except EndError as error:
                 raise self._end_with(error) from None
         raise AssertionError("the last attempt gives an answer or raises")
 
     def _ask_once(self, question: VlmQuestion, body: Mapping[str, Any], is_probe: bool) -> Reply:
-        """Ask once, and count what it costs. Raises PassingError, RefusedError or EndError."""
-        bound = self._purse.upper_bound(question)
-        with self._purse.reserve(bound, self._stop):
-            self._patience.raise_if_stopped()
+        """Ask once, and count what it costs. Raises TransientError, RefusalError or EndError."""
+        bound = self._limiter.upper_bound(question)
+        with self._limiter.reserve(bound, self._stop):
+            self._backoff.raise_if_stopped()
             try:
                 reply = self._transport.send(body)
             except NoReplyError as error:
                 if error.usage:
-                    self._purse.charge(question, error.usage, is_probe=is_probe)
+                    self._limiter.charge(question, error.usage, is_probe=is_probe)
                 else:
-                    self._purse.count_lost(bound)
+                    self._limiter.count_lost(bound)
                 raise TransientError(str(error)) from error
             except TransientError as fault:
                 if fault.charged:
-                    self._purse.count_lost(bound)
+                    self._limiter.count_lost(bound)
                 raise
-            usage, cost = self._purse.charge(question, reply.usage, is_probe=is_probe)
+            usage, cost = self._limiter.charge(question, reply.usage, is_probe=is_probe)
         self._count_success()
         return replace(reply, usage=usage, cost=cost)
 
     def _give_up(self, fault: TransientError, attempt: int) -> None:
-        """Raises AskingError after the last attempt, EndError where nobody seems to be there."""
+        """Raises QuestionError after the last attempt, EndError where nobody seems to be there."""
         where = self.endpoint.place
         if fault.unreachable and not self._answered and attempt:
             remedy = "Is the server running, and base_url right?"
@@ -198,7 +198,7 @@ class Client:
         """Raises EndError where one came up before, or a stop is wanted."""
         if self._end:
             raise self._end
-        self._patience.raise_if_stopped()
+        self._backoff.raise_if_stopped()
 
     def _end_with(self, error: EndError) -> EndError:
         """The first error after which there is nothing to ask; later questions get the same."""

@@ -9,6 +9,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from meshforge.common import MeshForgeError, UsageError
+from meshforge.store import VlmSettings
 
 OPENAI = "https://api.openai.com/v1"
 _KEYS = {
@@ -50,7 +51,7 @@ class TransientError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """An OpenAI-compatible server and a model on it. Raises UsageError for what cannot be.
+    """An OpenAI-compatible server and a model on it. Raises UsageError for values that do not fit.
 
     key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
     input_price, output_price: in dollars a million tokens, None where they are not known.
@@ -120,9 +121,25 @@ class Endpoint:
         return ((self.input_price or 0) * usage.input + (self.output_price or 0) * usage.output) / _MILLION
 
 
+def endpoint_of(settings: VlmSettings) -> Endpoint:
+    """The endpoint that the table [vlm] names. Raises UsageError: no address, or no model named."""
+    return Endpoint(
+        base_url=settings.base_url,
+        model=settings.model,
+        key_env=settings.key_env,
+        input_price=settings.input_price,
+        output_price=settings.output_price,
+        concurrency=settings.concurrency,
+        timeout=settings.timeout,
+        retries=settings.retries,
+        wait=settings.wait,
+        extra=settings.extra,
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class TokenCount:
-    """Tokens that went in and came out; estimated: not told by the server."""
+    """Tokens that went in and came out; estimated: the server named no number."""
 
     input: int = 0
     output: int = 0

@@ -7,25 +7,20 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, field, replace
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
 from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
-from meshforge.store import AssetFiles, VlmSettings, asset_files_of, hull_digests
+from meshforge.labels.vlm.cache import write_page
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import TokenCount, endpoint_of
+from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
+from meshforge.labels.vlm.limits import Usage, estimate_tokens
+from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions, prompt_config_of
+from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
-if TYPE_CHECKING:
-    from meshforge.labels.vlm.answer import VlmAnswers
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
-    from meshforge.labels.vlm.limits import Usage
-    from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig
-    from meshforge.project import Project
-
-
-UsageCallback = Callable[["Usage"], None]
+UsageCallback = Callable[[Usage], None]
 VlmWriteBlock = Callable[[], AbstractContextManager[object]]
 
 
@@ -38,22 +33,22 @@ class AssetQuestions:
 
     hulls: Mapping[str, str] = field(default_factory=dict)
     wanted: tuple[str, ...] = ()
-    looks: tuple[HullQuestion, ...] = ()
+    questions: tuple[HullQuestion, ...] = ()
     error: str | None = None
 
 
 def draw_assets(
-    project: Project, manner: PromptConfig, spread: ExecutionOptions
+    store: Store, config: PromptConfig, execution: ExecutionOptions
 ) -> Generator[tuple[str, AssetQuestions], None, None]:
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
-    assets = project.assets()
-    items = list(zip(assets, asset_files_of(project, assets), strict=True))
-    work = execute(partial(_draw, manner), items, spread)
+    assets = store.assets()
+    items = list(zip(assets, store.asset_files(assets), strict=True))
+    work = execute(partial(_draw, config), items, execution)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield (
                 asset,
-                AssetQuestions(error=f"{project.path(asset)}: {found.why}")
+                AssetQuestions(error=f"{store.path(asset)}: {found.why}")
                 if isinstance(found, WorkerFailure)
                 else found,
             )
@@ -61,21 +56,20 @@ def draw_assets(
         work.close()
 
 
-def _draw(manner: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
-    from meshforge.labels.vlm.prompt import build_questions
+def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
 
     asset, place = item
     try:
         mesh = place.read_mesh()
         wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
-        return AssetQuestions(hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, manner, asset)))
+        return AssetQuestions(hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, config, asset)))
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
         return AssetQuestions(error=describe_error(error, asset))
 
 
 @dataclass(frozen=True, slots=True)
 class VlmResult:
-    """What came of asking a model. reports: of all assets, in their order; bill: what it cost.
+    """What came of asking a model. reports: of all assets, in their order; usage: what was asked, and its cost.
 
     open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not come
     to, and ended: why, None where all were; blind: the model did not tell the colour of a red picture.
@@ -90,31 +84,29 @@ class VlmResult:
 
 
 def label_with_vlm(
-    project: Project,
+    store: Store,
     settings: VlmSettings,
     progress: UsageCallback | None = None,
     stop: Callable[[], bool] | None = None,
-    keeping: VlmWriteBlock | None = None,
-    spread: ExecutionOptions = IN_PROCESS,
+    write_block: VlmWriteBlock | None = None,
+    execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmResult:
     """Ask for labels of all hulls that have none of a person's or a file's, and write those that may be taken.
 
     progress: called for each asset, with what was spent so far; stop: says when to ask no more; keeping: the block in
-    which all labels are written, in the end; None writes those of an asset as soon as all is said of it; spread: how
+    which all labels are written, in the end; None writes those of an asset as soon as all is said of it; execution: how
     the pictures are drawn, while questions are asked from this process.
     Raises MeshForgeError where nothing could be asked at all.
     """
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.labeller import Labeller
 
-    manner = settings.manner(project.vocabulary)
-    client = Client(settings.endpoint(), project.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
+    config = prompt_config_of(settings, store.vocabulary)
+    client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
     with (
         closing(client),
-        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
-        closing(draw_assets(project, manner, spread)) as pictures,
+        closing(Labeller(client, config, examples_of(store, settings))) as labeller,
+        closing(draw_assets(store, config, execution)) as pictures,
     ):
-        run = _Run(project, client, labeller, keeping, progress)
+        run = _Run(store, client, labeller, write_block, progress)
         while not (client.end or (stop and stop())) and (found := next(pictures, None)):
             run.begin(*found)
         run.finish()
@@ -126,15 +118,15 @@ class _Run:
 
     def __init__(
         self,
-        project: Project,
+        store: Store,
         client: Client,
         labeller: Labeller,
-        keeping: VlmWriteBlock | None,
+        write_block: VlmWriteBlock | None,
         progress: UsageCallback | None,
     ) -> None:
-        self._project, self._client, self._labeller = project, client, labeller
-        self._keeping, self._progress = keeping, progress
-        self._taker = LabelWriter(project)
+        self._store, self._client, self._labeller = store, client, labeller
+        self._write_block, self._progress = write_block, progress
+        self._writer = LabelWriter(store)
         self._pending: dict[str, tuple[Mapping[str, str], OpenAnswers]] = {}
         self._reports: dict[str, LabelOutcome] = {}
         self._open: dict[str, Mapping[str, str]] = {}
@@ -146,7 +138,7 @@ class _Run:
             self._reports[asset] = LabelOutcome(asset, problems=(found.error,))
             self._advance()
             return
-        self._pending[asset] = found.hulls, self._labeller.ask(found.wanted, found.looks)
+        self._pending[asset] = found.hulls, self._labeller.ask(found.wanted, found.questions)
         for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
             self._write(done)
 
@@ -154,38 +146,38 @@ class _Run:
         """Wait for all answers, and write what they say."""
         for asset in list(self._pending):
             self._write(asset)
-        if self._keeping and self._unwritten:
-            with self._keeping():
+        if self._write_block and self._unwritten:
+            with self._write_block():
                 for write in self._unwritten:
                     write()
 
     def result(self) -> VlmResult:
         """What came of it all. Raises the error that ended it, where nothing came of it."""
-        end, bill = self._client.end, self._client.usage
-        if end and not bill.answered + bill.cached:
+        end, usage = self._client.end, self._client.usage
+        if end and not usage.answered + usage.cached:
             raise end
-        reports = tuple(self._reports[asset] for asset in self._project.assets() if asset in self._reports)
-        unasked = tuple(asset for asset in self._project.assets() if asset not in self._reports)
+        reports = tuple(self._reports[asset] for asset in self._store.assets() if asset in self._reports)
+        unasked = tuple(asset for asset in self._store.assets() if asset not in self._reports)
         ended = end.message if end else "stopped" if unasked else None
-        return VlmResult(reports, bill, self._open, unasked, ended, self._client.is_blind)
+        return VlmResult(reports, usage, self._open, unasked, ended, self._client.is_blind)
 
     def _write(self, asset: str) -> None:
         hulls, pending = self._pending.pop(asset)
-        said = pending.result()
+        answers = pending.result()
         end = self._client.end
-        failed = tuple(problem for problem in said.failed if end is None or problem != end.sentence)
-        if end and said.failed and not said.labels:
+        failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
+        if end and answers.failed and not answers.labels:
             return  # it is told once that the asking ended, and which assets were not come to
-        if said.open:
-            self._open[asset] = said.open
-        if said.asked:
-            _write_page(self._project.layout.vlm, asset, said)
+        if answers.open:
+            self._open[asset] = answers.open
+        if answers.asked:
+            write_page(self._store.layout.vlm, asset, answers)
 
         def write() -> None:
-            report = self._taker.write(asset, hulls, said.labels, can_replace_less_certain)
+            report = self._writer.write(asset, hulls, answers.labels, can_replace_less_certain)
             self._reports[asset] = replace(report, problems=(*report.problems, *failed))
 
-        if self._keeping:
+        if self._write_block:
             self._unwritten.append(write)
         else:
             write()
@@ -196,17 +188,17 @@ class _Run:
             self._progress(self._client.usage)
 
 
-def _write_page(folder: Path, asset: str, said: VlmAnswers) -> None:
-    from meshforge.labels.vlm.cache import write_page
+def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str]) -> None:
+    """Raises UsageError where nothing could be asked: no model, no key, or no vocabulary."""
+    endpoint_of(settings).key()
+    prompt_config_of(settings, vocabulary)
 
-    write_page(folder, asset, said)
 
-
-def examples_of(project: Project, settings: VlmSettings) -> list[SymbolicMesh]:
+def examples_of(store: Store, settings: VlmSettings) -> list[SymbolicMesh]:
     """The labelled assets that are shown as examples, with labels that somebody gave."""
     meshes = []
     for asset in settings.examples:
-        mesh = project.mesh(asset)
+        mesh = store.mesh(asset)
         guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
         if len(guessed) == len(mesh.hulls):
             remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
@@ -241,45 +233,42 @@ class VlmForecast:
 
 
 def forecast_vlm(
-    project: Project,
+    store: Store,
     settings: VlmSettings,
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
     vocabulary: Sequence[str] | None = None,
-    spread: ExecutionOptions = IN_PROCESS,
+    execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmForecast:
     """What `label_with_vlm` would send; questions that have to be asked again come on top of it.
 
     progress: called for each asset; stop: says when to look at no more; vocabulary: another one than the project's;
-    spread: how the pictures are drawn.
+    execution: how the pictures are drawn.
     """
-    from meshforge.labels.vlm.client import Client
-    from meshforge.labels.vlm.endpoint import TokenCount
-    from meshforge.labels.vlm.labeller import Labeller
-    from meshforge.labels.vlm.limits import estimate_tokens
 
-    endpoint, manner = settings.endpoint(), settings.manner(project.vocabulary if vocabulary is None else vocabulary)
-    client = Client(endpoint, project.layout.vlm, max_cost=settings.max_cost)
+    endpoint = endpoint_of(settings)
+    config = prompt_config_of(settings, store.vocabulary if vocabulary is None else vocabulary)
+    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
     assets = hulls = questions = known = pictures = 0
     usage, unreadable = TokenCount(), list[str]()
     with (
         closing(client),
-        closing(Labeller(client, manner, examples_of(project, settings))) as labeller,
-        closing(draw_assets(project, manner, spread)) as drawings,
+        closing(Labeller(client, config, examples_of(store, settings))) as labeller,
+        closing(draw_assets(store, config, execution)) as drawn_assets,
     ):
-        while not (stop and stop()) and (next_one := next(drawings, None)):
+        while not (stop and stop()) and (next_one := next(drawn_assets, None)):
             asset, found = next_one
             if found.error:  # `label_with_vlm` says then what is wrong
                 unreadable.append(asset)
                 continue
             assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)
-            for look in map(labeller.add_examples, found.looks):
+            for asked in map(labeller.add_examples, found.questions):
                 questions += 1
-                if client.find_answer(look.question):
+                if client.find_answer(asked.question):
                     known += 1
                     continue
-                pictures += len(look.question.digests)
-                usage += TokenCount(estimate_tokens(look.question), look.expected)
+                pictures += len(asked.question.digests)
+                usage += TokenCount(estimate_tokens(asked.question), asked.expected)
             if progress:
                 progress()
     return VlmForecast(

@@ -15,15 +15,15 @@ from meshforge.labels.vlm.endpoint import EndError, Endpoint, TokenCount
 from meshforge.labels.vlm.request import VlmQuestion
 
 _CHARACTERS = 3.0  # of a text for a token; English has about four, other languages fewer
-_PIXELS = 700.0  # of a picture for a token: models that tell it take one for 750 (Claude) to 1370 (GPT-4o)
+_PIXELS = 700.0  # of a picture for a token: models that name it take one for 750 (Claude) to 1370 (GPT-4o)
 _PICTURE = 100  # tokens of a picture, however small
 _REMEMBERED = 20  # answers by which the estimate is corrected
 _MARGIN = 1.1
 
 LONGEST = 60.0
-"""The longest wait [s] of our own accord."""
+"""The longest wait [s] between attempts that the server does not ask for."""
 LONGEST_DEMAND = 300.0
-"""The longest wait [s] that a server may want; one that wants more is asked another day."""
+"""The longest wait [s] that a server may want; where it wants more, the run ends."""
 _POLL = 0.05  # seconds between looks at whether to stop
 
 
@@ -54,7 +54,7 @@ class CostLimiter:
             raise UsageError("a limit on the cost needs to know the prices", remedy=remedy)
         self._endpoint, self._most = endpoint, most
         self._changed = threading.Condition()
-        self._bill = Usage(cost=0.0 if endpoint.is_priced else None)
+        self._usage = Usage(cost=0.0 if endpoint.is_priced else None)
         self._held = 0.0
         self._ratios: deque[float] = deque(maxlen=_REMEMBERED)
         self._first_ratio = 1.0
@@ -63,10 +63,10 @@ class CostLimiter:
     def usage(self) -> Usage:
         """What was spent so far."""
         with self._changed:
-            return self._bill
+            return self._usage
 
     def upper_bound(self, question: VlmQuestion) -> float:
-        """What a question may cost at most [$], as far as can be told."""
+        """What a question may cost at most [$], as far as can be known."""
         with self._changed:
             ratio = max(self._ratios, default=self._first_ratio)
         expected = estimate_tokens(question)
@@ -98,14 +98,14 @@ class CostLimiter:
     def charge(
         self, question: VlmQuestion, usage: TokenCount | None, *, is_probe: bool = False
     ) -> tuple[TokenCount, float]:
-        """Count an answer, be it of use or not; gives its tokens, estimated where not told, and its cost [$]."""
+        """Count an answer, also one of no use; its tokens, estimated where the server names none, and its cost [$]."""
         expected = estimate_tokens(question)
         counted = usage or TokenCount(expected, 0, estimated=True)
         price = self._endpoint.price(counted)
         with self._changed:
-            bill = self._bill
-            cost = None if bill.cost is None else bill.cost + price
-            self._bill = replace(bill, answered=bill.answered + 1, usage=bill.usage + counted, cost=cost)
+            before = self._usage
+            cost = None if before.cost is None else before.cost + price
+            self._usage = replace(before, answered=before.answered + 1, usage=before.usage + counted, cost=cost)
             if usage and is_probe:
                 self._first_ratio = usage.input / expected
             elif usage:
@@ -116,17 +116,17 @@ class CostLimiter:
     def count_lost(self, bound: float) -> None:
         """Count an attempt that got no answer and may be charged for."""
         with self._changed:
-            self._bill = replace(self._bill, lost=self._bill.lost + 1, perhaps=self._bill.perhaps + bound)
+            self._usage = replace(self._usage, lost=self._usage.lost + 1, perhaps=self._usage.perhaps + bound)
 
     def count(self, *, cached: int = 0, retries: int = 0) -> None:
         """Count questions that were answered already, and attempts beyond the first."""
         with self._changed:
-            bill = self._bill
-            self._bill = replace(bill, cached=bill.cached + cached, retries=bill.retries + retries)
+            before = self._usage
+            self._usage = replace(before, cached=before.cached + cached, retries=before.retries + retries)
 
     @property
     def _spent(self) -> float:
-        return (self._bill.cost or 0.0) + self._bill.perhaps
+        return (self._usage.cost or 0.0) + self._usage.perhaps
 
 
 def estimate_tokens(question: VlmQuestion) -> int:
@@ -151,10 +151,10 @@ class Backoff:
         self._lock = threading.Lock()
         self._closed_until = 0.0
 
-    def back_off(self, attempt: int, after: float | None, spread: float) -> None:
+    def back_off(self, attempt: int, after: float | None, jitter: float) -> None:
         """Wait after failed attempt number `attempt`, counted from 0; after [s]: what the server wants.
 
-        spread in 0..1 keeps questions apart that failed at one time. Raises EndError: that is too long, or a stop.
+        jitter in 0..1 keeps questions apart that failed at one time. Raises EndError: that is too long, or a stop.
         """
         if after is not None and after > LONGEST_DEMAND:
             raise EndError(
@@ -164,7 +164,7 @@ class Backoff:
         if after:
             with self._lock:
                 self._closed_until = max(self._closed_until, time.monotonic() + after)
-        self._wait_until(time.monotonic() + min(self._first * 2**attempt, LONGEST) * (0.75 + spread / 2))
+        self._wait_until(time.monotonic() + min(self._first * 2**attempt, LONGEST) * (0.75 + jitter / 2))
 
     def wait(self) -> None:
         """Wait as long as the server wants no question. Raises EndError for a stop."""

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from meshforge.common import UsageError
 from meshforge.labels.vlm.answer import clearness
 from meshforge.labels.vlm.request import Message, Part, VlmQuestion
+from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
+from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.rendering import LabelingPicture
-
 
 ModeName = Literal["cheap", "balanced", "exact"]
 
@@ -70,9 +69,9 @@ MODES: Mapping[ModeName, PictureMode] = {
 class PromptConfig:
     """vocabulary: the labels; descriptions: a line on some of them, by label; about: a line on what the meshes are.
 
-    names: tells the names of assets and hulls, too; repeats: how often each question is asked; room: tokens for an
-    answer besides those it needs, more of which a model wants that thinks first; size: of pictures [px], None as of the
-    mode. Raises UsageError for what cannot be.
+    names: whether the model is given the names of assets and hulls; repeats: how often each question is asked; room:
+    tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures [px],
+    None for that of the mode. Raises UsageError for values that do not fit.
     """
 
     vocabulary: tuple[str, ...]
@@ -92,9 +91,10 @@ class PromptConfig:
             raise UsageError(f"the label {odd!r} is described, but is not in the vocabulary")
 
     @property
-    def how(self) -> PictureMode:
-        how = MODES[self.mode]
-        return how if self.size is None else replace(how, size=self.size)
+    def picture_mode(self) -> PictureMode:
+        """The mode, with pictures of the size that was chosen."""
+        mode = MODES[self.mode]
+        return mode if self.size is None else replace(mode, size=self.size)
 
     @property
     def unknown(self) -> str:
@@ -102,20 +102,34 @@ class PromptConfig:
         return next(word for word in _UNKNOWN if word not in self.vocabulary)
 
     def words(self, repeat: int = 0) -> Sequence[str]:
-        """The labels; in repeats they are told in another order, since the order must not matter."""
+        """The labels; each repeat lists them in another order, since the order must not matter."""
         turn = repeat % len(self.vocabulary)
         return (*self.vocabulary[turn:], *self.vocabulary[:turn])
 
 
-def task_message(manner: PromptConfig, up: str, repeat: int = 0) -> Message:
+def prompt_config_of(settings: VlmSettings, vocabulary: Sequence[str]) -> PromptConfig:
+    """What the table [vlm] says on asking. Raises UsageError: no vocabulary, or a description of what is no label."""
+    return PromptConfig(
+        vocabulary=tuple(vocabulary),
+        mode=settings.mode,
+        descriptions=settings.descriptions,
+        about=settings.about,
+        names=settings.names,
+        repeats=settings.repeats,
+        room=settings.room,
+        size=settings.size,
+    )
+
+
+def task_message(config: PromptConfig, up: str, repeat: int = 0) -> Message:
     """What the task is; up: the axis that points up."""
-    words = manner.words(repeat)
+    words = config.words(repeat)
     labels = [
-        f"- {word}: {_to_line(manner.descriptions[word])}" if word in manner.descriptions else f"- {word}"
+        f"- {word}: {_to_line(config.descriptions[word])}" if word in config.descriptions else f"- {word}"
         for word in words
     ]
-    about = f". The objects are: {_to_line(manner.about)}" if manner.about else ""
-    text = _TASK.format(labels="\n".join(labels), unknown=manner.unknown, up=up, about=about, example=words[0])
+    about = f". The objects are: {_to_line(config.about)}" if config.about else ""
+    text = _TASK.format(labels="\n".join(labels), unknown=config.unknown, up=up, about=about, example=words[0])
     return Message.system(text)
 
 
@@ -124,11 +138,9 @@ def question_message(
 ) -> Message:
     """Pictures, and the numbers that are asked about.
 
-    plain: of how many of the first pictures the same without numbers is shown; numbers: by hull, with the names of the
-    hulls told where `name`, that of the asset, is given.
+    plain: of how many of the first pictures the same without numbers is shown; numbers: by hull;
+    name: that of the asset, empty where the model is given no names.
     """
-    from meshforge.rendering import encode_png
-
     parts: list[Part] = [f"This is {name!r}." if name else "This is the object."]
     for k, shot in enumerate(shots):
         parts += [f"Picture: {shot.name}.", encode_png(shot.marked)]
@@ -153,9 +165,9 @@ def retry_message(numbers: Sequence[int], odd: Sequence[str]) -> Message:
     return Message.user(_AGAIN.format(why=why, numbers=", ".join(map(str, numbers))))
 
 
-def answer_schema(manner: PromptConfig, repeat: int = 0) -> dict[str, Any]:
+def answer_schema(config: PromptConfig, repeat: int = 0) -> dict[str, Any]:
     """The JSON schema of an answer."""
-    labels = {"type": "string", "enum": [*manner.words(repeat), manner.unknown]}
+    labels = {"type": "string", "enum": [*config.words(repeat), config.unknown]}
     entry = {"number": {"type": "integer"}, "label": labels}
     row = {"type": "object", "properties": entry, "required": list(entry), "additionalProperties": False}
     return {
@@ -171,8 +183,6 @@ def _to_line(text: str) -> str:
 
 
 def _quote(text: str) -> str:
-    import json
-
     return json.dumps(text, ensure_ascii=False)
 
 
@@ -197,34 +207,29 @@ class HullQuestion:
 
 
 def build_questions(
-    mesh: SymbolicMesh,
-    wanted: Collection[str],
-    manner: PromptConfig,
-    name: str = "",
+    mesh: SymbolicMesh, wanted: Collection[str], config: PromptConfig, name: str = ""
 ) -> Iterator[HullQuestion]:
     """The questions about a mesh. Groups in which no hull is wanted are passed over.
 
     The groups do not depend on what is wanted, so that answers can be found again when some hulls have a label by then.
-    name: that of the asset, told where the manner says so.
+    name: that of the asset, which the model is given where the config says so.
     """
-    from meshforge.rendering import draw_labeling_pictures
-
-    how = manner.how
+    mode = config.picture_mode
     names = [hull.name for hull in mesh.hulls]
-    for group in _group_names(names, how.hulls):
+    for group in _group_names(names, mode.hulls):
         if set(group).isdisjoint(wanted):
             continue
-        taken = draw_labeling_pictures(mesh, hulls=group, most=how.pictures, size=how.size)
-        parts = min(how.questions, len(taken))
+        pictures = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)
+        parts = min(mode.questions, len(pictures))
         for part in range(parts):
-            yield from _ask_in_repeats(mesh, taken[part::parts], group, manner, name if manner.names else "")
+            yield from _ask_in_repeats(mesh, pictures[part::parts], group, config, name if config.names else "")
 
 
 def _ask_in_repeats(
     mesh: SymbolicMesh,
     shots: tuple[LabelingPicture, ...],
     group: Collection[str],
-    manner: PromptConfig,
+    config: PromptConfig,
     name: str,
 ) -> Iterator[HullQuestion]:
     """One question about what some pictures show, in all its repeats."""
@@ -232,13 +237,13 @@ def _ask_in_repeats(
     numbers = {hull: mesh.index[hull] for hull in group if hull in shown}
     if not numbers:
         return
-    pictures = question_message(shots, manner.how.plain, numbers, name)
+    pictures = question_message(shots, config.picture_mode.plain, numbers, name)
     pixels = {hull: sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered) for hull in numbers}
-    weights = {hull: clearness(count, manner.how.size) for hull, count in pixels.items()}
-    limit = manner.room + _ENTRY_TOKENS * len(numbers)
-    for repeat in range(manner.repeats):
-        messages = task_message(manner, up_of(mesh), repeat), pictures
-        question = VlmQuestion(messages, answer_schema(manner, repeat), limit, repeat=repeat)
+    weights = {hull: clearness(count, config.picture_mode.size) for hull, count in pixels.items()}
+    limit = config.room + _ENTRY_TOKENS * len(numbers)
+    for repeat in range(config.repeats):
+        messages = task_message(config, up_of(mesh), repeat), pictures
+        question = VlmQuestion(messages, answer_schema(config, repeat), limit, repeat=repeat)
         yield HullQuestion(question, {number: hull for hull, number in numbers.items()}, weights, repeat)
 
 
@@ -251,6 +256,4 @@ def _group_names(names: list[str], most: int) -> Iterator[list[str]]:
 
 def up_of(mesh: SymbolicMesh) -> str:
     """The axis that points up in pictures of a mesh, as `+Z`."""
-    from meshforge.rendering import up_axis
-
     return f"+{up_axis(mesh, None)}"

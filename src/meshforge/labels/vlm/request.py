@@ -15,6 +15,7 @@ from typing import Any, Literal
 from meshforge.common import write_atomically
 from meshforge.labels.vlm.endpoint import EndError, Endpoint, RefusalError
 from meshforge.labels.vlm.transport import Reply
+from meshforge.rendering import encode_png
 
 Part = str | bytes
 """A text, or a picture as a PNG file."""
@@ -109,7 +110,7 @@ class ServerFeatures:
     """What of a request is understood. schema: answers keep to it; logprobs: chances are given.
 
     temperature: can be set; limit: the name of the field for the room of an answer; pictures: are taken, and sees: what
-    is on them was told rightly.
+    is on them is recognized.
     """
 
     schema: bool = True
@@ -151,7 +152,7 @@ def _format_content(message: Message) -> Any:
 def probe_features(send: Callable[[VlmQuestion, ServerFeatures], Reply]) -> ServerFeatures:
     """Ask with everything, and with less as long as the server refuses. Raises EndError where it refuses everything.
 
-    send: raises RefusedError where the server refuses.
+    send: raises RefusalError where the server refuses.
     """
     features = ServerFeatures()
     while True:
@@ -189,9 +190,7 @@ def probe_question(with_picture: bool) -> VlmQuestion:
 
 
 def _draw_red_picture() -> bytes:
-    from PIL import Image
-
-    from meshforge.rendering import encode_png
+    from PIL import Image  # lazy: only a probe of a server draws this picture
 
     return encode_png(Image.new("RGB", (_SIDE, _SIDE), (220, 30, 30)))
 

@@ -35,7 +35,7 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """An answer. finish: why it ends, `stop` or `length` mostly; usage: None where the server does not tell.
+    """An answer. finish: why it ends, `stop` or `length` mostly; usage: None where the server names none.
 
     tokens: None where the server gives no log-probabilities; cost: what it cost when it was given [$]; cached: that was
     earlier, and this time it cost nothing.
@@ -55,7 +55,7 @@ class Reply:
 
 
 class NoReplyError(ValueError):
-    """Something came back that is no answer. usage: what it cost all the same, where that is told."""
+    """Something came back that is no answer. usage: what it cost all the same, where that is known."""
 
     def __init__(self, problem: str, usage: TokenCount | None = None) -> None:
         super().__init__(problem)
@@ -135,12 +135,12 @@ class Transport:
         self._endpoint = endpoint
         self._key = ""
         self._lock = threading.Lock()
-        self._made: OpenAI | None = None
+        self._sdk: OpenAI | None = None
 
     def send(self, body: Mapping[str, Any]) -> Reply:
-        """Ask once. Raises PassingError, RefusedError or EndError; NoReplyError where something else came back."""
+        """Ask once. Raises TransientError, RefusalError or EndError; NoReplyError where something else came back."""
         client = self._client()
-        import openai
+        import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
 
         try:
             text = client.post("/chat/completions", cast_to=str, body=dict(body))
@@ -160,19 +160,19 @@ class Transport:
     def close(self) -> None:
         """Close the connections; the transport can be used on."""
         with self._lock:
-            if self._made:
-                self._made.close()
-            self._made = None
+            if self._sdk:
+                self._sdk.close()
+            self._sdk = None
 
     def _client(self) -> OpenAI:
         with self._lock:
-            if self._made is None:
+            if self._sdk is None:
                 try:
                     self._key = self._endpoint.key()
                 except UsageError as error:
                     raise EndError(error.problem, where=error.where, remedy=error.remedy) from error
-                self._made = _make_client(self._endpoint, self._key)
-            return self._made
+                self._sdk = _make_client(self._endpoint, self._key)
+            return self._sdk
 
     def _to_transient_error(self, error: APIConnectionError) -> TransientError:
         """A connection that never was, or that broke before the answer was there."""
@@ -208,7 +208,7 @@ class Transport:
 
 def _make_client(endpoint: Endpoint, key: str) -> OpenAI:
     try:
-        from openai import OpenAI
+        from openai import OpenAI  # lazy: 0.5 s, and an extra: only asking a model needs it
     except ImportError as error:
         remedy = "Install it: pip install 'meshforge[vlm]'."
         raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error

@@ -1,1 +1,1 @@
-"""TODO"""
+"""The web application: its routes, and the server that runs it."""

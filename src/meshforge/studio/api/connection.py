@@ -13,37 +13,37 @@ from meshforge.studio.pages import PageConnection
 from meshforge.studio.session.session import Session
 
 SenderId = Annotated[str | None, Header(alias="X-Page")]
-"""The page that asks, as it calls itself."""
+"""The page that sends the request, by its own name."""
 
 router = APIRouter()
 
 
 def _get_session(connection: HTTPConnection) -> Session:
-    desk: Any = connection.app.state.desk
-    assert isinstance(desk, Session)
-    return desk
+    session: Any = connection.app.state.session
+    assert isinstance(session, Session)
+    return session
 
 
 CurrentSession = Annotated[Session, Depends(_get_session)]
-"""The desk of the studio."""
+"""The session that the studio serves."""
 
 
 def packet_response(data: bytes) -> Response:
-    """A packet of shapes, which pages ask for anew each time."""
+    """A packet of shapes, which pages fetch anew each time."""
     return Response(data, media_type="application/octet-stream", headers={"Cache-Control": "no-store"})
 
 
 @router.websocket("/ws")
-async def serve_socket(connection: WebSocket, desk: CurrentSession) -> None:
-    """Tell a page all events until it leaves, or the studio is closed."""
+async def serve_socket(connection: WebSocket, session: CurrentSession) -> None:
+    """Send a page all events until it leaves, or the studio is closed."""
     await connection.accept()
     page = PageConnection(get_running_loop())
-    desk.pages.join(page)
+    session.pages.join(page)
     tasks = [create_task(_send_events(connection, page)), create_task(_listen(connection))]
     try:
         await wait(tasks, return_when=FIRST_COMPLETED)
     finally:
-        desk.hub.leave(page)
+        session.hub.leave(page)
         for task in tasks:
             task.cancel()
 
@@ -58,7 +58,7 @@ async def _send_events(connection: WebSocket, page: PageConnection) -> None:
 
 
 async def _listen(connection: WebSocket) -> None:
-    """Pages have nothing to say but that they are still there."""
+    """Wait until the page leaves; what it sends has no meaning."""
     try:
         while True:
             await connection.receive_text()

@@ -1,9 +1,9 @@
-"""Routes that change the project: edits, undo and redo, learning, and uploaded templates and assets."""
+"""Routes that change the project: edits, undo and redo, learning, jobs, and uploaded templates and assets."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from fastapi import APIRouter, Body, Request
 from starlette.concurrency import run_in_threadpool
@@ -12,99 +12,105 @@ from meshforge.common import ProjectError, join_names
 from meshforge.studio.api.connection import CurrentSession, SenderId
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets, AddTemplate
+from meshforge.studio.jobs import start_job
 from meshforge.studio.queries.project import model_of
+from meshforge.studio.session.session import Session
 from meshforge.studio.uploads import find_assets
-from meshforge.studio.wire.requests import Done, LabelSources, Uploaded
-
-if TYPE_CHECKING:
-    from meshforge.studio.session.session import Session
-
+from meshforge.studio.wire.jobs import Job, JobRequest
+from meshforge.studio.wire.requests import Done, JobCancel, LabelSources, Uploaded
 
 router = APIRouter(prefix="/api")
 
 ADDED_FOLDER = "added"
-"""The folder, below that of the project's assets, that new ones come to."""
+"""The folder for new assets, below that of the project's assets."""
 
 
 @router.post("/edit")
-def make_edit(desk: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None) -> Done:
+def make_edit(session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None) -> Done:
     """Make an edit."""
-    return desk.edit(change, page)
+    return session.edit(change, page)
 
 
 @router.post("/undo")
-def undo(desk: CurrentSession, page: SenderId = None) -> Done:
-    """Take back what was done last."""
-    return desk.undo(page)
+def undo(session: CurrentSession, page: SenderId = None) -> Done:
+    """Undo what was done last."""
+    return session.move("undo", page)
 
 
 @router.post("/redo")
-def redo(desk: CurrentSession, page: SenderId = None) -> Done:
-    """Do again what was taken back last."""
-    return desk.redo(page)
+def redo(session: CurrentSession, page: SenderId = None) -> Done:
+    """Redo what was undone last."""
+    return session.move("redo", page)
 
 
 @router.post("/learn")
-def learn(desk: CurrentSession) -> Done:
+def learn(session: CurrentSession) -> Done:
     """Learn now, and take what is learned."""
-    return desk.learn()
+    return session.learn()
 
 
 @router.post("/learn/stop")
-def stop_learning(desk: CurrentSession) -> Done:
-    """Stop the lesson that is under way."""
-    desk.learning.stop()
+def stop_learning(session: CurrentSession) -> Done:
+    """Stop the learning run that is under way."""
+    session.learning.stop()
     return Done(said="stopped")
 
 
+@router.post("/jobs")
+def post_job(session: CurrentSession, request: Annotated[JobRequest, Body(discriminator="kind")]) -> Job:
+    """Start a job."""
+    return start_job(session, request)
+
+
+@router.post("/jobs/cancel")
+def cancel_job(session: CurrentSession, request: JobCancel) -> Job:
+    """Have a job stop."""
+    return session.jobs.cancel(request.id)
+
+
 @router.get("/labels/sources")
-def get_label_sources(desk: CurrentSession) -> LabelSources:
+def get_label_sources(session: CurrentSession) -> LabelSources:
     """Where labels could come from, as far as assets are read by now."""
-    offered = desk.offers.of(desk.project, {card.asset for card in desk.pages.cards if card.hulls is not None})
+    offered = session.offers.of(session.project, {card.asset for card in session.pages.cards if card.hulls is not None})
     names = sum(map(len, offered.names.values()))
-    return LabelSources(files=len(offered.files), names=names, model=model_of(desk.project))
+    return LabelSources(files=len(offered.files), names=names, model=model_of(session.project))
 
 
 @router.put("/templates")
-async def put_template(desk: CurrentSession, request: Request, name: str, page: SenderId = None) -> Uploaded:
+async def put_template(session: CurrentSession, request: Request, name: str, page: SenderId = None) -> Uploaded:
     """Take a hull template."""
-    file = await desk.uploads.put_template(request.stream())
-    return await run_in_threadpool(add_template, desk, name, file, page)
+    file = await session.uploads.put_template(request.stream())
+    return await run_in_threadpool(_add_template, session, name, file, page)
 
 
-@router.put("/assets")
-async def put_asset_file(desk: CurrentSession, request: Request, path: str) -> Uploaded:
-    """Keep a file of an asset aside."""
-    await desk.uploads.put(path, request.stream())
-    return Uploaded(names=(path,))
-
-
-@router.post("/assets")
-def add_sent_assets(desk: CurrentSession, page: SenderId = None) -> Uploaded:
-    """Take the files that were sent into the project."""
-    return add_assets(desk, page)
-
-
-def add_template(desk: Session, name: str, file: Path, page: str | None) -> Uploaded:
+def _add_template(session: Session, name: str, file: Path, page: str | None) -> Uploaded:
     """Keep an uploaded file as a template. Raises ProjectError: no name for one, or no convex hulls in it."""
     try:
-        desk.edit(AddTemplate(name=name, file=str(file)), page)
+        session.edit(AddTemplate(name=name, file=str(file)), page)
     finally:
         file.unlink(missing_ok=True)
     return Uploaded(names=(name,))
 
 
-def add_assets(desk: Session, page: str | None) -> Uploaded:
-    """Put the files that were sent in place, as assets of the project. Raises ProjectError, and throws them away,
-    where one cannot be read, or would take the place of another file."""
+@router.put("/assets")
+async def put_asset_file(session: CurrentSession, request: Request, path: str) -> Uploaded:
+    """Keep a file of an asset aside."""
+    await session.uploads.put(path, request.stream())
+    return Uploaded(names=(path,))
+
+
+@router.post("/assets")
+def add_assets(session: CurrentSession, page: SenderId = None) -> Uploaded:
+    """Take the files that were sent into the project, as assets. Raises ProjectError, and throws them away, where one
+    cannot be read, or would take the place of another file."""
     try:
-        staged, files = desk.uploads.list_files()
-        added = find_assets(desk.readers, staged)
-        home = desk.project.found.base / ADDED_FOLDER
+        staged, files = session.uploads.list_files()
+        added = find_assets(session.readers, staged)
+        home = session.project.found.base / ADDED_FOLDER
         _check_free(home, files)
-        desk.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
+        session.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
     finally:
-        desk.uploads.clear()
+        session.uploads.clear()
     return Uploaded(names=tuple(f"{ADDED_FOLDER}/{name}" for name in added))
 
 

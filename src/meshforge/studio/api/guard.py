@@ -44,16 +44,16 @@ class Guard:
 
         host = Headers(scope=scope).get("host", "")
 
-        async def safely(message: Message) -> None:
+        async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 MutableHeaders(scope=message).update(_safety_headers(host if not refusal else ""))
             await send(message)
 
         if refusal:
-            answer = JSONResponse(refusal.problem.model_dump(mode="json"), refusal.status)
-            await answer(scope, receive, safely)
+            response = JSONResponse(refusal.problem.model_dump(mode="json"), refusal.status)
+            await response(scope, receive, send_with_headers)
         else:
-            await self._app(scope, receive, safely)
+            await self._app(scope, receive, send_with_headers)
 
     def _find_refusal(self, request: HTTPConnection) -> _Refusal | None:
         """Why a request is refused. A foreign name in `Host` means that a foreign page has rebound its name to us."""

@@ -27,7 +27,7 @@ from starlette.types import ASGIApp, Scope
 from meshforge.batch import STATE, hold_lock
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.project import Project
-from meshforge.studio.api import connection, edits, jobs, queries
+from meshforge.studio.api import connection, edits, queries
 from meshforge.studio.api.guard import Guard
 from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.session.session import Session, StudioOptions
@@ -38,39 +38,43 @@ EXIT_TIMEOUT = 3.0
 """Seconds that a worker process is waited for."""
 _LOG = logging.getLogger(__name__)
 
-ROUTERS = (queries.router, edits.router, jobs.router, jobs.checks_router, connection.router)
-
 PAGE_FOLDER = Path(__file__).parent.parent / "static"
 
 
 def serve(
-    opening: StudioOptions, say: Callable[[str], None], *, port: int = 0, browser: bool = True, page: Path = PAGE_FOLDER
+    options: StudioOptions,
+    announce: Callable[[str], None],
+    *,
+    port: int = 0,
+    browser: bool = True,
+    page: Path = PAGE_FOLDER,
 ) -> None:
-    """Serve a project until Ctrl-C or SIGTERM. say: told the address; port: 0 takes a free one; page: the built page.
+    """Serve a project until Ctrl-C or SIGTERM. announce: called with the address; port: 0 takes a free one; page: the
+    built page.
 
     Raises MeshForgeError: no project, no page, the port is taken, or the studio is open on the project already.
     """
     open_page(page)
-    project, token = Project.open(opening.folder), token_urlsafe(24)
+    project, token = Project.open(options.folder), token_urlsafe(24)
     with _stop_on_signal(), ExitStack() as stack:
         _lock_studio(stack, project)
         listening = stack.enter_context(closing(_listen(port)))
-        desk = Session(opening)
+        session = Session(options)
         stack.callback(_wait_for_processes)
-        stack.callback(desk.close)
+        stack.callback(session.close)
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
 
         def ready() -> None:
-            say(address)
+            announce(address)
             if browser:
                 Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
-        desk.start()
-        _Server(_make_config(desk, token, page), ready).run(sockets=[listening])
+        session.start()
+        _Server(_make_config(session, token, page), ready).run(sockets=[listening])
 
 
 class _Server(uvicorn.Server):
-    """A server that says when it is there."""
+    """A server that calls `ready` once it listens."""
 
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -82,9 +86,9 @@ class _Server(uvicorn.Server):
             self._ready()
 
 
-def _make_config(desk: Session, token: str, page: Path) -> uvicorn.Config:
+def _make_config(session: Session, token: str, page: Path) -> uvicorn.Config:
     return uvicorn.Config(
-        build_app(desk, token, page),
+        build_app(session, token, page),
         log_level="info" if _LOG.isEnabledFor(logging.DEBUG) else "critical",
         access_log=False,
         lifespan="off",
@@ -96,13 +100,13 @@ def _make_config(desk: Session, token: str, page: Path) -> uvicorn.Config:
 
 
 def _wait_for_processes() -> None:
-    """A worker process that is just starting would complain if its locks went with this process."""
+    """Wait for worker processes: one that is just starting would fail if its locks went with this process."""
     for process in multiprocessing.active_children():
         process.join(EXIT_TIMEOUT)
 
 
 def _lock_studio(stack: ExitStack, project: Project) -> None:
-    """Two studios on one project would each have half of its history."""
+    """Lock the project for this studio: two would each have half of its history."""
     try:
         stack.enter_context(hold_lock(project.folder / STATE / "studio" / "lock", str(project.folder), wait=0))
     except MeshForgeError as error:
@@ -120,7 +124,7 @@ def _listen(port: int) -> socket.socket:
 
 @contextmanager
 def _stop_on_signal() -> Iterator[None]:
-    """Ctrl-C and SIGTERM end the block as if it came to its end, everything closed."""
+    """Ctrl-C and SIGTERM leave the block without an error, and all it opened is closed."""
 
     def end(number: int, frame: FrameType | None) -> None:
         raise KeyboardInterrupt
@@ -134,12 +138,12 @@ def _stop_on_signal() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def build_app(desk: Session, token: str, page: Path) -> ASGIApp:
-    """The studio on a desk. page: the folder of the built page. Raises MeshForgeError where that is not built."""
+def build_app(session: Session, token: str, page: Path) -> ASGIApp:
+    """The web application of a session. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
-    app.state.desk = desk
-    for router in ROUTERS:
-        app.include_router(router)
+    app.state.session = session
+    for module in (queries, edits, connection):
+        app.include_router(module.router)
     app.mount("/", open_page(page))
     app.add_exception_handler(MeshForgeError, _handle_error)
     app.add_exception_handler(RequestValidationError, _handle_invalid)
@@ -174,13 +178,13 @@ def _handle_http(_: Request, error: Exception) -> JSONResponse:
 
 
 class PageFiles(StaticFiles):
-    """The built page. What has a digest in its name is kept by browsers; the rest is asked for anew."""
+    """The built page. Browsers keep what has a digest in its name, and ask for the rest each time."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        answer = await super().get_response(path, scope)
-        kept = "private, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
-        answer.headers["Cache-Control"] = kept
-        return answer
+        response = await super().get_response(path, scope)
+        is_digested = path.startswith("assets/")
+        response.headers["Cache-Control"] = "private, max-age=31536000, immutable" if is_digested else "no-cache"
+        return response
 
 
 def open_page(folder: Path) -> Any:

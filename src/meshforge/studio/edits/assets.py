@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.common import join_names, pluralize
+from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import Edit
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-
+from meshforge.studio.edits.base import Edit, JobEdit
 
 Vector = tuple[float, float, float]
 
@@ -21,9 +18,6 @@ class _PreparationEdit(Edit):
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
 
 
 class CutHull(_PreparationEdit):
@@ -71,60 +65,42 @@ class ReviewAssets(Edit):
         what = self.ids[0] if len(self.ids) == 1 else pluralize(len(self.ids), "asset")
         return f"{what} {self.verdict or 'not reviewed'}"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return self.ids
+
+class _CorrectionEdit(Edit):
+    asset: str
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.corrections(self.asset),)
 
 
-class CorrectByHand(Edit):
+class CorrectByHand(_CorrectionEdit):
     """Add an edit by hand, on hulls by the names they have after the program and the edits before."""
 
     kind: Literal["correct"] = "correct"
-    asset: str
     select: tuple[str, ...]
     action: str
 
     def apply(self, project: Project) -> None:
         project.correct(self.asset, self.select, *parse_action_text(self.action, "action"))
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.corrections(self.asset),)
-
     def describe(self, project: Project) -> str:
         return f"{self.asset} edited by hand: {self.action}"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
 
-
-class DropCorrections(Edit):
+class DropCorrections(_CorrectionEdit):
     """Take all edits by hand away from an asset, so that it is what the program makes of it."""
 
     kind: Literal["drop-corrections"] = "drop-corrections"
-    asset: str
 
     def apply(self, project: Project) -> None:
         project.drop_corrections(self.asset)
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.corrections(self.asset),)
-
     def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
 
-
-class Decompose(Edit):
-    """Hulls were made of what an asset has none for; the job makes the change itself."""
-
-    asset: str
-
-    def apply(self, project: Project) -> None:
-        raise AssertionError("the job of decomposing makes this change")
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
+class Decompose(_PreparationEdit, JobEdit):
+    """A job made hulls of the pieces of an asset that had none."""
 
     def describe(self, project: Project) -> str:
         return f"{self.asset} decomposed"
@@ -147,8 +123,8 @@ class AddTemplate(Edit):
 
 
 class AddAssets(Edit):
-    """Take uploaded files into the project. staged: the folder they lie in; files: their paths there; assets: of those
-    files the ones that are assets, the others being their parts; home: the folder they come to."""
+    """Take uploaded files into the project. staged: the folder they lie in; files: their paths there; added: those of
+    them that are assets, the others being their parts; home: the folder they come to."""
 
     staged: str
     files: tuple[str, ...]

@@ -1,17 +1,13 @@
-"""What every edit has in common, and versions of what pages edit as a whole, so that none overwrites what it has not
-seen."""
+"""The base of all edits, and versions of what pages edit as a whole, so that no page overwrites unseen changes."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.batch import file_digest
+from meshforge.project import Project
 from meshforge.studio.wire import Wire
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 class Edit(Wire):
@@ -32,13 +28,16 @@ class Edit(Wire):
     def describe(self, project: Project) -> str:
         """What it does, in a few words: `label 3 hulls of table_04 as leg`."""
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        """The ids of the assets that it changes."""
-        return ()
+
+class JobEdit(Edit):
+    """An edit that a job makes: the job itself changes the files, and the history records it."""
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("a job makes this change")
 
 
 def steps_version(project: Project, asset: str) -> str:
-    """The version of the steps that are demonstrated on an asset; empty where nothing is."""
+    """The version of the steps of an asset; empty where nothing is demonstrated."""
     return _digest_or_empty(project.layout.demonstration(asset))
 
 

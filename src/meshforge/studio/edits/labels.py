@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.common import pluralize
-from meshforge.studio.edits.base import Edit, program_files
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
+from meshforge.project import Project
+from meshforge.studio.edits.base import Edit, JobEdit, program_files
 
 
 class LabelHulls(Edit):
@@ -27,12 +25,15 @@ class LabelHulls(Edit):
         return (project.layout.labels(self.asset),)
 
     def describe(self, project: Project) -> str:
-        hulls = pluralize(len(self.hulls), "hull")
-        done = f"{hulls} of {self.asset} labelled {self.label}"
-        return done if self.label else f"label of {hulls} of {self.asset} taken away"
+        hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
+        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
+
+class _LabelsEdit(Edit):
+    """An edit of the labels of all assets."""
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
 
 
 class LabelFromFiles(Edit):
@@ -49,11 +50,8 @@ class LabelFromFiles(Edit):
     def describe(self, project: Project) -> str:
         return "labels taken over from files"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
 
-
-class LabelFromNames(Edit):
+class LabelFromNames(_LabelsEdit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
@@ -61,14 +59,8 @@ class LabelFromNames(Edit):
     def apply(self, project: Project) -> None:
         project.label_from_names()
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.folder / "labels",)
-
     def describe(self, project: Project) -> str:
         return "labels taken from names"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
 
 
 class SetVocabulary(Edit):
@@ -105,45 +97,24 @@ class RenameLabel(Edit):
     def describe(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
 
-
-class Propagate(Edit):
-    """Labels were carried over to all other hulls; the job makes the change itself. next: the asset that would help
-    most if it were labelled; used: how many entries the history had when labels were read."""
+class Propagate(JobEdit, _LabelsEdit):
+    """A job propagated labels to all other hulls. next: the asset that would help most if it were labelled; used: how
+    many entries the history had when labels were read."""
 
     kind: Literal["propagate"] = "propagate"
     used: int
     next: str | None
 
-    def apply(self, project: Project) -> None:
-        raise AssertionError("the job of carrying labels over makes this change")
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.folder / "labels",)
-
     def describe(self, project: Project) -> str:
-        return "labels carried over"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
+        return "labels propagated"
 
 
-class LabelFromModel(Edit):
-    """A model was asked for labels; the job makes the change itself."""
+class LabelFromModel(JobEdit, _LabelsEdit):
+    """A job asked a model for labels."""
 
     kind: Literal["label-vlm"] = "label-vlm"
     model: str
 
-    def apply(self, project: Project) -> None:
-        raise AssertionError("the job of asking makes this change")
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.folder / "labels",)
-
     def describe(self, project: Project) -> str:
         return f"labels from {self.model}"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()

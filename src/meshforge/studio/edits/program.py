@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
+from meshforge.project import Project
 from meshforge.store import action_text, parse_action_text
 from meshforge.studio.edits.base import Edit, program_files, program_version, steps_version
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
 from meshforge.synthesis import Answer, LabelCorrection, Step
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
 
 
 class StepText(Wire):
@@ -22,6 +20,10 @@ class StepText(Wire):
 
     select: tuple[str, ...] | None
     action: str
+
+    def parse(self, rule: int) -> Step:
+        """The step of a rule. Raises ProjectError for an action that does not parse."""
+        return Step(rule, self.select, *parse_action_text(self.action, f"step {rule}"))
 
 
 class SetSteps(Edit):
@@ -39,13 +41,13 @@ class SetSteps(Edit):
                 where=self.asset,
                 remedy="They are shown as they are now; do it again if it is still wanted.",
             )
-        project.demonstrate(self.asset, _parse_steps(self.steps))
+        project.demonstrate(self.asset, [step.parse(k) for k, step in enumerate(self.steps, 1)])
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.demonstration(self.asset),)
 
     def describe(self, project: Project) -> str:
-        before = [(step.select, action_text(step.action, step.label)) for step in _read_steps(project, self)]
+        before = [(step.select, action_text(step.action, step.label)) for step in _read_steps(project, self.asset)]
         now = [(None if s.select is None else frozenset(s.select), s.action) for s in self.steps]
         if len(now) == len(before) + 1 and now[:-1] == before:
             select, action = now[-1]
@@ -56,22 +58,11 @@ class SetSteps(Edit):
         changed = [k for k, (a, b) in enumerate(zip(before, now, strict=False), 1) if a != b]
         return f"step {changed[0]} of {self.asset} changed" if changed else f"steps of {self.asset}"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
 
-
-def _parse_steps(texts: tuple[StepText, ...]) -> list[Step]:
-    """Steps for learning. Raises ProjectError for an action that does not parse."""
-    return [
-        Step(number, step.select, *parse_action_text(step.action, f"step {number}"))
-        for number, step in enumerate(texts, 1)
-    ]
-
-
-def _read_steps(project: Project, edit: SetSteps) -> tuple[Step, ...]:
-    """The steps that are kept; none where their file is damaged, and is therefore written anew."""
+def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
+    """The steps on disk; none where their file is damaged, so that it is written anew."""
     try:
-        return project.steps(edit.asset)
+        return project.steps(asset)
     except MeshForgeError:
         return ()
 
@@ -81,9 +72,6 @@ class _RuleEdit(Edit):
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.folder / "demonstrations", project.layout.answers)
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return tuple(a for a in project.assets() if project.layout.demonstration(a).exists())
 
 
 class MoveRule(_RuleEdit):
@@ -128,9 +116,6 @@ class SetOrientation(Edit):
     def describe(self, project: Project) -> str:
         return f"orientation: {self.text}" if self.text else "orientation taken away"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
-
 
 class AnswerQuestion(Edit):
     """Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`."""
@@ -162,8 +147,8 @@ class SettleRepair(Edit):
     accept: bool
 
     def apply(self, project: Project) -> None:
-        settle = project.confirm if self.accept else project.reject
-        settle(LabelCorrection(self.asset, self.hull, self.was, self.to))
+        decide = project.confirm if self.accept else project.reject
+        decide(LabelCorrection(self.asset, self.hull, self.was, self.to))
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.answers, project.layout.labels(self.asset))
@@ -171,9 +156,6 @@ class SettleRepair(Edit):
     def describe(self, project: Project) -> str:
         how = "is now labelled" if self.accept else "is not"
         return f"{self.hull} of {self.asset} {how} {self.to}"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
 
 
 class TakeBack(Edit):
@@ -190,10 +172,6 @@ class TakeBack(Edit):
 
     def describe(self, project: Project) -> str:
         return f"{self.id} taken back"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        asset = self.id.partition("#")[0]
-        return (asset,) if asset in project.assets() else ()
 
 
 class WriteProgram(Edit):

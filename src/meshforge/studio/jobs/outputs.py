@@ -1,14 +1,23 @@
-"""Jobs on outputs: checking them, and copying them into a folder of their own."""
+"""Jobs on outputs: running the program, checking what it wrote, and exporting it into a folder of its own."""
 
 from __future__ import annotations
 
 import os
 import shutil
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from meshforge.batch import OWN_FOLDERS, STATE, file_digest, read_stamp
+from meshforge.batch import (
+    OWN_FOLDERS,
+    STATE,
+    AssetOutcome,
+    ExecutionOptions,
+    Failed,
+    file_digest,
+    read_stamp,
+    status_of,
+)
 from meshforge.common import (
     ProjectError,
     UsageError,
@@ -19,68 +28,96 @@ from meshforge.common import (
     write_atomically,
 )
 from meshforge.studio.session.job_runner import JobProgress
+from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.jobs import ExportJob, Job, JobLine
-
-if TYPE_CHECKING:
-    from meshforge.studio.session.session import Session
-
+from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
 _RESERVED = (*OWN_FOLDERS, STATE)
 
 
-def start_check(desk: Session) -> Job:
-    """Begin to check all outputs. Raises ProjectError where there are none."""
-    assets = tuple(card.asset for card in desk.pages.cards if card.check)
+def start_apply(session: Session, request: ApplyJob) -> Job:
+    """Start to run the program on all assets, or on some. Raises ProjectError where there is no program."""
+    project = session.project
+    session.check_assets(*request.assets or ())
+    assets = project.assets() if request.assets is None else tuple(dict.fromkeys(request.assets))
+    if project.program() is None:
+        raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
+
+    def work(progress: JobProgress) -> str:
+        counts: Counter[str] = Counter()
+        outcomes = project.apply(
+            assets, execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
+        )
+        for outcome in outcomes:
+            counts[status_of(outcome)] += 1
+            progress.add_line(_apply_line(outcome))
+            session.note_output(outcome.asset)
+        text = ", ".join(f"{number} {word}" for word, number in counts.items())
+        return f"{pluralize(len(assets), 'asset')}: {text or 'none'}."
+
+    title = f"Applying the program to {pluralize(len(assets), 'asset')}"
+    return session.jobs.start("apply", title, len(assets), work, str(project.layout.edited))
+
+
+def _apply_line(outcome: AssetOutcome) -> JobLine:
+    if isinstance(outcome, Failed):
+        return JobLine(asset=outcome.asset, status="failed", text=outcome.error)
+    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *outcome.notes, *outcome.flags]
+    return JobLine(asset=outcome.asset, status=status_of(outcome), text="; ".join(parts))
+
+
+def start_check(session: Session) -> Job:
+    """Start to check all outputs. Raises ProjectError where there are none."""
+    assets = tuple(card.asset for card in session.pages.cards if card.check)
     if not assets:
         raise ProjectError("there is no output to be checked", remedy="Apply the program first.")
 
-    def work(running: JobProgress) -> str:
+    def work(progress: JobProgress) -> str:
         odd = failed = 0
-        for asset, found in desk.checks.check_all(desk.project, assets, running.advance, lambda: running.is_stopped):
+        for asset, found in session.checks.check_all(session.project, assets, progress.advance, progress.is_stopped):
             line = to_line(asset, found)
             odd, failed = odd + bool(line.text and line.status == "done"), failed + (line.status == "failed")
-            running.add_line(line)
-            desk.refresh_queue.add([asset])
+            progress.add_line(line)
+            session.refresh_queue.add([asset])
         broken = f"; {failed} could not be checked" if failed else ""
         return f"{pluralize(len(assets), 'result')}: {odd} with findings, limits of engines apart{broken}."
 
-    return desk.jobs.start("check", f"Checking {pluralize(len(assets), 'result')}", len(assets), work)
+    return session.jobs.start("check", f"Checking {pluralize(len(assets), 'result')}", len(assets), work)
 
 
 def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
-    """What is told of one output: the rules that do not hold, without those of engines, or why it cannot be told."""
+    """The line of one output: the rules that do not hold, without limits of engines, or why it was not checked."""
     if isinstance(found, str):
         return JobLine(asset=asset, status="failed", text=found)
     rules = dict.fromkeys(fault.rule for fault in found if fault.engine is None)
     return JobLine(asset=asset, status="done", text=join_names(list(rules)))
 
 
-def start_export(desk: Session, request: ExportJob) -> Job:
-    """Begin to export. Raises UsageError for a folder that is not to be written, or holds other things."""
-    folder = _check_folder(desk, request.folder)
+def start_export(session: Session, request: ExportJob) -> Job:
+    """Start to export. Raises UsageError for a folder that is not to be written, or holds other things."""
+    folder = _check_folder(session, request.folder)
     known = _read_mark(folder)
-    rows = [card for card in desk.pages.cards if not request.accepted_only or card.review == "accepted"]
+    rows = [card for card in session.pages.cards if not request.accepted_only or card.review == "accepted"]
     if not rows:
         which = "accepted" if request.accepted_only else "there"
         raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
-    edited = desk.project.layout.edited
+    edited = session.project.layout.edited
 
-    def work(running: JobProgress) -> str:
+    def work(progress: JobProgress) -> str:
         kept: dict[str, None] = {}
         done = 0
         for card in rows:
-            running.raise_if_stopped()
+            progress.raise_if_stopped()
             line = _export_asset(edited, folder, card.asset, known, kept)
             done += line.status == "done"
-            running.add_line(line)
-            running.advance()
+            progress.add_line(line)
+            progress.advance()
         _remove_files(folder, [name for name in known if name not in kept])
         return f"{pluralize(done, 'asset')} exported."
 
-    return desk.jobs.start("export", f"Exporting {pluralize(len(rows), 'asset')}", len(rows), work, str(folder))
+    return session.jobs.start("export", f"Exporting {pluralize(len(rows), 'asset')}", len(rows), work, str(folder))
 
 
 def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None], kept: dict[str, None]) -> JobLine:
@@ -110,9 +147,9 @@ def _copy_file(source: Path, target: Path) -> None:
         draft.chmod(source.stat().st_mode & 0o777)
 
 
-def _check_folder(desk: Session, name: str) -> Path:
+def _check_folder(session: Session, name: str) -> Path:
     """The folder to write: below the project, or the one that was allowed when the studio was opened."""
-    root, allowed = desk.project.folder, desk.options.export
+    root, allowed = session.project.folder, session.options.export
     folder = plain_path(root / name)
     if allowed and folder == plain_path(allowed):
         return folder

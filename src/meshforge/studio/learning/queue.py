@@ -1,5 +1,4 @@
-"""Work for the learning process: a queue that keeps only the latest request of each kind, and flags that cancel what
-runs."""
+"""Calls to the learning process: a queue that keeps only the latest of each kind, and flags that cancel what runs."""
 
 from __future__ import annotations
 
@@ -18,14 +17,14 @@ from typing import Any, Literal, get_args
 from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.workers import Workers, wait_for
 
-CallKind = Literal["lesson", "reach", "generalise"]
+CallKind = Literal["learn", "reach", "generalise"]
 CALL_KINDS: tuple[CallKind, ...] = get_args(CallKind)
 
 _COUNT = struct.Struct("<q")
 
 
-class Superseded(MeshForgeError):  # noqa: N818 (nothing went wrong: nobody waits for it)
-    """Something newer of the same kind was asked for, or the work was interrupted; its result is of no use."""
+class Superseded(MeshForgeError):  # noqa: N818 (nothing went wrong)
+    """A newer call of the same kind took its place, or the call was interrupted; nobody needs its result."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,13 +34,13 @@ class _Call:
     future: Future[Any] = field(default_factory=Future)
 
     def give_up(self, why: str) -> None:
-        """Tell whoever still waits for it that it will not be done."""
+        """Raise Superseded for whoever still waits for the result."""
         if self.future.set_running_or_notify_cancel():
             self.future.set_exception(Superseded(why))
 
 
 class LatestOnlyQueue:
-    """Calls on their way to a worker process; lessons go first, then the others in the order of `CALL_KINDS`."""
+    """Calls that wait for one worker process; they start in the order of `CALL_KINDS`."""
 
     def __init__(self, workers: Workers) -> None:
         self._workers = workers
@@ -50,7 +49,7 @@ class LatestOnlyQueue:
         self._busy = False
 
     def put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
-        """Ask for something, in place of what waits of its kind. What gives None was interrupted: Superseded."""
+        """Add a call, in place of the one of its kind that waits. One that returns None was interrupted: Superseded."""
         call = _Call(function, args)
         with self._lock:
             before, self._waiting[kind] = self._waiting.get(kind), call
@@ -60,7 +59,7 @@ class LatestOnlyQueue:
         return call.future
 
     def close(self) -> None:
-        """Give up what waits."""
+        """Give up the calls that wait."""
         with self._lock:
             waiting, self._waiting = tuple(self._waiting.values()), {}
         for call in waiting:
@@ -78,7 +77,7 @@ class LatestOnlyQueue:
         work.add_done_callback(lambda done: self._finish(call, _outcome_of(done)))
 
     def _take_next(self) -> _Call | None:
-        """What is begun now, None where something is being done, or nothing waits."""
+        """The call to start now, None where one is running, or none waits."""
         with self._lock:
             for kind in [kind for kind in CALL_KINDS if kind in self._waiting and not self._busy]:
                 call = self._waiting.pop(kind)
@@ -103,7 +102,7 @@ class LatestOnlyQueue:
 
 
 def _outcome_of(done: Future[Any]) -> Any:
-    """What a worker gave, or the error."""
+    """What the call returned, or its error."""
     try:
         return wait_for(done)
     except Exception as error:  # whoever waits for the answer gets it, whatever it is
@@ -112,7 +111,7 @@ def _outcome_of(done: Future[Any]) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class CancelToken:
-    """What a piece of work takes with it: of which kind it is, and how often the bell had rung for that."""
+    """What a call takes with it: its kind, and how often that kind had been cancelled when the call was made."""
 
     path: Path
     kind: CallKind
@@ -120,13 +119,13 @@ class CancelToken:
 
     @property
     def stop(self) -> Callable[[], bool]:
-        """Whether the bell has rung since."""
+        """Tells whether the call was cancelled since."""
         counts, place = _map_file(self.path), CALL_KINDS.index(self.kind) * _COUNT.size
         return lambda: int(_COUNT.unpack_from(counts, place)[0]) != self.count
 
 
 class CancelFlag:
-    """Counts, in a small file that processes share, how often it rang for each kind of work."""
+    """Counts, in a small file that processes share, how often the calls of each kind were cancelled."""
 
     def __init__(self) -> None:
         handle, name = tempfile.mkstemp(prefix="meshforge-", suffix=".bell")
@@ -136,16 +135,16 @@ class CancelFlag:
         os.close(handle)
 
     def cancel(self, *kinds: CallKind) -> None:
-        """End the work of some kinds that is going on."""
+        """Cancel the calls of some kinds that are running."""
         for kind in kinds:
             _COUNT.pack_into(self._counts, self._offset_of(kind), self._count_of(kind) + 1)
 
     def make_token(self, kind: CallKind) -> CancelToken:
-        """The ticket of work that begins now."""
+        """The token of a call that is made now."""
         return CancelToken(self.path, kind, self._count_of(kind))
 
     def close(self) -> None:
-        """Take the file away."""
+        """Remove the file."""
         self._counts.close()
         self.path.unlink(missing_ok=True)
 

@@ -1,4 +1,4 @@
-"""What came of learning, as the page shows it; and what programs and extractors select on each asset."""
+"""Results of learning as the page shows them, and what programs and extractors select on each asset."""
 
 from __future__ import annotations
 
@@ -13,19 +13,9 @@ from meshforge.common import MeshForgeError
 from meshforge.language import EXTREMITY, Extractor, Program, Template, apply_rule, explain, select_mask, show
 from meshforge.store import repair_id
 from meshforge.studio.queries.programs import rule_views
-from meshforge.studio.wire.program import (
-    ChoiceView,
-    HintView,
-    LessonView,
-    NearestView,
-    QuestionView,
-    Reach,
-    ReadingView,
-    RepairView,
-)
+from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
 from meshforge.synthesis import (
-    Choice,
     Demonstration,
     LearningOutcome,
     NoProgram,
@@ -37,12 +27,12 @@ from meshforge.synthesis import (
 )
 
 
-def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, seconds: float) -> LessonView:
-    """What a lesson came to; number: which one it is; looked_at: how many assets were; seconds: the time it took."""
+def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, seconds: float) -> wire.LessonView:
+    """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
     counts = Counter(reading.rule for reading in outcome.readings)
     failure = outcome if isinstance(outcome, NoProgram) else None
     suggested = failure.suggested if failure else None
-    return LessonView(
+    return wire.LessonView(
         number=number,
         status=outcome.status,
         program=str(outcome.program) if outcome.program else None,
@@ -53,7 +43,7 @@ def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, sec
         repairs=tuple(map(_view_repair, outcome.repairs)),
         question=_view_question(outcome.question, outcome) if outcome.question else None,
         nearest=_view_nearest(outcome),
-        hint=HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
+        hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
         suggested_orientation=show(suggested.orient).removeprefix("orient ") if suggested else None,
@@ -64,8 +54,8 @@ def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, sec
     )
 
 
-def _view_reading(reading: Reading) -> ReadingView:
-    return ReadingView(
+def _view_reading(reading: Reading) -> wire.ReadingView:
+    return wire.ReadingView(
         id=reading.id,
         rule=reading.rule,
         extractor=show(reading.extractor),
@@ -76,9 +66,9 @@ def _view_reading(reading: Reading) -> ReadingView:
     )
 
 
-def _view_repair(repair: Repair) -> RepairView:
+def _view_repair(repair: Repair) -> wire.RepairView:
     wrong = repair.correction
-    return RepairView(
+    return wire.RepairView(
         id=repair_id(wrong),
         rule=repair.rule,
         asset=wrong.asset,
@@ -90,32 +80,31 @@ def _view_repair(repair: Repair) -> RepairView:
     )
 
 
-def _view_question(question: Question, outcome: LearningOutcome) -> QuestionView:
+def _view_question(question: Question, outcome: LearningOutcome) -> wire.QuestionView:
     readings = {reading.id: reading for reading in outcome.readings}
-    return QuestionView(
+    return wire.QuestionView(
         id=question.id,
         rule=question.rule,
         asset=question.asset,
-        choices=tuple(_view_choice(choice, readings[choice.reading]) for choice in question.choices),
+        choices=tuple(
+            wire.ChoiceView(
+                reading=choice.reading,
+                extractor=show(readings[choice.reading].extractor),
+                sentence=explain(readings[choice.reading].extractor),
+                select=choice.select,
+            )
+            for choice in question.choices
+        ),
         harm=question.harm,
         left=question.left,
     )
 
 
-def _view_choice(choice: Choice, reading: Reading) -> ChoiceView:
-    return ChoiceView(
-        reading=choice.reading,
-        extractor=show(reading.extractor),
-        sentence=explain(reading.extractor),
-        select=choice.select,
-    )
-
-
-def _view_nearest(outcome: LearningOutcome) -> NearestView | None:
+def _view_nearest(outcome: LearningOutcome) -> wire.NearestView | None:
     near = outcome.nearest
     if near is None:
         return None
-    return NearestView(
+    return wire.NearestView(
         rule=near.rule, extractor=show(near.extractor), asset=near.asset, extra=near.extra, missing=near.missing
     )
 
@@ -129,12 +118,12 @@ class ProgramWithTemplates:
 
     @cached_property
     def key(self) -> tuple[str, str]:
-        """What it does on an asset follows from this."""
+        """Two with the same key do the same on every asset."""
         return str(self.program), str(template_digests(self.templates))
 
 
 class HullOrigins:
-    """Which of an asset's own hulls each hull is, or was made of, in the midst of a run."""
+    """Which of an asset's own hulls each hull is, or was made of, while a program runs."""
 
     def __init__(self, mesh: SymbolicMesh) -> None:
         self._own: dict[str, frozenset[int]] = {name: frozenset({k}) for name, k in mesh.index.items()}
@@ -144,26 +133,26 @@ class HullOrigins:
         return tuple(sorted(frozenset[int]().union(*(self._own[name] for name in names))))
 
     def add(self, made: Sequence[str], sources: Sequence[Sequence[str]]) -> None:
-        """Take note of hulls that were made, and of what."""
+        """Add hulls that were made; sources: of each of them, the names of the hulls that it was made of."""
         for name, parts in zip(made, sources, strict=True):
             self._own[name] = frozenset(self.of(parts))
 
 
-def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> Reach:
-    """What a program does on an asset; worked out once for both."""
-    return memoize(mesh, ("reach", asset, plan.key), Reach, lambda: _measure_reach(plan, asset, mesh))
+def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
+    """What a program does on an asset; cached with the mesh."""
+    return memoize(mesh, ("reach", asset, plan.key), wire.Reach, lambda: _measure_reach(plan, asset, mesh))
 
 
-def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> Reach:
+def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
     try:
         run = plan.program.run(mesh, plan.templates)
     except MeshForgeError as error:
-        return Reach(asset=asset, before=len(mesh.hulls), after=len(mesh.hulls), error=error.message)
+        return wire.Reach(asset=asset, before=len(mesh.hulls), after=len(mesh.hulls), error=error.message)
     origins, rules = HullOrigins(mesh), []
     for line in run.trace:
         rules.append(origins.of(line.selected))
         origins.add(line.made, line.sources)
-    return Reach(asset=asset, rules=tuple(rules), before=len(mesh.hulls), after=len(run.mesh.hulls))
+    return wire.Reach(asset=asset, rules=tuple(rules), before=len(mesh.hulls), after=len(run.mesh.hulls))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -176,21 +165,21 @@ class _RuleMesh:
 
 
 class RuleSelector:
-    """Assets as a rule meets them, each after the rules that were asked for last: extractors are typed by letters."""
+    """Assets as they are before a rule. Those of the last call are cached: extractors are typed letter by letter."""
 
     def __init__(self) -> None:
         self._last: WeakKeyDictionary[SymbolicMesh, _RuleMesh] = WeakKeyDictionary()
 
     def select(self, plan: ProgramWithTemplates, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
-        """Positions of an asset's own hulls that an extractor selects after the rules of a plan, or of which was made
-        what it selects; nothing where these rules cannot be done."""
-        met = self._last.get(mesh)
-        if met is None or met.key != plan.key:
-            met = self._last[mesh] = _run_rules(plan, mesh)
-        if met.mesh is None:
+        """Positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the hulls it
+        selects were made of; empty where these rules cannot be done."""
+        after = self._last.get(mesh)
+        if after is None or after.key != plan.key:
+            after = self._last[mesh] = _run_rules(plan, mesh)
+        if after.mesh is None:
             return ()
-        found = bits_of(select_mask(extractor, met.mesh, plan.program.extremity or EXTREMITY))
-        return tuple(sorted({own for k in found for own in met.origins[k]}))
+        found = bits_of(select_mask(extractor, after.mesh, plan.program.extremity or EXTREMITY))
+        return tuple(sorted({own for k in found for own in after.origins[k]}))
 
 
 def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:

@@ -24,21 +24,23 @@ from meshforge.symbolic import Asset, Label, SymbolicMesh
 from meshforge.synthesis import Step
 
 Z_FROM_Y = Pose(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
-"""Brings the Y axis up to Z."""
+"""Turns the Y axis to Z."""
 
 THUMBNAIL_SIZE = (240, 180)
 
 RULE_PICTURE_SIZE = (720, 540)
 
 _DRAW_VERSION = "1"
-"""Counts the ways in which thumbnails were drawn."""
+"""To be raised when thumbnails are drawn in another way."""
 
 
 def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetView:
-    """An asset as it is prepared; mesh: it. Contacts are those that a program sees, in the canonical frame."""
-    source = _source_of(mesh)
-    course, problem = _try_replay(project, asset, mesh)
-    seen = course.start if course else mesh
+    """An asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical frame."""
+    source = mesh.asset
+    if source is None:
+        raise MeshForgeError("this mesh was made in memory and has no file")
+    replay, problem = _try_replay(project, asset, mesh)
+    seen = replay.start if replay else mesh
     shown = compute_upright(project, mesh)
     return AssetView(
         asset=asset,
@@ -47,27 +49,28 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         up=source.up or "z",
         bodies=tuple(body.name for body in source.bodies),
         hulls=hull_views(mesh),
-        opaque=_opaque_views(source),
+        opaque=tuple(
+            OpaqueView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None) for o in source.opaque
+        ),
         has_visual=_has_visual(source),
         contacts=contact_names(seen),
-        near_misses=_near_miss_views(seen),
+        near_misses=tuple(
+            NearMiss(a=seen.hulls[i].name, b=seen.hulls[j].name, gap=gap) for i, j, gap in seen.near_misses
+        ),
         diagonal=seen.diagonal,
         contact_distance=seen.contact_distance,
         upright=to_numbers(shown.pose),
         unturned=shown.problem,
-        steps=_step_views(project.steps(asset), course.results if course else (), shown.problem or problem),
+        steps=_step_views(project.steps(asset), replay.results if replay else (), shown.problem or problem),
         version=steps_version(project, asset),
-        corrections=_correction_views(project, asset),
+        corrections=tuple(
+            CorrectionView(select=tuple(name for name, _ in c.hulls), action=action_text(c.action, c.label))
+            for c in project.corrections(asset)
+        ),
         prepared=tuple(map(str, project.preparation(asset).steps)),
         missing=source.missing,
         notes=source.notes,
     )
-
-
-def _source_of(mesh: SymbolicMesh) -> Asset:
-    if mesh.asset is None:
-        raise MeshForgeError("this mesh was made in memory and has no file to tell about")
-    return mesh.asset
 
 
 def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[AssetReplay | None, str | None]:
@@ -79,41 +82,23 @@ def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[Asset
 
 
 def _has_visual(source: Asset) -> bool:
-    """Whether there is a visual, told without reading its files where that is possible."""
+    """Whether there is a visual mesh, found out without reading its files where that is possible."""
     visuals = source.visuals
     return bool(visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals)
 
 
-def _opaque_views(source: Asset) -> tuple[OpaqueView, ...]:
-    return tuple(
-        OpaqueView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None) for o in source.opaque
-    )
-
-
-def _near_miss_views(mesh: SymbolicMesh) -> tuple[NearMiss, ...]:
-    names = [hull.name for hull in mesh.hulls]
-    return tuple(NearMiss(a=names[i], b=names[j], gap=gap) for i, j, gap in mesh.near_misses)
-
-
-def _step_views(steps: tuple[Step, ...], deeds: tuple[EditResult, ...], problem: str | None) -> tuple[StepView, ...]:
-    done = deeds or tuple(EditResult(step.rule, error=problem) for step in steps)
+def _step_views(steps: tuple[Step, ...], results: tuple[EditResult, ...], problem: str | None) -> tuple[StepView, ...]:
+    done = results or tuple(EditResult(step.rule, error=problem) for step in steps)
     return tuple(
         StepView(
             rule=step.rule,
             select=None if step.select is None else tuple(sorted(step.select)),
             action=action_text(step.action, step.label),
-            error=deed.error,
-            made=deed.made,
-            removed=deed.removed,
+            error=result.error,
+            made=result.made,
+            removed=result.removed,
         )
-        for step, deed in zip(steps, done, strict=True)
-    )
-
-
-def _correction_views(project: Project, asset: str) -> tuple[CorrectionView, ...]:
-    return tuple(
-        CorrectionView(select=tuple(name for name, _ in c.hulls), action=action_text(c.action, c.label))
-        for c in project.corrections(asset)
+        for step, result in zip(steps, done, strict=True)
     )
 
 
@@ -126,20 +111,20 @@ class UprightPose:
 
 
 def compute_upright(project: Project, mesh: SymbolicMesh) -> UprightPose:
-    """How an asset of a project is shown: as the orientation turns it, then with what is up along Z.
+    """How an asset of a project is shown: turned by the orientation, then so that Z points up.
 
-    Z is up where the orientation names it; else that axis is which the file says points up.
+    Z is up already where the orientation names it; otherwise the file says which axis is up.
     """
     orient = project.orientation
     try:
-        turn, problem = orient_mesh(mesh, orient)[1], None
+        pose, problem = orient_mesh(mesh, orient)[1], None
     except MeshForgeError as error:
-        turn, problem, orient = Pose.identity(), error.sentence, None
-    return UprightPose(Z_FROM_Y @ turn if is_y_up(mesh, orient) else turn, problem)
+        pose, problem, orient = Pose.identity(), error.sentence, None
+    return UprightPose(Z_FROM_Y @ pose if is_y_up(mesh, orient) else pose, problem)
 
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
-    """Whether Y is still what points up after an orientation: the file says so, and no landmark says what +Z is."""
+    """Whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
     named = orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)
     return not named and mesh.asset is not None and mesh.asset.up == "y"
 
@@ -152,19 +137,19 @@ def to_numbers(pose: Pose) -> tuple[float, ...] | None:
 
 
 def draw_thumbnail(mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int, int] = THUMBNAIL_SIZE) -> bytes:
-    """A picture of a mesh, encoded as `views.thumbnail` tells, as a PNG file.
+    """A picture of a mesh, encoded as `rendering.render_thumbnail` describes, as a PNG file.
 
-    pose: as of `shapes.upright`; of an edited asset, that of the asset as it comes.
+    pose: shown_T_incoming of `compute_upright`; for an output, that of the asset as it comes.
     """
-    from PIL import Image
+    from PIL import Image  # lazy: 0.1 s, only drawing needs it
 
     return rendering.encode_png(Image.fromarray(rendering.render_thumbnail(mesh, pose, size), "RGBA"))
 
 
 def draw_rule_picture(project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Program | None) -> bytes:
-    """A packet: the names of the hulls in order, and a picture encoded as a thumbnail.
+    """A packet of an asset before a rule: the names of the hulls in order, and a picture encoded as a thumbnail.
 
-    mesh: the asset as it comes; program: None for one without rules, which only turns it.
+    mesh: the asset as it comes; program: None for one without rules, which only turns the asset.
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     plan = program or Program(orient=project.orientation)
@@ -177,12 +162,12 @@ def draw_rule_picture(project: Project, asset: str, mesh: SymbolicMesh, rule: in
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:
     """A digest of all that decides how an asset is drawn: its hulls, and labels that turn it.
 
-    geometry: as of AssetStatus; labels: of its hulls in order; orient: the orientation's text.
+    geometry: the digest in AssetStatus; labels: of its hulls in order; orient: the orientation's text.
     """
     landmarks = [label.name if label and label.name in orient else "" for label in labels]
     return text_digest("\n".join([_DRAW_VERSION, software_version(), geometry, orient, *landmarks]))
 
 
 def output_picture_digest(picture: str, output: str) -> str:
-    """The same of an output; picture: of the asset, which is turned alike; output: the digest of its files."""
+    """A digest of all that decides how an output is drawn. picture: of the asset; output: the digest of its files."""
     return text_digest(f"{picture} {output}")

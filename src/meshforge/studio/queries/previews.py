@@ -1,5 +1,4 @@
-"""Packets of an asset after its steps, after one more action, after the program with corrections, or as it was
-written."""
+"""Packets of an asset after its steps, one more action, or the program with corrections; and of its output."""
 
 from __future__ import annotations
 
@@ -27,31 +26,28 @@ ResultOf = Literal["program", "output"]
 def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) -> bytes:
     """The packet of an asset after its first steps; mesh: the asset as it comes.
 
-    A step that cannot be done is left out, and the note says why. Raises ProgramError where it cannot be turned.
+    A step that fails is left out, and the note says why. Raises ProgramError where the asset cannot be turned.
     """
-    course = replay_steps(project, asset, mesh, steps)
-    home = course.incoming_mesh
-    told = EditNotes(_describe_problems(course), _trace_lines(course), findings_of_new(mesh, home))
-    return pack_edited(mesh, mesh, home, told, course.mesh)
+    replay = replay_steps(project, asset, mesh, steps)
+    home = replay.incoming_mesh
+    notes = EditNotes(_describe_problems(replay), _trace_lines(replay), findings_of_new(mesh, home))
+    return pack_edited(mesh, mesh, home, notes, replay.mesh)
 
 
 def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
-    """The packet of an asset after one action more, on its own steps or on what the program makes of it.
+    """The packet of an asset after one more action, on its own steps or on what the program makes of it.
 
-    Raises MeshForgeError: no such hull, no such action, or one that cannot be done.
+    Raises MeshForgeError: no such hull, no such action, or one that fails.
     """
-    return (_preview_correction if request.result else _preview_step)(project, asset, mesh, request)
-
-
-def _preview_step(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
+    if request.result:
+        return _preview_correction(project, asset, mesh, request)
     action, label = parse_action_text(request.action, asset)
     before = replay_steps(project, asset, mesh, request.steps)
     after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
     start, home = before.incoming_mesh, after.incoming_mesh
-    deed = after.results[-1]
-    notes = "; ".join(note for note in (_describe_problems(before), deed.note) if note)
-    told = EditNotes(notes or None, _trace_lines(after)[-1:], findings_of_new(start, home))
-    return pack_edited(mesh, start, home, told, after.mesh)
+    note = "; ".join(note for note in (_describe_problems(before), after.results[-1].note) if note)
+    notes = EditNotes(note or None, _trace_lines(after)[-1:], findings_of_new(start, home))
+    return pack_edited(mesh, start, home, notes, after.mesh)
 
 
 def _preview_correction(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
@@ -59,20 +55,20 @@ def _preview_correction(project: Project, asset: str, mesh: SymbolicMesh, reques
     one = make_correction(before.mesh, asset, request.select, *parse_action_text(request.action, asset))
     templates = {**before.templates, **project.templates(one.action.templates)}
     after, flags = replay_corrections((*before.corrections, one), mesh, before.run.mesh, before.program, templates)
-    told = EditNotes(findings=findings_of_new(before.mesh, after), flags=flags)
-    return pack_edited(mesh, before.mesh, after, told)
+    notes = EditNotes(findings=findings_of_new(before.mesh, after), flags=flags)
+    return pack_edited(mesh, before.mesh, after, notes)
 
 
-def _trace_lines(course: AssetReplay) -> tuple[TraceLine, ...]:
+def _trace_lines(replay: AssetReplay) -> tuple[TraceLine, ...]:
     return tuple(
-        TraceLine(rule=deed.rule, selected=deed.selected, made=deed.made, note=deed.error or deed.note)
-        for deed in course.results
+        TraceLine(rule=result.rule, selected=result.selected, made=result.made, note=result.error or result.note)
+        for result in replay.results
     )
 
 
-def _describe_problems(course: AssetReplay) -> str | None:
+def _describe_problems(replay: AssetReplay) -> str | None:
     """Why steps were left out, None where all were done."""
-    return "; ".join(deed.error for deed in course.results if deed.error) or None
+    return "; ".join(result.error for result in replay.results if result.error) or None
 
 
 def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultOf, program: Program | None) -> bytes:
@@ -80,15 +76,9 @@ def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultO
 
     Raises MeshForgeError where the program cannot run on it, or where there is no output.
     """
-    return _pack_output(project, asset, mesh) if of == "output" else _pack_run(project, asset, mesh, program)
-
-
-def _pack_run(project: Project, asset: str, mesh: SymbolicMesh, program: Program | None) -> bytes:
-    now = run_with_corrections(project, asset, mesh, program)
-    return pack_edited(mesh, mesh, now.mesh, _collect_notes(now.mesh, now.run.trace, now.flags))
-
-
-def _pack_output(project: Project, asset: str, mesh: SymbolicMesh) -> bytes:
+    if of == "program":
+        now = run_with_corrections(project, asset, mesh, program)
+        return pack_edited(mesh, mesh, now.mesh, _collect_notes(now.mesh, now.run.trace, now.flags))
     stamp = read_stamp(project.layout.edited, asset)
     if stamp is None or stamp.status not in ("edited", "unchanged"):
         why = stamp.error if stamp and stamp.error else None
@@ -117,7 +107,7 @@ class RunWithCorrections:
 def run_with_corrections(
     project: Project, asset: str, mesh: SymbolicMesh, program: Program | None
 ) -> RunWithCorrections:
-    """What a program makes of an asset now; None changes nothing. Raises MeshForgeError where it cannot run."""
+    """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
     plan = program or Program(orient=project.orientation)
     corrections = project.corrections(asset)
     names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
@@ -130,7 +120,7 @@ def run_with_corrections(
 def make_correction(
     mesh: SymbolicMesh, asset: str, select: Sequence[str], action: Action, label: str | None
 ) -> Correction:
-    """One edit by hand more, on hulls of the mesh. Raises ProjectError for one that is not there."""
+    """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
     for name in select:
         if name not in mesh.index:
             like = nearest_name(name, mesh.index)

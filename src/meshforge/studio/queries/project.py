@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
+from meshforge.labels import check_vlm_settings, endpoint_of
 from meshforge.language import explain
 from meshforge.project import AssetStatus, Project
 from meshforge.rendering import UNSURE, label_color
@@ -22,12 +23,12 @@ from meshforge.synthesis import Step
 def build_project_view(
     project: Project,
     cards: Iterable[Card],
-    following: Next,
+    next_step: Next,
     problem: str | None,
     lost: tuple[str, ...],
-    carried: CarriedOver | None = None,
+    propagated: CarriedOver | None = None,
 ) -> ProjectView:
-    """The project. following: the next sensible step; problem, lost: as of `meshforge.project.Status`."""
+    """The project as the page shows it. problem, lost, propagated: see the fields of `ProjectView`."""
     settings, orient = project.settings, project.orientation
     return ProjectView(
         name=settings.name,
@@ -37,36 +38,31 @@ def build_project_view(
         orient_sentence=explain(orient) if orient else "",
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
-        rules=rule_lines(read_demonstrated_steps(project)),
+        rules=_rule_lines(project),
         said=tuple(_list_feedback(project)),
         templates=project.template_names(),
-        carried=carried,
-        next=following,
+        carried=propagated,
+        next=next_step,
         problem=problem,
         lost=lost,
     )
 
 
-def read_demonstrated_steps(project: Project) -> dict[str, tuple[Step, ...]]:
-    """The steps of every asset on which something was demonstrated."""
-    shown = set(project.layout.ids_with("demonstrations"))
-    return {asset: project.steps(asset) for asset in project.assets() if asset in shown}
-
-
-def rule_lines(shown: Mapping[str, Sequence[Step]]) -> tuple[RuleLine, ...]:
+def _rule_lines(project: Project) -> tuple[RuleLine, ...]:
     """What is demonstrated, by rule."""
-    count = max((step.rule for steps in shown.values() for step in steps), default=0)
-    return tuple(_rule_line(rule, shown) for rule in range(1, count + 1))
+    shown = set(project.layout.ids_with("demonstrations"))
+    steps = [(asset, step) for asset in project.assets() if asset in shown for step in project.steps(asset)]
+    count = max((step.rule for _, step in steps), default=0)
+    return tuple(_rule_line(k, [row for row in steps if row[1].rule == k]) for k in range(1, count + 1))
 
 
-def _rule_line(rule: int, shown: Mapping[str, Sequence[Step]]) -> RuleLine:
-    said = [(asset, step) for asset, steps in shown.items() for step in steps if step.rule == rule]
-    first = min(said, key=lambda row: not row[1].select)[1]  # of equals the one that comes first
+def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> RuleLine:
+    first = min(steps, key=lambda row: not row[1].select)[1]  # of equals the one that comes first
     return RuleLine(
         rule=rule,
         action=action_text(first.action, first.label),
-        shown=tuple(asset for asset, step in said if step.select),
-        nothing=tuple(asset for asset, step in said if step.select is not None and not step.select),
+        shown=tuple(asset for asset, step in steps if step.select),
+        nothing=tuple(asset for asset, step in steps if step.select is not None and not step.select),
     )
 
 
@@ -100,15 +96,20 @@ def build_card(
     check: str | None = None,
     faults: tuple[Fault, ...] | None = None,
 ) -> Card:
-    """The card of an asset; orient: the orientation's text, in whose frame it is drawn; the others as of `Card`."""
+    """The card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
     labels = tuple(places.get(label.name, -1) if label else -1 for label in status.labels)
     picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
+    output, doubtful = status.output_digest, set(status.doubtful)
     return Card(
         asset=status.id,
         hulls=status.hulls,
         labels=labels,
-        unsure=_unsure_positions(status),
+        unsure=tuple(
+            k  # the label is not sure, or was given to another geometry
+            for k, (name, label) in enumerate(zip(status.names, status.labels, strict=True))
+            if label and (label.confidence < UNSURE or name in doubtful)
+        ),
         given=sum(label is not None and label.source in GIVEN_SOURCES for label in status.labels),
         demonstrated=status.demonstrated,
         output=status.output,
@@ -123,23 +124,14 @@ def build_card(
         sources=status.sources,
         prepared=status.prepared,
         picture=picture,
-        edited_picture=output_picture_digest(picture, status.output_digest)
-        if status.output_digest and picture
-        else None,
+        edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,
         faults=faults,
     )
 
 
-def _unsure_positions(status: AssetStatus) -> tuple[int, ...]:
-    """Positions of hulls with a label that is not sure, or that was given to another geometry."""
-    doubtful = set(status.doubtful)
-    rows = enumerate(zip(status.names, status.labels, strict=True))
-    return tuple(k for k, (name, label) in rows if label and (label.confidence < UNSURE or name in doubtful))
-
-
 def model_of(project: Project) -> Model | None:
-    """None where the settings name no model, or cannot be read."""
+    """The model that can be asked for labels; None where the settings name none, or cannot be read."""
     try:
         settings = project.settings.vlm
     except MeshForgeError:
@@ -148,8 +140,8 @@ def model_of(project: Project) -> Model | None:
         return None
     host, why = "", None
     try:
-        host = settings.endpoint().host
-        settings.check(project.vocabulary)
+        host = endpoint_of(settings).host
+        check_vlm_settings(settings, project.vocabulary)
     except MeshForgeError as error:
         why = error.message
     if find_spec("openai") is None:

@@ -1,25 +1,14 @@
-"""An asset in the midst of edits: what it is now and what each edit did, and its own steps replayed one by one."""
+"""Replays the steps of an asset one by one: what it is after each of them, and what each did."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
+from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, nearest_name
 from meshforge.geometry import Pose
-from meshforge.language import (
-    EXTREMITY,
-    Action,
-    ActionResult,
-    Orient,
-    Program,
-    Rule,
-    Template,
-    apply_action,
-    from_canonical_frame,
-    orient_mesh,
-    select_mask,
-)
+from meshforge.language import EXTREMITY, Action, Program, Rule, Template, orient_mesh, select_mask
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 from meshforge.synthesis import Demonstration, Step, begin_replay, memoize, strip_each
@@ -56,7 +45,7 @@ class AssetReplay:
     @property
     def incoming_mesh(self) -> SymbolicMesh:
         """The asset as it is now, in the frame it comes in."""
-        return from_canonical_frame(self.source, self.mesh, self.pose)
+        return language.from_canonical_frame(self.source, self.mesh, self.pose)
 
     def mask_of(self, names: Iterable[str]) -> int:
         """Hulls by name as a bit set. Raises DemonstrationError for one that is not there."""
@@ -69,26 +58,27 @@ class AssetReplay:
     def apply(
         self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template], *, again: bool = False
     ) -> AssetReplay:
-        """After one more edit, of the hulls of a bit set. again: whether it will be asked for once more."""
+        """After one more edit, of the hulls of a bit set. again: whether the same edit will be replayed again."""
         number = len(self.results) + 1
 
         def change() -> _Change:
-            return _Change.of(self.mesh, apply_action(self.mesh, mask, action, templates, label, self.used))
+            done = language.apply_action(self.mesh, mask, action, templates, label, self.used)
+            return _Change(None if done.mesh is self.mesh else done.mesh, done.made, done.note, done.used)
 
-        kept = again and not action.templates  # files may change
+        is_cached = again and not action.templates  # files may change
         key = (mask, action, label, self.used)
         try:
-            done = memoize(self.mesh, key, _Change, change) if kept else change()
+            done = memoize(self.mesh, key, _Change, change) if is_cached else change()
         except MeshForgeError as error:
             raise error.at(f"{self.asset}, rule {number}") from None
         mesh = done.mesh or self.mesh
         selected = tuple(self.mesh.hulls[k].name for k in sorted(bits_of(mask)))
         gone = tuple(hull.name for hull in self.mesh.hulls if hull.name not in mesh.index)
-        deed = EditResult(number, selected, done.made, gone, done.note)
-        return replace(self, mesh=mesh, used=done.used, results=(*self.results, deed))
+        result = EditResult(number, selected, done.made, gone, done.note)
+        return replace(self, mesh=mesh, used=done.used, results=(*self.results, result))
 
     def skip(self, error: MeshForgeError) -> AssetReplay:
-        """After an edit that cannot be done, and is left out."""
+        """After an edit that fails and is left out."""
         return replace(self, results=(*self.results, EditResult(len(self.results) + 1, error=error.message)))
 
     def _unknown_hull(self, name: str) -> DemonstrationError:
@@ -106,64 +96,50 @@ class AssetReplay:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Change:
-    """An applied action without its mesh where that stayed the same, so that what remembers it can go with the mesh."""
+    """An applied action; mesh: None where it stayed the same, so that a cached change does not keep its mesh alive."""
 
     mesh: SymbolicMesh | None
     made: tuple[str, ...]
     note: str | None
     used: frozenset[str]
 
-    @staticmethod
-    def of(before: SymbolicMesh, applied: ActionResult) -> _Change:
-        mesh = None if applied.mesh is before else applied.mesh
-        return _Change(mesh, applied.made, applied.note, applied.used)
-
-
-def start_replay(asset: str, mesh: SymbolicMesh, orient: Orient | None, contact: float | None) -> AssetReplay:
-    """An asset before its first edit. Raises ProgramError where the orientation does not turn it."""
-    staged = begin_replay(asset, Demonstration(mesh, (), asset), orient, contact).mesh
-    pose = memoize(mesh, ("pose", orient), Pose, lambda: orient_mesh(mesh, orient)[1])
-    return AssetReplay(asset, mesh, pose, staged, staged)
-
 
 def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> AssetReplay:
-    """An asset after its first steps, all by default; a step that cannot be done is left out, and says why.
+    """An asset after its first steps, all by default; a step that fails is left out, and its result has the error.
 
-    A step that is left open does what the rule of its number does in the present program, as when a program is
-    learned; nothing where there is no such rule. Raises ProgramError where the orientation does not turn the asset.
+    A step without a selection does what the rule of its number does in the present program, as in learning, or nothing
+    without such a rule. Raises ProgramError where the orientation does not turn the asset.
     """
-    course = start_replay(asset, mesh, project.orientation, project.settings.thresholds.contact)
-    program = _read_program(project)
+    orient, contact = project.orientation, project.settings.thresholds.contact
+    start = begin_replay(asset, Demonstration(mesh, (), asset), orient, contact).mesh
+    pose = memoize(mesh, ("pose", orient), Pose, lambda: orient_mesh(mesh, orient)[1])
+    replay = AssetReplay(asset, mesh, pose, start, start)
+    try:
+        program = project.program() or Program()
+    except ProgramError:
+        program = Program()
     for step in project.steps(asset)[:steps]:
         try:
-            course = _apply_step(project, course, step, program)
+            replay = _apply_step(project, replay, step, program)
         except MeshForgeError as error:
-            course = course.skip(error)
-    return course
+            replay = replay.skip(error)
+    return replay
 
 
-def _apply_step(project: Project, course: AssetReplay, step: Step, program: Program) -> AssetReplay:
+def _apply_step(project: Project, replay: AssetReplay, step: Step, program: Program) -> AssetReplay:
+    action, label = step.action, step.label
     if step.select is not None:
-        return _apply_action(project, course, course.mask_of(step.select), step.action, step.label)
-    rule = _rule_of(program, step)
-    if rule is None:
-        return replace(course, results=(*course.results, EditResult(step.rule)))
-    mask = select_mask(rule.extractor, course.mesh, program.extremity or EXTREMITY)
-    return _apply_action(project, course, mask, rule.action, rule.label)
-
-
-def _apply_action(project: Project, course: AssetReplay, mask: int, action: Action, label: str | None) -> AssetReplay:
-    return course.apply(mask, action, label, project.templates(action.templates), again=True)
+        mask = replay.mask_of(step.select)
+    else:
+        rule = _rule_of(program, step)
+        if rule is None:
+            return replace(replay, results=(*replay.results, EditResult(step.rule)))
+        mask = select_mask(rule.extractor, replay.mesh, program.extremity or EXTREMITY)
+        action, label = rule.action, rule.label
+    return replay.apply(mask, action, label, project.templates(action.templates), again=True)
 
 
 def _rule_of(program: Program, step: Step) -> Rule | None:
     """The rule of a program that does what a step says."""
     rules = program.rules[step.rule - 1 : step.rule]
     return next((r for r in rules if (strip_each(r.action), r.label) == (strip_each(step.action), step.label)), None)
-
-
-def _read_program(project: Project) -> Program:
-    try:
-        return project.program() or Program()
-    except ProgramError:
-        return Program()

@@ -1,5 +1,4 @@
-"""Keeping what pages are shown in step with the files of a project, whoever changes them: this studio, a command, an
-editor."""
+"""Keeps what pages show in step with the files of a project: this studio, a command or an editor may change them."""
 
 from __future__ import annotations
 
@@ -9,19 +8,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from stat import S_ISDIR
 from threading import Event, Thread
-from typing import TYPE_CHECKING
 
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
 from meshforge.store import Review
+from meshforge.studio.learning.scheduler import LearningScheduler
+from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.queries.project import vocabulary_view
+from meshforge.studio.session.refresh import RefreshQueue
 from meshforge.studio.wire.program import ProgramView
-
-if TYPE_CHECKING:
-    from meshforge.studio.session.session import Session
-
+from meshforge.studio.workers import ProjectWithCache
 
 _LOG = logging.getLogger(__name__)
 
@@ -32,7 +30,7 @@ _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 
 POLL_SECONDS = 1.5
-"""Seconds between two looks."""
+"""Seconds between two polls."""
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (SETTINGS, "answers.json", "program.mf", "review.json", f"{STATE}/learned.json")
 
@@ -41,72 +39,75 @@ FileStamps = dict[str, tuple[int, int]]
 
 
 class FileSync:
-    """Looks anew at what depends on files that changed. All is called by who has the desk for himself."""
+    """Refreshes what depends on files that changed. Whoever calls it holds the lock of the session.
 
-    def __init__(self, desk: Session) -> None:
-        self._desk = desk
-        self._stamps = read_stamps(desk.project)
-        self._reviews = desk.project.reviews()
+    project: the project with the assets that it has now.
+    """
+
+    def __init__(
+        self, project: ProjectWithCache, pages: PageState, learning: LearningScheduler, queue: RefreshQueue
+    ) -> None:
+        self.project = project
+        self._pages, self._learning, self._queue = pages, learning, queue
+        self._stamps = read_stamps(project)
+        self._reviews = project.reviews()
 
     def update(self, names: Iterable[str]) -> None:
-        """Files are other now; names: paths from the project's folder."""
-        desk, names = self._desk, frozenset(names)
+        """Refresh what depends on files that changed; names: paths from the project's folder."""
+        names = frozenset(names)
         self._note_stamps(names)
-        changes = changes_of(desk.project, names)
+        changes = changes_of(self.project, names)
         if changes.settings:
             self.reopen()
-        other = self.show_program() if changes.settings or changes.program else False
+        is_other = self.show_program() if changes.settings or changes.program else False
         if changes.learning:  # before the rest, as it takes longest
-            desk.learning.restart()
-        desk.pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
-        desk.refresh_queue.add(changes.assets, later=changes.settings)
+            self._learning.restart()
+        self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
+        self._queue.add(changes.assets, later=changes.settings)
         if changes.reviews:
-            desk.refresh_queue.add(self._update_reviews())
-        if other and not changes.learning:
-            desk.learning.measure_reach()
+            self._queue.add(self._update_reviews())
+        if is_other and not changes.learning:
+            self._learning.measure_reach()
 
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
-        desk = self._desk
         self._note_stamps((PROGRAM_FILE, LEARNED_FILE))
-        other = desk.pages.set_program(_view_program(desk.project, desk.pages.program))
-        if other:
-            desk.refresh_queue.add([card.asset for card in desk.pages.cards if card.output != "none"], later=True)
-            desk.pages.announce_assets(desk.project.layout.ids_with("demonstrations"), shapes=False)
-        return other
+        is_other = self._pages.set_program(_view_program(self.project, self._pages.program))
+        if is_other:
+            self._queue.add([card.asset for card in self._pages.cards if card.output != "none"], later=True)
+            self._pages.announce_assets(self.project.layout.ids_with("demonstrations"), shapes=False)
+        return is_other
 
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
-        desk = self._desk
-        desk.project = desk.project.with_assets(Project.open(desk.project.folder).found)
-        desk.pages.set_vocabulary(vocabulary_view(desk.project.settings.vocabulary, desk.pages.cards))
-        desk.refresh_queue.add(desk.pages.set_assets(desk.project.assets()), later=True)
+        self.project = self.project.with_assets(Project.open(self.project.folder).found)
+        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
+        self._queue.add(self._pages.set_assets(self.project.assets()), later=True)
 
     def poll(self) -> None:
-        """See whether others changed something. Never raises: what cannot be read is told, and looked at again."""
-        desk = self._desk
-        now = read_stamps(desk.project)
-        other = diff_stamps(self._stamps, now)
+        """See whether others changed something. Never raises: an error is shown, and the next poll tries again."""
+        now = read_stamps(self.project)
+        changed = diff_stamps(self._stamps, now)
         self._stamps = now
         try:
-            if any((desk.project.folder / name).is_dir() for name in other):
+            if any((self.project.folder / name).is_dir() for name in changed):
                 self.reopen()
-            if other:
-                self.update(other)
+            if changed:
+                self.update(changed)
         except MeshForgeError as error:
-            desk.pages.set_problem(error.message)
-        except Exception:  # the next look may succeed; the watch itself must go on
+            self._pages.set_problem(error.message)
+        except Exception:  # the next poll may succeed; polling itself must go on
             _LOG.debug("looking at what others changed failed", exc_info=True)
 
     def _note_stamps(self, names: Iterable[str]) -> None:
         names = frozenset(names)
         kept = {name: at for name, at in self._stamps.items() if name not in names}
-        self._stamps = kept | read_stamps_of(self._desk.project.folder, names)
+        self._stamps = kept | dict(_stamp_files((self.project.folder / name for name in names), self.project.folder))
 
     def _update_reviews(self) -> list[str]:
-        """The assets of which something else is said now."""
+        """The assets whose review changed."""
         before: dict[str, Review] = self._reviews
-        self._reviews = now = self._desk.project.reviews()
+        self._reviews = now = self.project.reviews()
         return [asset for asset in before | now if before.get(asset) != now.get(asset)]
 
 
@@ -121,8 +122,7 @@ def _view_program(project: Project, before: ProgramView) -> ProgramView:
 class FileChanges:
     """assets: ids of which something changed; shapes: those of them whose hulls may be others.
 
-    settings, program: whether these changed; reviews: what was said about outputs; lesson: whether there is other to
-    learn from.
+    settings, program, reviews: whether these changed; learning: whether what is learned from did.
     """
 
     assets: frozenset[str] = field(default_factory=frozenset)
@@ -155,7 +155,7 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
 
 
 def read_stamps(project: Project) -> FileStamps:
-    """How the files are that a project lives in, and those of its assets; folders of assets, where new ones come."""
+    """The stamps of a project's files, of those of its assets, and of the folders of assets, where new ones come."""
     folder = project.folder
     assets = [file for path in project.found.paths for file in _source_files(path)]
     homes = {path.parent for path in project.found.paths}
@@ -176,11 +176,6 @@ def _source_files(path: Path) -> list[Path]:
         return []
 
 
-def read_stamps_of(folder: Path, names: Iterable[str]) -> FileStamps:
-    """The same for files by their names."""
-    return dict(_stamp_files((folder / name for name in names), folder))
-
-
 def _stamp_files(paths: Iterable[Path], root: Path, folders: bool = False) -> Iterator[tuple[str, tuple[int, int]]]:
     for path in paths:
         try:
@@ -192,10 +187,10 @@ def _stamp_files(paths: Iterable[Path], root: Path, folders: bool = False) -> It
 
 
 class FileWatcher:
-    """A thread that looks every now and then."""
+    """A thread that polls the files again and again."""
 
-    def __init__(self, look_again: Callable[[], None]) -> None:
-        self._look_again = look_again
+    def __init__(self, poll: Callable[[], None]) -> None:
+        self._poll = poll
         self._closed = Event()
         self._thread = Thread(target=self._run, name="watch", daemon=True)
 
@@ -204,11 +199,11 @@ class FileWatcher:
         self._thread.start()
 
     def close(self) -> None:
-        """Stop, and wait for the end of a look."""
+        """Stop, and wait for the end of a poll."""
         self._closed.set()
         if self._thread.is_alive():
             self._thread.join()
 
     def _run(self) -> None:
         while not self._closed.wait(POLL_SECONDS):
-            self._look_again()
+            self._poll()

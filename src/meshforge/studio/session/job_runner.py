@@ -1,4 +1,4 @@
-"""Jobs of a session: each in a thread of its own, of each kind one at a time, its progress sent to all pages."""
+"""Jobs of a session: each runs in its own thread, one at a time of each kind, and all pages see its progress."""
 
 from __future__ import annotations
 
@@ -20,133 +20,122 @@ MOST_LINES = 200
 
 
 class JobProgress:
-    """What the work of a job calls. tell: shows a job to all pages."""
+    """What the work of a job reports to. show: shows a job to all pages."""
 
-    def __init__(self, job: Job, tell: Callable[[Job], None]) -> None:
-        self._job, self._tell = job, tell
+    def __init__(self, job: Job, show: Callable[[Job], None]) -> None:
+        self._job, self._show = job, show
         self._lock, self._stopped = RLock(), Event()
         self._lines: list[JobLine] = []
-        self._told = 0.0
-        self._show(at_once=True)
+        self._last_sent = 0.0
+        self._send(at_once=True)
 
     @property
     def job(self) -> Job:
-        """The job as it stands."""
+        """The job as it stands; of many lines those that failed first."""
         with self._lock:
-            return self._job.model_copy(update={"lines": _sort_lines(self._lines)})
+            lines = sorted(self._lines, key=lambda line: line.status != "failed")[:MOST_LINES]
+            return self._job.model_copy(update={"lines": tuple(lines)})
 
-    @property
     def is_stopped(self) -> bool:
-        """Whether it is to stop."""
+        """Whether the job is to stop."""
         return self._stopped.is_set()
 
     def raise_if_stopped(self) -> None:
-        """Raises StoppedError where it is to stop."""
-        if self.is_stopped:
+        """Raises StoppedError where the job is to stop."""
+        if self.is_stopped():
             raise StoppedError("the job was cancelled")
 
     def stop(self) -> None:
-        """Have it stop as soon as it can."""
+        """Have the job stop as soon as it can."""
         self._stopped.set()
 
     def advance(self, done: int | None = None) -> None:
-        """One thing more is done, or so many."""
+        """One more thing is done; or set how many are."""
         with self._lock:
             now = self._job.done + 1 if done is None else done
             self._job = self._job.model_copy(update={"done": min(now, self._job.total)})
-            self._show()
+            self._send()
 
     @contextmanager
     def stage(self, total: int, what: str) -> Iterator[Callable[[], None]]:
-        """For one part of several, which is about so many things: gives what counts one more of them."""
+        """One of several parts, with so many things to do: gives a function that counts one more of them."""
         with self._lock:
             self._job = self._job.model_copy(update={"done": 0, "total": total} if total else {})
-            self._show()
+            self._send()
         yield self.advance
 
     def add_line(self, line: JobLine) -> None:
-        """What became of one asset."""
+        """Add what became of one asset."""
         with self._lock:
             self._lines.append(line)
-            self._show()
+            self._send()
 
     def end(self, state: str, message: str, out: str | None = None) -> None:
-        """It is over."""
+        """The job is over."""
         with self._lock:
             self._job = self._job.model_copy(update={"state": state, "message": message, "out": out})
-            self._show(at_once=True)
+            self._send(at_once=True)
 
-    def _show(self, at_once: bool = False) -> None:
-        if at_once or monotonic() - self._told >= SEND_INTERVAL:
-            self._told = monotonic()
-            self._tell(self.job)
+    def _send(self, at_once: bool = False) -> None:
+        if at_once or monotonic() - self._last_sent >= SEND_INTERVAL:
+            self._last_sent = monotonic()
+            self._show(self.job)
 
 
 JobWork = Callable[[JobProgress], str]
-"""Does the work of a job, and gives its result in a sentence. Raises StoppedError where it was stopped."""
+"""Does the work of a job, and returns its result in a sentence. Raises StoppedError where it was stopped."""
 
 
 class JobRunner:
-    """Begins and stops jobs. tell: shows a job to all pages."""
+    """Starts and stops jobs. show: shows a job to all pages."""
 
-    def __init__(self, tell: Callable[[Job], None]) -> None:
-        self._tell = tell
+    def __init__(self, show: Callable[[Job], None]) -> None:
+        self._show = show
         self._lock, self._numbers = Lock(), count(1)
         self._running: dict[str, tuple[JobProgress, Thread]] = {}
 
     def start(
         self, kind: JobKind, title: str, total: int, work: JobWork, out: str | None = None, stays: str = STOP_MESSAGE
     ) -> Job:
-        """Begin a job; out: the folder that it writes; stays: what is said where it was stopped.
+        """Start a job; out: the folder that it writes; stays: ends the message of a job that was cancelled.
 
-        Raises UsageError where one of its kind is under way.
+        Raises UsageError where one of its kind is running.
         """
         with self._lock:
-            if any(running.job.kind == kind for running, _ in self._running.values()):
+            if any(progress.job.kind == kind for progress, _ in self._running.values()):
                 raise UsageError("this is being done already", remedy="Wait until it is over, or cancel it.")
-            running = JobProgress(
-                Job(id=f"{kind}-{next(self._numbers)}", kind=kind, title=title, total=total), self._tell
-            )
-            thread = Thread(target=self._run, args=(running, work, out, stays), name=running.job.id, daemon=True)
-            self._running[running.job.id] = running, thread
+            job = Job(id=f"{kind}-{next(self._numbers)}", kind=kind, title=title, total=total)
+            progress = JobProgress(job, self._show)
+            thread = Thread(target=self._run, args=(progress, work, out, stays), name=job.id, daemon=True)
+            self._running[job.id] = progress, thread
         thread.start()
-        return running.job
+        return progress.job
 
     def cancel(self, job: str) -> Job:
         """Have a job stop. Raises NotHereError where it is over, or never was."""
         with self._lock:
             if job not in self._running:
                 raise NotHereError(f"there is no job {job!r} under way", remedy="It is over.")
-            running, _ = self._running[job]
-        running.stop()
-        return running.job
+            progress, _ = self._running[job]
+        progress.stop()
+        return progress.job
 
     def close(self) -> None:
         """Stop all jobs, and wait for their end."""
         with self._lock:
             rows = list(self._running.values())
-        for running, _ in rows:
-            running.stop()
+        for progress, _ in rows:
+            progress.stop()
         for _, thread in rows:
             thread.join()
 
-    def _run(self, running: JobProgress, work: JobWork, out: str | None, stays: str) -> None:
-        end = _run_to_end(running, work, out, stays)
-        with self._lock:  # before pages are told, which may ask for the next one at once
-            del self._running[running.job.id]
-        running.end(*end)
-
-
-def _run_to_end(running: JobProgress, work: JobWork, out: str | None, stays: str) -> tuple[str, str, str | None]:
-    """How a job ended, what is said of that, and the folder that it wrote."""
-    try:
-        return "done", work(running), out
-    except StoppedError:
-        return "cancelled", f"Cancelled: {stays}", out
-    except Exception as error:  # what a job does wrong is told as its outcome
-        return "failed", describe_error(error), None
-
-
-def _sort_lines(lines: list[JobLine]) -> tuple[JobLine, ...]:
-    """Of many lines those that failed first."""
-    return tuple(sorted(lines, key=lambda line: line.status != "failed")[:MOST_LINES])
+    def _run(self, progress: JobProgress, work: JobWork, out: str | None, stays: str) -> None:
+        try:
+            state, message = "done", work(progress)
+        except StoppedError:
+            state, message = "cancelled", f"Cancelled: {stays}"
+        except Exception as error:  # whatever went wrong is the outcome of the job
+            state, message, out = "failed", describe_error(error), None
+        with self._lock:  # before pages see the end: they may ask for the next job at once
+            del self._running[progress.job.id]
+        progress.end(state, message, out)

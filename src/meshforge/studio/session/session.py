@@ -1,4 +1,4 @@
-"""The session: the one place in which a project is changed and looked at while the studio is open."""
+"""The session: the one place through which an open studio reads and changes its project."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.session.file_sync import LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
-from meshforge.studio.session.refresh import Refresher, RefreshQueue, initial_view
+from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
@@ -35,7 +35,6 @@ from meshforge.studio.wire.requests import Done
 from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
 from meshforge.symbolic import SymbolicMesh
 
-EditWay = Literal["edit", "undo", "redo"]
 READERS = 2
 """Processes that read assets which a page waits for."""
 
@@ -51,39 +50,39 @@ class StudioOptions:
 
 
 class Session:
-    """Opens a project, changes it, and keeps all pages in step with it."""
+    """One open project: changes it, and keeps all pages in step with it."""
 
-    def __init__(self, opening: StudioOptions) -> None:
-        self.options = opening
+    def __init__(self, options: StudioOptions) -> None:
+        self.options = options
         self._mutex = RLock()
         self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
-        self.project = ProjectWithCache.of(Project.open(opening.folder), MeshCache(self.readers))
-        self.history = History(self.project, _files_of_learning)
+        project = ProjectWithCache.of(Project.open(options.folder), MeshCache(self.readers))
+        folder = project.folder / STATE / "studio"
+        self.history = History(project, _list_learned_files)
         self.label_changes = LabelChanges(self.history)
         self.hub = PageHub()
-        view = initial_view(self.project)
-        self.pages = PageState(self.hub, view, self.history.view, version("meshforge"), opening.tour)
+        view = initial_view(project)
+        self.pages = PageState(self.hub, view, self.history.view, version("meshforge"), options.tour)
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
-        self.thumbnails = Thumbnails(self.studio_folder / "thumbnails", self._drawers)
-        self.checks = OutputChecks(self.studio_folder / "checks", self._checkers)
-        self.uploads = Uploads(self.studio_folder / "uploads")
-        self.learning = LearningScheduler(
-            Learner(self.project.folder), self.pages, self._has_demonstrations, self._end_learning
-        )
-        refreshing = Refresher(self)
-        self.refresh_queue = RefreshQueue(refreshing.refresh, refreshing.portion_size)
+        self.thumbnails = Thumbnails(folder / "thumbnails", self._drawers)
+        self.checks = OutputChecks(folder / "checks", self._checkers)
+        self.uploads = Uploads(folder / "uploads")
+        learner = Learner(project.folder)
+        self.learning = LearningScheduler(learner, self.pages, self._has_demonstrations, self._end_learning)
+        # the queue's thread must see the project that is open when it works, not the first one
+        self.refresh_queue = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes).queue
         self._watcher = FileWatcher(self._poll_files)
-        self._file_sync = FileSync(self)
+        self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
         self._take_learned = False
 
     @property
-    def studio_folder(self) -> Path:
-        """The folder of what the studio keeps."""
-        return self.project.folder / STATE / "studio"
+    def project(self) -> ProjectWithCache:
+        """The project with the assets that it has now."""
+        return self._file_sync.project
 
     def start(self) -> None:
-        """Begin to read, to learn and to watch."""
+        """Start reading, learning and watching files."""
         self.pages.set_assets(self.project.assets())
         self.pages.set_program(read_program_view(self.project))
         self.refresh_queue.add(self.project.assets(), later=True)
@@ -102,7 +101,7 @@ class Session:
         self._checkers.close()
         self.hub.close()
 
-    # Looking
+    # Reading
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
@@ -120,7 +119,7 @@ class Session:
     def edit(self, edit: Edit, by: str | None = None) -> Done:
         """Make an edit; it is on disk when this returns."""
         with self._mutex:
-            said = edit.describe(self.project)
+            title = edit.describe(self.project)
             if self.project.layout.program in edit.list_paths(self.project):
                 self.learning.pause()
             try:
@@ -128,24 +127,16 @@ class Session:
             finally:
                 self.learning.resume()
             if entry is None:
-                return Done(said=said, nothing=True)
+                return Done(said=title, nothing=True)
             self.announce((entry,), "edit", by)
         return Done(said=entry.title)
 
-    def undo(self, by: str | None = None) -> Done:
-        """Take back what was done last."""
-        return self._move("undo", by)
-
-    def redo(self, by: str | None = None) -> Done:
-        """Do again what was taken back last."""
-        return self._move("redo", by)
-
-    def _move(self, way: Literal["undo", "redo"], by: str | None) -> Done:
+    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> Done:
+        """Undo what was done last, or redo what was undone last."""
         with self._mutex:
             self.learning.pause()
             try:
-                move = self.history.undo if way == "undo" else self.history.redo
-                entries = move(self.project)
+                entries = self.history.undo(self.project) if way == "undo" else self.history.redo(self.project)
             finally:
                 self.learning.resume()
             if not entries:
@@ -153,18 +144,19 @@ class Session:
             self.announce(entries, way, by)
         return Done(said=entries[0].title)
 
-    def announce(self, entries: Iterable[HistoryEntry], did: EditWay, by: str | None = None) -> None:
-        """Tell all pages of entries that were made, undone or redone, after what they changed (cards follow)."""
+    def announce(
+        self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
+    ) -> None:
+        """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
             entries = tuple(entries)
-            said = entries[0].title
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, said=said, by=by))
+            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, said=entries[0].title, by=by))
 
     @contextmanager
     def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
-        """An edit of a job, whose change is made within the block."""
+        """Record an edit whose change a job makes within the block."""
         with self._mutex:
             with self.history.record(self.project, edit, group=group) as before:
                 yield
@@ -172,11 +164,11 @@ class Session:
                 self.announce((self.history.last_entry,), "edit")
 
     def note_output(self, asset: str) -> None:
-        """The output of an asset was written anew."""
+        """The output of an asset was written."""
         self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
 
     def update(self, names: Iterable[str]) -> None:
-        """Look anew at what depends on these files; names: paths from the project's folder."""
+        """Refresh what depends on these files; names: paths from the project's folder."""
         with self._mutex:
             self._file_sync.update(names)
 
@@ -200,17 +192,17 @@ class Session:
         return any(asset in shown for asset in self.project.assets())
 
     def _end_learning(self, lesson: LessonView) -> None:
-        """A lesson is over: it has left its program, unless a person's stands there."""
+        """A learning run is over: it wrote its program, unless a person's is there."""
         with self._mutex:
-            taking, self._take_learned = self._take_learned, False
-            if taking and lesson.program and self.learning.is_latest(lesson.number):
+            take, self._take_learned = self._take_learned, False
+            if take and lesson.program and self.learning.is_latest(lesson.number):
                 self.edit(TakeLearned())
                 return
             self._file_sync.show_program()
             self.refresh_queue.add()
 
 
-def _files_of_learning(project: Project) -> frozenset[str]:
-    """What learning writes by itself: undoing puts it back whatever it is by then, but no program by hand goes."""
+def _list_learned_files(project: Project) -> frozenset[str]:
+    """The files that learning writes: undo puts them back whatever they hold by then, but for a program by hand."""
     always = {LEARNED_FILE, PREVIOUS_FILE}
     return frozenset(always if project.program_state().by_hand else {*always, PROGRAM_FILE})

@@ -1,4 +1,4 @@
-"""The messages between server and page, one source of both sides' types; `Wire` is the base of all."""
+"""The messages between server and page: the types of both sides come from here. `Wire` is their base."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One asset and its hulls, the headers of packets of shapes, and what checks measure of an output."""
+"""One asset and its hulls, the headers of shape packets, and the results of checks."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from meshforge.studio.wire import Wire
 PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
 
 CheckPart = Literal["engines", "physics", "clearance", "fit"]
-"""What is measured at a time, what is quickest first; `engines` holds legality, too."""
+"""The parts of a check, the quickest first; `engines` includes legality."""
 FigureUnit = Literal["m", "m/s", "kg", "l", "%", "°", ""]
 
 
 class HullView(Wire):
-    """A hull. vertices, faces: how many; primitive: its kind where it is one; source: who gave the label;
-    parent: the hull of the file that a made hull inherits from."""
+    """A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
+    of the file that a new hull inherits from."""
 
     name: str
     body: str
@@ -30,7 +30,7 @@ class HullView(Wire):
 
 
 class OpaqueView(Wire):
-    """Collision geometry that is no hull, and why; `surface`: whether the packet has triangles of it."""
+    """A non-convex piece of collision geometry. reason: why it is no hull; surface: whether the packet has it."""
 
     name: str
     body: str
@@ -39,7 +39,7 @@ class OpaqueView(Wire):
 
 
 class NearMiss(Wire):
-    """Two hulls, by name, that are apart, yet by less than three times the contact distance; gap [m]."""
+    """Two hulls, by name, with a gap [m] between them of less than three times the contact distance."""
 
     a: str
     b: str
@@ -47,10 +47,10 @@ class NearMiss(Wire):
 
 
 class StepView(Wire):
-    """What the asset says about a rule. select: names, [] for nothing here, null for open.
+    """One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
 
-    action: in the language's own text, with `as LABEL` where what is made gets one; error: why it cannot be replayed.
-    made, removed: names of hulls, where it can.
+    action: in the language, with `as LABEL` where new hulls get a label; error: why the step cannot be replayed; made,
+    removed: names of hulls, where it can.
     """
 
     rule: int
@@ -71,9 +71,9 @@ class CorrectionView(Wire):
 class AssetView(Wire):
     """An asset as it is prepared, in the frame it comes in.
 
-    upright: the 16 numbers (row by row) of canonical_T_incoming, null where nothing turns it; unturned: why it cannot
-    be turned though an orientation is set. version: of steps, to be given back with an edit of them.
-    contacts: pairs of names. diagonal, contact_distance: [m].
+    upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
+    cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls;
+    diagonal, contact_distance: [m].
     """
 
     asset: str
@@ -99,7 +99,7 @@ class AssetView(Wire):
 
 
 class ShapeRow(Wire):
-    """One shape of a packet: how many vertices and triangles it has; opacity pieces and visuals have such rows, too."""
+    """One shape of a packet, a hull, a non-convex piece or a visual surface; vertices, faces: how many."""
 
     name: str
     vertices: int
@@ -108,7 +108,7 @@ class ShapeRow(Wire):
 
 
 class ShapesHeader(Wire):
-    """What a packet of the asset's own shapes holds: hulls first, then opaque pieces (or the visual surfaces).
+    """The header of a packet of the asset's own shapes: hulls first, then non-convex pieces; or the visual surfaces.
 
     A packet is: length of the header as uint32; the header as UTF-8 JSON, padded with spaces to a multiple of four;
     vertices of all rows as float32 (x, y, z) [m]; triangles of all rows as uint32 (three each, counted in their row).
@@ -119,7 +119,7 @@ class ShapesHeader(Wire):
 
 
 class TraceLine(Wire):
-    """What one rule did: names selected and made; note: what a user should know."""
+    """What one rule did. selected, made: names of hulls; note: what a user should know."""
 
     rule: int
     selected: tuple[str, ...]
@@ -128,7 +128,7 @@ class TraceLine(Wire):
 
 
 class FindingView(Wire):
-    """Something that a check has to say about a hull, or, without one, about the mesh."""
+    """A finding of a check about a hull, or, without one, about the whole mesh."""
 
     severity: Literal["error", "warning", "note"]
     text: str
@@ -136,10 +136,10 @@ class FindingView(Wire):
 
 
 class EditedHeader(Wire):
-    """What a packet of an edited asset holds: all hulls there are then, with shapes of those that the asset has not.
+    """The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
 
-    made, removed: names, against the asset as it comes; trace: rule by rule; findings: of the check of legality.
-    volume: the sum over hulls before and after [m^3].
+    made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
+    check of legality; volume: the sum over hulls before and after [m^3].
     """
 
     rows: tuple[ShapeRow, ...]
@@ -155,7 +155,7 @@ class EditedHeader(Wire):
 
 
 class Fault(Wire):
-    """A rule that does not hold. engine: whose limit it is, null for none; new: whether that came with the edit."""
+    """A rule of a check that does not hold. engine: whose limit it is, or null; new: whether the edit caused it."""
 
     rule: str
     severity: Literal["error", "warning"]
@@ -164,7 +164,7 @@ class Fault(Wire):
 
 
 class CheckFinding(Fault):
-    """The same with the hulls that it concerns, by the names they have in the output."""
+    """A fault with its text. hulls: those that it concerns, by their names in the output."""
 
     hulls: tuple[str, ...]
     text: str
@@ -172,7 +172,7 @@ class CheckFinding(Fault):
 
 
 class Figure(Wire):
-    """A figure before and after the edit; null where it cannot be told."""
+    """A figure before and after the edit; null where it is not known."""
 
     what: str
     unit: FigureUnit
@@ -181,8 +181,8 @@ class Figure(Wire):
 
 
 class Checked(Wire):
-    """What was measured. gone: how many findings about the asset are none of the output any more; notes: what could
-    not be told, and why; cell: what is smaller is not seen [m]; pictured: whether pictures can be drawn of it."""
+    """The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
+    could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it."""
 
     part: CheckPart
     figures: tuple[Figure, ...] = ()
@@ -194,14 +194,14 @@ class Checked(Wire):
 
 
 class CheckPicture(Wire):
-    """A picture that is drawn: the name that its address takes, and what it shows."""
+    """A picture. name: the one that its address takes; text: what it shows."""
 
     name: str
     text: str
 
 
 class EngineView(Wire):
-    """An engine whose limits are known; title: as its makers write it."""
+    """An engine whose limits can be checked; title: its name as its makers write it."""
 
     name: str
     title: str

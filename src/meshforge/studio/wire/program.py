@@ -1,4 +1,4 @@
-"""Programs and what was learned, selections of extractors, and the language itself as forms and words."""
+"""Programs, the outcome of learning, selections of extractors, and the language as forms and words."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"
 
 
 class RuleView(Wire):
-    """A rule of a program: its text and a sentence about it; readings: how many agree with all demonstrations."""
+    """A rule of a program, as text and as a sentence; readings: how many extractors agree with all demonstrations."""
 
     rule: int
     text: str
@@ -32,7 +32,7 @@ class ReadingView(Wire):
 
 
 class ChoiceView(Wire):
-    """One way to go on; select: names of hulls as the rule meets them."""
+    """One answer to a question; select: names of hulls as they are before the rule."""
 
     reading: str
     extractor: str
@@ -41,7 +41,7 @@ class ChoiceView(Wire):
 
 
 class QuestionView(Wire):
-    """Which hulls should a rule select on an asset? harm: share of the assets edited wrongly as things stand."""
+    """A question: which hulls does a rule select on an asset? harm: expected share of assets edited wrongly."""
 
     id: str
     rule: int
@@ -52,7 +52,7 @@ class QuestionView(Wire):
 
 
 class RepairView(Wire):
-    """A label that is probably wrong; was: null for none."""
+    """A label that is probably wrong. was: the present label, null for none; to: the probable one."""
 
     id: str
     rule: int
@@ -65,7 +65,7 @@ class RepairView(Wire):
 
 
 class NearestView(Wire):
-    """The extractor that came nearest for a rule that has none, and how it differs on one asset."""
+    """The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset."""
 
     rule: int
     extractor: str
@@ -75,19 +75,19 @@ class NearestView(Wire):
 
 
 class HintView(Wire):
-    """The asset that is best demonstrated next, and why."""
+    """The asset to demonstrate next, and why."""
 
     asset: str
     why: str
 
 
 class LessonView(Wire):
-    """What a lesson came to. number: counts lessons; program: its text, null where there is none; looked_at: how many
-    assets were looked at, of very many not all.
+    """The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
+    how many assets the run looked at; settled: whether the program is unambiguous.
 
-    error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
-    where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
-    whether the program is what is meant, most telling first; overruled: those whose accepted result no program keeps.
+    error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest: for
+    a rule without an extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best
+    whether the program is right, best first; overruled: those whose accepted result no program keeps.
     """
 
     number: int
@@ -112,8 +112,8 @@ class LessonView(Wire):
 
 
 class Reach(Wire):
-    """What a program does on one asset: of each rule the positions of the asset's own hulls that it selects, or that
-    what it selects was made of; and hulls before and after. error: why it does not run there."""
+    """What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or
+    that the hulls it selects were made of; before, after: how many hulls; error: why it does not run there."""
 
     asset: str
     rules: tuple[tuple[int, ...], ...] = ()
@@ -123,10 +123,8 @@ class Reach(Wire):
 
 
 class ProgramView(Wire):
-    """The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since.
-
-    version: to be given back with an edit of the text. error: why the file does not parse.
-    """
+    """The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
+    version: to be sent back with an edit of the text; error: why the file does not parse."""
 
     text: str = ""
     version: str = ""
@@ -139,7 +137,7 @@ class ProgramView(Wire):
 
 
 class Mark(Wire):
-    """A place in a text, lines and columns from 1, and what is wrong there."""
+    """An error at a place in a text; line, column: from 1."""
 
     line: int
     column: int
@@ -155,7 +153,7 @@ class ProgramCheck(Wire):
 
 
 class Selected(Wire):
-    """What an extractor selects on an asset (names), or what is wrong with its text."""
+    """The names of the hulls that an extractor selects on an asset; mark: what is wrong with its text."""
 
     select: tuple[str, ...] = ()
     sentence: str = ""
@@ -163,14 +161,14 @@ class Selected(Wire):
 
 
 class Generalised(Wire):
-    """What an extractor selects on every asset, of very large families on those that are looked at while learning:
-    positions of the asset's own hulls."""
+    """What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
+    assets that learning looks at."""
 
     assets: dict[str, tuple[int, ...]]
 
 
 class Guess(Wire):
-    """What the program would select for a rule on an asset, given the steps that were shown before it."""
+    """What the program would select for a rule on an asset, after the steps demonstrated before it."""
 
     rule: int
     action: str
@@ -187,8 +185,8 @@ class Guesses(Wire):
 
 
 class Argument(Wire):
-    """One argument of an action. kind: `words` are chosen from, a `flag` is there or not, a `file` is a template,
-    `shape` is a primitive or a template, a `factor` a number above 0."""
+    """One argument of an action. kind: one of some `words`, a `flag` that is there or not, the `file` of a template, a
+    `shape` (a primitive or a template), or a `factor` above 0."""
 
     name: str
     kind: Literal["words", "flag", "file", "shape", "factor"]
@@ -198,7 +196,7 @@ class Argument(Wire):
 
 
 class ActionForm(Wire):
-    """An action as a form; usage: how it is written; makes: whether `as LABEL` may follow."""
+    """An action as a form; usage: its syntax; makes: whether `as LABEL` may follow."""
 
     name: str
     summary: str
@@ -216,7 +214,7 @@ class Operator(Wire):
 
 
 class LanguageView(Wire):
-    """The language: actions (all but Each, which is a switch), operators, directions."""
+    """The language: actions (without Each, a switch in the page), operators, directions."""
 
     actions: tuple[ActionForm, ...]
     operators: tuple[Operator, ...]

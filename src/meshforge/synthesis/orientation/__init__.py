@@ -1,1 +1,1 @@
-"""TODO"""
+"""Which orientation makes the rules learnable, or their extractors smaller."""

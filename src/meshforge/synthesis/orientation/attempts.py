@@ -10,7 +10,6 @@ import numpy as np
 
 from meshforge.common import MeshForgeError
 from meshforge.language import (
-    EXTREMITY,
     All,
     BaseExtractor,
     Extractor,
@@ -41,7 +40,7 @@ _MAX_STRETCH = 2.0
 
 
 class OrientationSearch:
-    """The rules to be learned, and the courses that learning them took in the frames tried so far.
+    """The rules to be learned, and the attempts to learn them in the frames tried so far.
 
     floors: nodes that each rule needs in whatever frame.
     """
@@ -60,7 +59,6 @@ class OrientationSearch:
         self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
         self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
         self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
-        self._extremity = EXTREMITY if frame.extremity is None else frame.extremity
         self._turners = [
             (name, demo, MeshTurner(demo.mesh, frame.contact)) for name, demo in name_demonstrations(demos)
         ]
@@ -77,7 +75,7 @@ class OrientationSearch:
         return self._by_orient[orient]
 
     def _begin(self, orient: Orient) -> FrameAttempt | None:
-        """Directives that turn every mesh alike share one course."""
+        """Directives that turn every mesh alike share one attempt."""
         try:
             turned = [(name, demo, *turning.turn(orient)) for name, demo, turning in self._turners]
         except MeshForgeError:
@@ -90,7 +88,7 @@ class OrientationSearch:
     def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
         """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example_of(replay, rule))]
-        found = analyze_rule(examples, self._frame.labels, self._options.layers, self._extremity)
+        found = analyze_rule(examples, self._frame.labels, self._options.layers, self._options.geo_extremity)
         if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
             self.floors[rule.number - 1] = 2
         return found
@@ -106,7 +104,7 @@ class OrientationSearch:
 
     def _search(self, rule: RuleInFrame, most: int) -> None:
         options = replace(self._options, max_size=most)
-        answer = Search(rule.examples, self._frame.labels, self._budget, options, self._extremity).run()
+        answer = Search(rule.examples, self._frame.labels, self._budget, options).run()
         if isinstance(answer, Unfinished):
             raise OutOfTime
         if isinstance(answer, Hit):
@@ -126,8 +124,8 @@ class FrameAttempt:
     sizes: nodes of those learned so far; strays: hulls that no extractor of the next rule can get right.
     """
 
-    def __init__(self, lesson: OrientationSearch, replays: Sequence[Replay]) -> None:
-        self._search, self._replays = lesson, list(replays)
+    def __init__(self, search: OrientationSearch, replays: Sequence[Replay]) -> None:
+        self._search, self._replays = search, list(replays)
         self._next: RuleInFrame | None = None
         self.sizes: list[int] = []
         self.strays = 0
@@ -169,7 +167,7 @@ class FrameAttempt:
         self.sizes.append(size_of(extractor))
 
     def _stop(self) -> None:
-        self._over, self._next, self._replays = True, None, []  # there may be hundreds of courses
+        self._over, self._next, self._replays = True, None, []  # there may be hundreds of attempts
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -177,8 +175,8 @@ class RuleInFrame:
     """What the demonstrations say about a rule in one frame.
 
     base: a base that selects what was shown; it does so in every frame, so nothing needs to be searched for.
-    looks: of all hulls; rules with the same looks have the same extractors.
-    strays: how many hulls any extractor takes or leaves wrongly, since others that look the same were not or were.
+    signatures: of all hulls; rules with equal signatures have the same extractors.
+    strays: how many hulls any extractor takes or leaves wrongly, since others of their signature were not or were.
     least: an extractor has at least that many nodes.
     """
 
@@ -208,13 +206,13 @@ def analyze_rule(
 
 
 def _count_strays(seen: Counter[Signature]) -> int:
-    return sum(min(count, seen[look, False]) for (look, selected), count in seen.items() if selected)
+    return sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
 
 
 class MeshTurner:
     """One mesh as the first rule sees it under any directive; contact: the program's epsilon, None keeps the mesh's.
 
-    The same as `stage` of the language, but the distances, which no turn changes, are measured once.
+    Does what `to_canonical_frame` does, but measures the distances, which no turn changes, only once.
     """
 
     def __init__(self, mesh: SymbolicMesh, contact: float | None) -> None:

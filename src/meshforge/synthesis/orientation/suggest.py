@@ -56,10 +56,10 @@ def suggest_orientation(
     limit = len(rules) * options.max_size if sizes is None else sum(sizes) - MIN_SAVING
     if "G" not in options.layers:
         return None
-    lesson = OrientationSearch(demos, rules, frame, templates, options, budget, sizes)
-    if limit < sum(lesson.floors):
+    search = OrientationSearch(demos, rules, frame, templates, options, budget, sizes)
+    if limit < sum(search.floors):
         return None
-    trials = Trials(lesson, options.max_size)
+    trials = Trials(search, options.max_size)
     directives = Directives([demo.mesh for demo in demos], batch, frame.labels)
     best = _vary(trials, directives, frame.orient, limit) if frame.orient else None
     if not best and not (frame.orient and len(frame.orient.pairs) == 2):
@@ -108,8 +108,8 @@ def _describe_sizes(sizes: Sequence[int]) -> str:
 class Trials:
     """What became of the directives that were tried; most: nodes that an extractor may have."""
 
-    def __init__(self, lesson: OrientationSearch, most: int) -> None:
-        self._search = lesson
+    def __init__(self, search: OrientationSearch, most: int) -> None:
+        self._search = search
         self._steps = sorted({min(step, most) for step in (*_STEPS, most)})
 
     def best(self, orients: Sequence[Orient], limit: int) -> OrientationFit | None:
@@ -117,7 +117,7 @@ class Trials:
         return self._best(orients, limit, self._steps)
 
     def best_of_small(self, orients: Sequence[Orient], limit: int) -> OrientationFit | None:
-        """The same among small extractors only."""
+        """The directive with the fewest nodes, where every extractor is small. Raises OutOfTime."""
         return self._best(orients, limit, self._steps[:1])
 
     def _best(self, orients: Sequence[Orient], limit: int, steps: Sequence[int]) -> OrientationFit | None:
@@ -127,9 +127,9 @@ class Trials:
                 if found:
                     total, first = min(found)
                     limit = total - (place > first)
-                course = self._search.attempt(orient) if limit >= sum(self._search.floors) else None
-                if course and course.learn(limit, most):
-                    found[sum(course.sizes), place] = orient, tuple(course.sizes)
+                attempt = self._search.attempt(orient) if limit >= sum(self._search.floors) else None
+                if attempt and attempt.learn(limit, most):
+                    found[sum(attempt.sizes), place] = orient, tuple(attempt.sizes)
         return found[min(found)] if found else None
 
     def is_optimal(self, fit: OrientationFit) -> bool:
@@ -138,6 +138,6 @@ class Trials:
 
     def farthest_pairs(self, orients: Sequence[Orient], count: int) -> list[LandmarkPair]:
         """The pairs of the directives that came farthest, of equals the first."""
-        tried = [(orient, course) for orient in orients if (course := self._search.attempt(orient))]
+        tried = [(orient, attempt) for orient in orients if (attempt := self._search.attempt(orient))]
         tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
         return list(dict.fromkeys(orient.pairs[0] for orient, _ in tried))[:count]

@@ -22,17 +22,13 @@ from meshforge.language import (
     attach_mask,
     geo_mask,
 )
-from meshforge.symbolic import bits_of
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.paper.partial import BaseHole, Hole, OpenAttach, OpenGeo, OpenOperator, Partial
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.search.terms import SetOperator
 
 LabelMasks = Mapping[str, int]
 """The hulls of each label, as bit sets."""
-
-LabelChange = tuple[int, str]
-"""A hull, by its index, and the label that it gets."""
 
 Bounds = tuple[int, int]
 """The hulls selected by every completion, and those selected by any, as bit sets."""
@@ -42,7 +38,7 @@ class ExampleMasks:
     """An example with its hulls by label; what is in contact or farthest is looked up once for the same bit sets."""
 
     def __init__(self, example: Example, extremity: float = EXTREMITY) -> None:
-        mesh = self.mesh = example.mesh
+        self.example, mesh = example, example.mesh
         self.name, self.target = example.name, example.selection
         self.everything = (1 << len(mesh.hulls)) - 1
         self.labels = _masks_by_label([hull.label for hull in mesh.hulls])
@@ -86,7 +82,7 @@ class ExampleMasks:
         """The labels after some changes."""
         labels = dict(self.labels)
         for index, to in changes:
-            was = self.mesh.hulls[index].label
+            was = self.example.mesh.hulls[index].label
             if was is not None:
                 labels[was] &= ~(1 << index)
             labels[to] = labels.get(to, 0) | 1 << index
@@ -118,8 +114,8 @@ def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
         case OpenAttach(selected, anchor):
             (low, high), (anchor_low, anchor_high) = _base_bounds(selected, demo), _base_bounds(anchor, demo)
             return demo.attach(low, anchor_low), demo.attach(high, anchor_high)
-        case OpenOperator(joint, left, right):
-            return _combine_bounds(joint, bounds(left, demo), bounds(right, demo))
+        case OpenOperator(operator, left, right):
+            return _combine_bounds(operator, bounds(left, demo), bounds(right, demo))
         case _:
             selection = demo.select(partial)
             return selection, selection
@@ -129,12 +125,12 @@ def _base_bounds(base: BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
     return (0, demo.everything) if isinstance(base, BaseHole) else bounds(base, demo)
 
 
-def _combine_bounds(joint: SetOperator, left: Bounds, right: Bounds) -> Bounds:
-    if joint is Union:
+def _combine_bounds(operator: SetOperator, left: Bounds, right: Bounds) -> Bounds:
+    if operator is Union:
         return left[0] | right[0], left[1] | right[1]
-    if joint is Intersect:
+    if operator is Intersect:
         return left[0] & right[0], left[1] & right[1]
-    assert joint is Diff
+    assert operator is Diff
     return left[0] & ~right[1], left[1] & ~right[0]
 
 
@@ -159,10 +155,5 @@ class NearestTracker:
         extractor = self._best[1]
         worst = max(self._demos, key=lambda demo: demo.differences(extractor).bit_count())
         wrong = worst.differences(extractor)
-        return NearestExtractor(
-            extractor, worst.name, _hull_names(worst, wrong & ~worst.target), _hull_names(worst, wrong & worst.target)
-        )
-
-
-def _hull_names(demo: ExampleMasks, mask: int) -> tuple[str, ...]:
-    return tuple(demo.mesh.hulls[index].name for index in sorted(bits_of(mask)))
+        names_of = worst.example.mesh.names_of
+        return NearestExtractor(extractor, worst.name, names_of(wrong & ~worst.target), names_of(wrong & worst.target))

@@ -77,8 +77,8 @@ class HoleGrammar:
         self.bases: tuple[BaseExtractor, ...] = (*map(Is, vocabulary), All())
         contact = [OpenAttach(BaseHole(), BaseHole())] if "T" in layers else []
         position = map(OpenGeo, DIRECTIONS) if "G" in layers else []
-        joints = [OpenOperator(joint, Hole(), Hole()) for joint in OPERATORS]
-        self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *joints)
+        operators = [OpenOperator(operator, Hole(), Hole()) for operator in OPERATORS]
+        self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
     def fill(self, partial: Open) -> Iterator[Partial]:
         """The partial program with its first hole filled, in all ways."""
@@ -91,11 +91,11 @@ class HoleGrammar:
                 yield from (make_attach(base, anchor) for base in self.bases)
             case OpenAttach(selected, _):
                 yield from (make_attach(selected, base) for base in self.bases)
-            case OpenOperator(joint, left, right):
+            case OpenOperator(operator, left, right):
                 if isinstance(left, Open):
-                    yield from (make_operator(joint, part, right) for part in self.fill(left))
+                    yield from (make_operator(operator, part, right) for part in self.fill(left))
                 elif isinstance(right, Open):
-                    yield from (make_operator(joint, left, part) for part in self.fill(right))
+                    yield from (make_operator(operator, left, part) for part in self.fill(right))
             case _:
                 assert_never(partial)
 
@@ -107,11 +107,11 @@ def make_attach(selected: BaseExtractor | BaseHole, anchor: BaseExtractor | Base
     return Attach(selected, anchor)
 
 
-def make_operator(joint: SetOperator, left: Partial, right: Partial) -> Partial:
+def make_operator(operator: SetOperator, left: Partial, right: Partial) -> Partial:
     """A set operator over two partial programs."""
     if isinstance(left, Open) or isinstance(right, Open):
-        return OpenOperator(joint, left, right)
-    return joint(left, right)
+        return OpenOperator(operator, left, right)
+    return operator(left, right)
 
 
 def count_nodes(partial: Partial) -> int:

@@ -7,19 +7,20 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
+from types import MappingProxyType
 
-from meshforge.language import EXTREMITY, Extractor, labels_of
+from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.paper.evaluate import ExampleMasks, LabelChange, NearestTracker, is_feasible
+from meshforge.synthesis.paper.evaluate import ExampleMasks, NearestTracker, is_feasible
 from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 
 
 @dataclass(frozen=True, slots=True)
-class Explained:
+class HitWithCorrections:
     """An extractor that matches once some labels are corrected: confirmed, or proposed where nobody was asked."""
 
     extractor: Extractor
@@ -27,55 +28,44 @@ class Explained:
     tried: SearchEffort
 
 
-def search_by_paper(
-    examples: Sequence[Example],
-    vocabulary: Sequence[str],
-    budget: TimeBudget,
-    options: Options,
-    extremity: float = EXTREMITY,
-    confirm: Callable[[LabelCorrection], bool] | None = None,
-    rejected: Container[LabelCorrection] = (),
-    spent: Mapping[str, int] | None = None,
-) -> SearchResult | Explained:
+class PaperSearch:
     """The first extractor by size that selects what was shown, as it stands or after corrections of labels.
 
     vocabulary: the labels to ask for and to correct to; confirm: is asked about corrections one by one, without it
     the first repair is proposed; rejected: corrections not to propose; spent: how many were made before, by mesh.
     In the counts, selections are complete programs that were checked, goals partial ones whose hole was filled.
     """
-    demos = [ExampleMasks(example, extremity) for example in examples]
-    left = {demo.name: max(0, options.eta - (spent or {}).get(demo.name, 0)) for demo in demos}
-    abduction = Abduction(demos, vocabulary, left, budget) if options.repair else None
-    grammar, asking = HoleGrammar(vocabulary, options.layers), Confirmations(confirm, rejected)
-    search = _WorklistSearch(demos, grammar, budget, options.max_size, abduction, asking)
-    try:
-        return search.run()
-    except OutOfTime:
-        return Unfinished(search.nearest.miss(), search.tried)
-
-
-class _WorklistSearch:
-    """The worklist on its way; without `abduction` labels are taken as they are."""
 
     def __init__(
         self,
-        demos: Sequence[ExampleMasks],
-        grammar: HoleGrammar,
+        examples: Sequence[Example],
+        vocabulary: Sequence[str],
         budget: TimeBudget,
-        max_size: int,
-        abduction: Abduction | None,
-        asking: Confirmations,
+        options: Options,
+        confirm: Callable[[LabelCorrection], bool] | None = None,
+        rejected: Container[LabelCorrection] = (),
+        spent: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
-        self._demos, self._grammar, self._budget, self._max_size = demos, grammar, budget, max_size
-        self._abduction, self._confirmations = abduction, asking
+        self._demos = [ExampleMasks(example, options.geo_extremity) for example in examples]
+        self._grammar, self._max_size, self._budget = HoleGrammar(vocabulary, options.layers), options.max_size, budget
+        left = {demo.name: max(0, options.eta - spent.get(demo.name, 0)) for demo in self._demos}
+        self._abduction = Abduction(self._demos, vocabulary, left, budget) if options.repair else None
+        self._confirmations = Confirmations(confirm, rejected)
         self._size = self._complete = self._filled = 0
-        self.nearest = NearestTracker(demos)
+        self._nearest = NearestTracker(self._demos)
+
+    def run(self) -> SearchResult | HitWithCorrections:
+        """The answer, within the limits of the options and the budget."""
+        try:
+            return self._find_hit()
+        except OutOfTime:
+            return Unfinished(self._nearest.miss(), self._tried)
 
     @property
-    def tried(self) -> SearchEffort:
+    def _tried(self) -> SearchEffort:
         return SearchEffort(self._size, self._complete, self._filled)
 
-    def run(self) -> Hit | Explained | Miss:
+    def _find_hit(self) -> Hit | HitWithCorrections | Miss:
         worklist = Worklist(self._max_size)
         worklist.put(Hole())
         while popped := worklist.pop():
@@ -96,20 +86,20 @@ class _WorklistSearch:
             if not isinstance(candidate, Open) or all(is_feasible(candidate, demo) for demo in self._demos):
                 worklist.put(candidate)
 
-    def _check_complete(self, extractor: Extractor) -> Hit | Explained | None:
+    def _check_complete(self, extractor: Extractor) -> Hit | HitWithCorrections | None:
         self._complete += 1
-        if self.nearest.offer(extractor) == 0:
-            return Hit(extractor, self.tried)
+        if self._nearest.offer(extractor) == 0:
+            return Hit(extractor, self._tried)
         corrections = self._abduction.infer(extractor) if self._abduction else None
         if corrections is None or not self._confirmations.are_confirmed(corrections):
             return None
-        return Explained(extractor, corrections, self.tried)
+        return HitWithCorrections(extractor, corrections, self._tried)
 
     def _report_miss(self) -> Miss:
-        nearest = self.nearest.miss()
+        nearest = self._nearest.miss()
         assert nearest, "All is complete and of one node"
         corrected = ", even after corrections of labels" if self._abduction else ""
-        return Miss(f"no extractor of up to {self._max_size} nodes matches{corrected}", nearest, self.tried)
+        return Miss(f"no extractor of up to {self._max_size} nodes matches{corrected}", nearest, self._tried)
 
 
 class Abduction:
@@ -139,7 +129,7 @@ class Abduction:
             repair = self._repair(extractor, demo)
             if repair is None:
                 return None
-            found += [_to_correction(demo, change) for change in repair]
+            found += [to_correction(demo.example, change) for change in repair]
         return tuple(found)
 
     def _repair(self, extractor: Extractor, demo: ExampleMasks) -> tuple[LabelChange, ...] | None:
@@ -152,7 +142,7 @@ class Abduction:
     def _candidates(self, extractor: Extractor, demo: ExampleMasks) -> Iterator[tuple[LabelChange, ...]]:
         """The relabelings of suspects, those of fewer hulls first; the first of all changes none."""
         suspects = sorted(bits_of(demo.differences(extractor)))
-        choices = {index: self._choices(extractor, demo.mesh.hulls[index].label) for index in suspects}
+        choices = {index: self._choices(extractor, demo.example.mesh.hulls[index].label) for index in suspects}
         for count in range(self._allowed[demo.name] + 1):
             for hulls in combinations(suspects, count):
                 yield from product(*([(index, to) for to in choices[index]] for index in hulls))
@@ -166,11 +156,6 @@ class Abduction:
         mentioned = labels_of(extractor)
         leaving = [other for other in self._by_frequency if other not in mentioned][:1] if label in mentioned else []
         return (*(other for other in mentioned if other != label), *leaving)
-
-
-def _to_correction(demo: ExampleMasks, change: LabelChange) -> LabelCorrection:
-    hull = demo.mesh.hulls[change[0]]
-    return LabelCorrection(demo.name, hull.name, hull.label, change[1])
 
 
 class Confirmations:

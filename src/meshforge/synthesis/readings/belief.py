@@ -30,7 +30,7 @@ ALL = 2.6
 UPRIGHT, SIDEWAYS = 0.3, 1.65
 """For each direction: six are tried, so they fit by accident; up and down are meant more often than the others."""
 SELF = 6.0
-"""For a label attached to itself: that tells how parts were cut rather than what they are."""
+"""For a label attached to itself: that says how parts were cut rather than what they are."""
 UNTRIED = 1.6
 """For each set operator with an operand that makes no difference on the demonstrated meshes. Measured was 1.1, where
 demonstrations were drawn blindly; a person shows what is wanted on a mesh that has it."""

@@ -81,9 +81,9 @@ class _Collector:
                 yield leaf.bits, leaf.key, None, leaf
         for small in range(1, (size - 1) // 2 + 1):
             self._budget.check()
-            for opening in half_terms_for(self._bank.level(small), goal, helpful=False):
-                for other in self._operands(opening.rest, size - 1 - small):
-                    yield opening.bits(other.bits), opening.key(other.key), opening, other
+            for half in half_terms_for(self._bank.level(small), goal, helpful=False):
+                for other in self._operands(half.rest, size - 1 - small):
+                    yield half.bits(other.bits), half.key(other.key), half, other
 
     def _operands(self, goal: Goal, size: int) -> Iterable[Term]:
         """The terms of that size that meet a goal, one for each way of selecting."""
@@ -104,7 +104,7 @@ class _Collector:
 def _keep_firsts(drafts: Iterable[TermDraft]) -> tuple[Term, ...]:
     """One term for each way of selecting, the first in the order."""
     best: dict[int, tuple[Key, HalfTerm | None, Term]] = {}
-    for bits, key, opening, term in drafts:
+    for bits, key, half, term in drafts:
         if bits not in best or key < best[bits][0]:
-            best[bits] = (key, opening, term)
-    return tuple(opening.complete(term) if opening else term for _, opening, term in best.values())
+            best[bits] = (key, half, term)
+    return tuple(half.complete(term) if half else term for _, half, term in best.values())

@@ -162,14 +162,14 @@ class QuestionValue:
         kinds = self._kinds[:, asset]
         if not kinds.any():
             return None
-        weighed, left, spared = [], 0.0, float(self._beliefs @ self._costs[0])
+        choices_by_belief, left, spared = [], 0.0, float(self._beliefs @ self._costs[0])
         for kind in range(int(kinds.max()) + 1):
             part = np.flatnonzero(kinds == kind)
             heads = part[np.argmax(self._beliefs[part])] if kind else 0
             left += float(self._beliefs[part] @ self.differs[heads][part])
             spared -= float(self._beliefs[part] @ self._costs[heads][part])
-            weighed.append((-float(self._beliefs[part].sum()), int(heads)))
-        ours, *others = weighed
+            choices_by_belief.append((-float(self._beliefs[part].sum()), int(heads)))
+        ours, *others = choices_by_belief
         choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
         return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
 

@@ -53,7 +53,7 @@ MIN_BELIEF = 0.75
 """A proposal is made when each of its corrections is so probable."""
 
 MIN_BELIEF_WITHOUT_EXACT = 0.3
-"""The same where there is no exact extractor, so that nothing else is left."""
+"""Where there is no exact extractor, nothing else is left, so less is enough."""
 
 MAX_BELIEF_AGAINST_PERSON = 0.5
 """A correction of a person's label is never believed more."""
@@ -150,7 +150,6 @@ def search_larger(
     variants: Variants,
     vocabulary: Sequence[str],
     options: Options,
-    extremity: float,
     above: int,
     within: float,
     budget: TimeBudget,
@@ -164,7 +163,7 @@ def search_larger(
         if largest <= above or searched == MAX_SEARCHES:
             return
         shown = [relabel(example, way.changes) for example, way in zip(examples, ways, strict=True)]
-        answer = Search(shown, vocabulary, budget, replace(options, max_size=largest), extremity).run()
+        answer = Search(shown, vocabulary, budget, replace(options, max_size=largest)).run()
         budget.check()
         if isinstance(answer, Hit) and (key := order_key(answer.extractor, places)) not in known and key[0] > above:
             known.add(key)

@@ -10,15 +10,25 @@ from math import exp, log, prod
 from types import MappingProxyType
 
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
-from meshforge.language import EXTREMITY, Extractor, show, size_of
+from meshforge.language import Extractor, show, size_of
 from meshforge.symbolic import Hull
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair import candidates
-from meshforge.synthesis.repair import candidates as candidates_module
-from meshforge.synthesis.repair.candidates import Candidate, key_cost, search_larger, search_small, total_chance
-from meshforge.synthesis.repair.relabelings import LabelChange, Variants, enumerate_relabelings, to_correction
+from meshforge.synthesis.repair.candidates import (
+    MAX_BELIEF_AGAINST_PERSON,
+    MIN_BELIEF,
+    MIN_BELIEF_WITHOUT_EXACT,
+    NO_EXTRACTOR_COST,
+    NODE_COST,
+    RIVAL_MARGIN,
+    Candidate,
+    key_cost,
+    search_larger,
+    search_small,
+    total_chance,
+)
+from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.terms import order_key
 
 SMALL_SIZE = 5
@@ -50,116 +60,106 @@ class Explanation:
     cost: float
 
 
-def explain_by_corrections(
-    examples: Sequence[Example],
-    vocabulary: Sequence[str],
-    labels: LabelBeliefs,
-    options: Options,
-    budget: TimeBudget,
-    extremity: float = EXTREMITY,
-    exact: Extractor | None = None,
-    spent: Mapping[str, int] = _NONE_SPENT,
-    rejected: Collection[LabelCorrection] = (),
-) -> Explanation | None:
-    """The most believable extractor with corrections of labels, None where what is exact is as believable.
+class CorrectionSearch:
+    """One rule that may have been shown on wrong labels.
 
     vocabulary: the labels to ask for and to correct to; exact: the smallest extractor that needs no correction, None
     where there is none; spent: corrections made before for other rules, by the name of the mesh; rejected:
-    corrections not to propose. Raises OutOfTime.
+    corrections not to propose.
     """
-    some = tuple(example for example in examples if example.mesh.hulls)
-    return _RepairCase(some, vocabulary, labels, options, budget, extremity, exact, spent, rejected).explain()
 
+    def __init__(
+        self,
+        examples: Sequence[Example],
+        vocabulary: Sequence[str],
+        labels: LabelBeliefs,
+        options: Options,
+        budget: TimeBudget,
+        exact: Extractor | None = None,
+        spent: Mapping[str, int] = _NONE_SPENT,
+        rejected: Collection[LabelCorrection] = (),
+    ) -> None:
+        self._examples = tuple(example for example in examples if example.mesh.hulls)
+        self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
+        self._exact, self._spent, self._rejected = exact, spent, rejected
 
-@dataclass(frozen=True, eq=False)
-class _RepairCase:
-    """One rule that may have been shown on wrong labels."""
+    def run(self) -> Explanation | None:
+        """The most believable extractor with corrections of labels, None where what is exact is as believable.
 
-    examples: Sequence[Example]
-    vocabulary: Sequence[str]
-    labels: LabelBeliefs
-    options: Options
-    budget: TimeBudget
-    extremity: float
-    exact: Extractor | None
-    spent: Mapping[str, int]
-    rejected: Collection[LabelCorrection]
-
-    def explain(self) -> Explanation | None:
+        Raises OutOfTime.
+        """
         variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
         candidates = self._find_candidates(variants)
-        sure = compute_change_beliefs(candidates, self._rival_cost(variants))
-        chosen = self._choose(rank_candidates(candidates), sure)
-        return self._to_explanation(chosen, sure) if chosen else None
+        beliefs = compute_change_beliefs(candidates, self._rival_cost(variants))
+        chosen = self._choose(rank_candidates(candidates), beliefs)
+        return self._to_explanation(chosen, beliefs) if chosen else None
 
     @cached_property
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
-        places = {label: place for place, label in enumerate(self.vocabulary)}
-        return key_cost(order_key(self.exact, places)) if self.exact else candidates.NO_EXTRACTOR_COST
+        places = {label: place for place, label in enumerate(self._vocabulary)}
+        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
         """Nodes that an explanation may have."""
-        return min(self.options.max_size, size_of(self.exact) - 1 if self.exact else self.options.max_size)
+        return min(self._options.max_size, size_of(self._exact) - 1 if self._exact else self._options.max_size)
 
     def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
-        within = self._exact_cost - candidates.NODE_COST
-        room = MAX_RELABELINGS // max(1, len(self.examples))
+        within = self._exact_cost - NODE_COST
+        room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
             enumerate_relabelings(
-                example, self.vocabulary, self.labels, self._count_allowed(example), self.rejected, within, room
+                example, self._vocabulary, self._labels, self._count_allowed(example), self._rejected, within, room
             )
-            for example in self.examples
+            for example in self._examples
         ]
         if not any(len(some) > 1 for some in ways):
             return None
-        return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.extremity)
+        return Variants(self._examples, ways, self._vocabulary, self._options.layers, self._options.geo_extremity)
 
     def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
         if not any(hull.label for hull in example.mesh.hulls):
             return 0
-        return self.options.eta - self.spent.get(example.name, 0)
+        return self._options.eta - self._spent.get(example.name, 0)
 
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL_SIZE, self._limit)
-        found = list(search_small(variants, above, self._exact_cost, self.budget))
-        within = min([self._exact_cost, *(one.cost + candidates.RIVAL_MARGIN for one in found)])
-        options = replace(self.options, max_size=self._limit)
-        found += search_larger(
-            self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.budget
-        )
+        found = list(search_small(variants, above, self._exact_cost, self._budget))
+        within = min([self._exact_cost, *(one.cost + RIVAL_MARGIN for one in found)])
+        options = replace(self._options, max_size=self._limit)
+        found += search_larger(self._examples, variants, self._vocabulary, options, above, within, self._budget)
         return found
 
     def _rival_cost(self, variants: Variants) -> float:
         """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
-        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self.exact))
+        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
 
-    def _choose(self, candidates: Sequence[Candidate], sure: Mapping[ChangeAt, float]) -> Candidate | None:
+    def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
-        least = candidates_module.MIN_BELIEF if self.exact else candidates_module.MIN_BELIEF_WITHOUT_EXACT
+        least = MIN_BELIEF if self._exact else MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
-            if candidate.score > candidates[0].score + candidates_module.RIVAL_MARGIN:
+            if candidate.score > candidates[0].score + RIVAL_MARGIN:
                 break
-            if all(sure[place] >= least for place in changes_of(candidate)):
+            if all(beliefs[place] >= least for place in changes_of(candidate)):
                 return candidate
         return None
 
-    def _to_explanation(self, chosen: Candidate, sure: Mapping[ChangeAt, float]) -> Explanation:
+    def _to_explanation(self, chosen: Candidate, beliefs: Mapping[ChangeAt, float]) -> Explanation:
         places = changes_of(chosen)
         rows = []
         for at, change in places:
-            example = self.examples[at]
+            example = self._examples[at]
             hull = example.mesh.hulls[change[0]]
-            standing = self.labels.odds_of(example.name, hull)
-            assert standing, "only hulls with a standing are relabelled"
-            most = candidates.MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
-            said = explain_correction(standing, change[1], chosen.extractor, len(places) == 1)
-            rows.append((to_correction(example, change), min(sure[at, change], most), said))
+            odds = self._labels.odds_of(example.name, hull)
+            assert odds, "only hulls with odds are relabelled"
+            most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
+            why = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
+            rows.append((to_correction(example, change), min(beliefs[at, change], most), why))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
         corrections, believed, whys = zip(*rows, strict=True)
         return Explanation(chosen.extractor, corrections, believed, whys, chosen.cost)
@@ -194,22 +194,22 @@ def compute_change_beliefs(candidates: Sequence[Candidate], instead: float) -> M
     return {place: share / total for place, share in shares.items()}
 
 
-def explain_correction(standing: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
     """One sentence on the label itself, and what its correction makes possible.
 
     alone: whether it is the only correction.
     """
-    evidence = "; ".join([*_label_evidence(standing, to), _describe_effect(extractor, alone)])
+    evidence = "; ".join([*_label_evidence(odds, to), _describe_effect(extractor, alone)])
     return evidence[0].upper() + evidence[1:]
 
 
-def _label_evidence(standing: LabelOdds, to: str) -> list[str]:
-    similar, hull = standing.similar, standing.hull
+def _label_evidence(odds: LabelOdds, to: str) -> list[str]:
+    similar, hull = odds.similar, odds.hull
     agreeing, of = similar.count(to), len(similar)
-    said = []
+    reasons = []
     if agreeing > similar.count(hull.label or ""):
-        said.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
-    return [*said, *_label_doubts(hull)]
+        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
+    return [*reasons, *_label_doubts(hull)]
 
 
 def _label_doubts(hull: Hull) -> list[str]:

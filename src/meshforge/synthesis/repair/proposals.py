@@ -12,14 +12,14 @@ from meshforge.language import show
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example, name_demonstrations
 from meshforge.synthesis.options import TimeBudget
-from meshforge.synthesis.paper.search import Explained
+from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.questions import LabelCorrection, Repair
-from meshforge.synthesis.repair.explain import explain_by_corrections
+from meshforge.synthesis.repair.explain import CorrectionSearch
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.task import LearningTask
 
 DISTRUST_PER_ERROR = 3.0
-"""How much less a mesh tells for each label that is expected to be wrong [nats]. Measured on the calibration set with
+"""How much less a mesh shows for each label that is expected to be wrong [nats]. Measured on the calibration set with
 noisy labels (`script/bench tuning`): of 120 sessions 99 end right within three demonstrations and answers; 90 at 1.0,
 74 where looks go by confidence, and questions by nothing."""
 
@@ -50,7 +50,7 @@ class RepairCollector:
 
     @cached_property
     def trust(self) -> Mapping[str, float]:
-        """How much each mesh tells of the rules rather than of its labels, in 0..1: less for each that may be wrong."""
+        """How much each mesh shows of the rules rather than of its labels, in 0..1: less for each that may be wrong."""
         errors = self._beliefs.errors  # of none that is demonstrated under another name
         return {name: exp(-DISTRUST_PER_ERROR * errors.get(name, 0.0)) for name in self._meshes}
 
@@ -59,16 +59,18 @@ class RepairCollector:
     ) -> tuple[LabelCorrection, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
         task = self._task
-        explanation = task.options.repair and explain_by_corrections(
-            examples,
-            task.frame.labels,
-            self._beliefs,
-            task.options,
-            self._budget,
-            task.extremity,
-            found.extractor if isinstance(found, Hit) else None,
-            self.counts,
-            task.rejected,
+        explanation = (
+            task.options.repair
+            and CorrectionSearch(
+                examples,
+                task.frame.labels,
+                self._beliefs,
+                task.options,
+                self._budget,
+                found.extractor if isinstance(found, Hit) else None,
+                self.counts,
+                task.rejected,
+            ).run()
         )
         if not explanation:
             return ()
@@ -76,7 +78,7 @@ class RepairCollector:
         self._found.update({correction: Repair(correction, rule, belief, why) for correction, belief, why in rows})
         return explanation.corrections
 
-    def record_inferred(self, rule: int, explained: Explained) -> tuple[LabelCorrection, ...]:
+    def record_inferred(self, rule: int, explained: HitWithCorrections) -> tuple[LabelCorrection, ...]:
         """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
         alone = len(explained.corrections) == 1
         why = f"with {'it' if alone else 'all corrections'}, {show(explained.extractor)} selects what was shown"
@@ -85,8 +87,8 @@ class RepairCollector:
 
     @cached_property
     def _beliefs(self) -> LabelBeliefs:
-        said = {answer.asset for answer in self._task.answers}
-        known = said.union(name for name, _ in name_demonstrations(self._task.demos))
+        answered = {answer.asset for answer in self._task.answers}
+        known = answered.union(name for name, _ in name_demonstrations(self._task.demos))
         return LabelBeliefs(
             {name: mesh for name, mesh in self._meshes.items() if name in known},
             {name: mesh for name, mesh in self._meshes.items() if name not in known},

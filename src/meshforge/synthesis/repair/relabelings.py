@@ -7,18 +7,13 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp
 
-import numpy as np
-
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import SLACK, Extractor, reference_length
-from meshforge.symbolic import Hull, Label, mask_of
-from meshforge.synthesis.demonstration import Example
+from meshforge.language import Extractor
+from meshforge.symbolic import Label, mask_of
+from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.observation_table import HullGroups, HullTable
-
-LabelChange = tuple[int, str]
-"""A hull by its index, and the label it gets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,23 +53,13 @@ def enumerate_relabelings(
     return _sort_by_cost(every)
 
 
-def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
-    """A change as it is called outside."""
-    hull = example.mesh.hulls[change[0]]
-    return LabelCorrection(example.name, hull.name, hull.label, change[1])
-
-
 def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
     """The example with labels changed."""
     if not changes:
         return example
     hulls = example.mesh.hulls
-    mesh = example.mesh.with_labels({hulls[index].name: _repair_label(hulls[index], to) for index, to in changes})
+    mesh = example.mesh.with_labels({hulls[index].name: Label(to, source="repair") for index, to in changes})
     return Example(example.name, mesh, example.selection)
-
-
-def _repair_label(hull: Hull, to: str) -> Label:
-    return Label(to, source="repair")
 
 
 def _single_changes(
@@ -85,9 +70,9 @@ def _single_changes(
     within: float,
 ) -> list[Relabeling]:
     found = []
-    standing = {(one.hull, one.was) for one in rejected if one.asset == example.name}
+    rejected_labels = {(one.hull, one.was) for one in rejected if one.asset == example.name}
     for index, hull in enumerate(example.mesh.hulls):
-        if (hull.name, hull.label) in standing:
+        if (hull.name, hull.label) in rejected_labels:
             continue
         for to in vocabulary:
             cost = labels.cost(example.name, hull, to)
@@ -122,36 +107,11 @@ class Variant:
     avoid: int
 
 
-class VariantHullTable(HullTable):
-    """The hulls of many relabelings of some meshes in one row; boxes and contacts are those of the meshes."""
-
-    __slots__ = ()
-
-    def __init__(self, examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> None:
-        copies = [len(some) for some in ways]
-        sizes = [len(example.mesh.hulls) for example in examples]
-        self.counts = np.repeat(np.array(sizes, dtype=np.int64), copies)
-        self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
-        self._owner = np.repeat(np.arange(len(self.counts)), self.counts)
-        corners = [example.mesh.corners for example in examples]
-        self._low = np.concatenate([np.tile(low, (n, 1)) for (low, _), n in zip(corners, copies, strict=True)])
-        self._high = np.concatenate([np.tile(high, (n, 1)) for (_, high), n in zip(corners, copies, strict=True)])
-        self._slack = np.repeat([SLACK * reference_length(example.mesh) for example in examples], copies)
-        self._labels = [
-            label
-            for example, some in zip(examples, ways, strict=True)
-            for one in some
-            for label in _labels_under(example, one)
-        ]
-        firsts = np.cumsum([0, *copies])
-        pairs = [
-            (
-                self.starts[first : first + n, None, None]
-                + np.array(sorted(example.mesh.contacts), dtype=np.int64).reshape(-1, 2)
-            )
-            for example, first, n in zip(examples, firsts, copies, strict=False)
-        ]
-        self._contacts = np.concatenate([pair.reshape(-1, 2) for pair in pairs])
+def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> HullTable:
+    """The hulls of each example under each of its relabelings, in one row."""
+    rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
+    labels = [label for example, one in rows for label in _labels_under(example, one)]
+    return HullTable([example.mesh for example, _ in rows], labels)
 
 
 class Variants:
@@ -168,7 +128,7 @@ class Variants:
         layers: Layers,
         extremity: float,
     ) -> None:
-        self._groups = HullGroups(VariantHullTable(examples, ways), vocabulary, layers, extremity)
+        self._groups = HullGroups(build_hull_table(examples, ways), vocabulary, layers, extremity)
         self.width, self.terms = self._groups.width, self._groups.terms
         self.by_example: list[list[Variant]] = []
         begin = 0

@@ -61,12 +61,12 @@ class Bank:
 
     def _grow(self, size: int) -> Level:
         if not self._merge:
-            every = [combine(joint, x, y) for _, (_, joint, x, y) in self._drafts(size)]
+            every = [combine(operator, x, y) for _, (_, operator, x, y) in self._drafts(size)]
             return Level([*self.leaves(size), *every], self._width)
         terms = {leaf.bits: leaf for leaf in sorted(self.leaves(size), key=lambda leaf: leaf.key, reverse=True)}
-        for bits, (key, joint, x, y) in self._first_drafts(size).items():
+        for bits, (key, operator, x, y) in self._first_drafts(size).items():
             if bits not in terms or key < terms[bits].key:
-                terms[bits] = combine(joint, x, y)
+                terms[bits] = combine(operator, x, y)
         fresh = [term for bits, term in terms.items() if bits not in self._known]
         self._known.update(terms)
         return Level(fresh, self._width)

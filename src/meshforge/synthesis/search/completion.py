@@ -82,10 +82,10 @@ class Completion:
         """Of each set operator whose smaller operand is known, the first that meets the goal."""
         for small in range(1, (size - 1) // 2 + 1):
             self._budget.check()
-            for opening in half_terms_for(self._bank.level(small), goal, self._shortcuts.help):
-                other = self._find_operand(opening.rest, size - 1 - small)
+            for half in half_terms_for(self._bank.level(small), goal, self._shortcuts.help):
+                other = self._find_operand(half.rest, size - 1 - small)
                 if other:
-                    yield opening.complete(other)
+                    yield half.complete(other)
 
 
 def satisfies(bits: int, goal: Goal) -> bool:

@@ -90,18 +90,18 @@ class ObservationTable:
         """
         first: dict[tuple[bytes, bool], tuple[int, int]] = {}
         for mesh, mask in enumerate(selections):
-            for hull, look in enumerate(self._signatures[mesh]):
-                first.setdefault((look, bool(mask >> hull & 1)), (mesh, hull))
-        for (look, selected), place in first.items():
-            if selected and (look, False) in first:
-                return place, first[look, False]
+            for hull, signature in enumerate(self._signatures[mesh]):
+                first.setdefault((signature, bool(mask >> hull & 1)), (mesh, hull))
+        for (signature, selected), place in first.items():
+            if selected and (signature, False) in first:
+                return place, first[signature, False]
         return None
 
 
 class HullGroups:
     """The groups of the hulls in a row, numbered by their first hull.
 
-    looks: of each hull, which leaves select it; of: the group of each hull; width: how many groups there are.
+    signatures: of each hull, which leaves select it; of: the group of each hull; width: how many groups there are.
     vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own.
     """
 
@@ -142,28 +142,26 @@ class HullGroups:
 
 
 class HullTable:
-    """The hulls of several meshes in one row: labels, boxes, contacts; counts: hulls of each mesh.
+    """The hulls of several meshes in one row: labels, boxes, contacts.
 
+    labels: of each hull, where they are not those of the meshes. A mesh may come several times, under other labels.
     Everything is selected exactly as the language does, which tests hold against it.
     """
 
-    __slots__ = ("_contacts", "_high", "_labels", "_low", "_owner", "_slack", "counts", "starts")
+    __slots__ = ("_contacts", "_high", "_labels", "_low", "_owner", "_slack", "starts")
 
-    def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
-        self.counts = np.array([len(mesh.hulls) for mesh in meshes], dtype=np.int64)
-        self.starts = np.concatenate([[0], np.cumsum(self.counts)]).astype(np.int64)
-        self._owner = np.repeat(np.arange(len(meshes)), self.counts)
+    def __init__(self, meshes: Sequence[SymbolicMesh], labels: Sequence[str | None] | None = None) -> None:
+        counts = [len(mesh.hulls) for mesh in meshes]
+        self.starts = np.cumsum([0, *counts], dtype=np.int64)
+        self._owner = np.repeat(np.arange(len(meshes)), counts)
         none = np.zeros((0, 3))
         self._low = np.concatenate([none, *(mesh.corners[0] for mesh in meshes)])
         self._high = np.concatenate([none, *(mesh.corners[1] for mesh in meshes)])
-        self._labels = [hull.label for mesh in meshes for hull in mesh.hulls]
+        self._labels = labels if labels is not None else [hull.label for mesh in meshes for hull in mesh.hulls]
         self._slack = np.array([SLACK * reference_length(mesh) for mesh in meshes])
-        pairs = [
-            np.array(list(mesh.contacts), dtype=np.int64) + start
-            for mesh, start in zip(meshes, self.starts, strict=False)
-            if mesh.contacts
-        ]
-        self._contacts = np.concatenate(pairs) if pairs else np.zeros((0, 2), dtype=np.int64)
+        contacts = {id(mesh): np.array(list(mesh.contacts), dtype=np.int64).reshape(-1, 2) for mesh in meshes}
+        pairs = [contacts[id(mesh)] + start for mesh, start in zip(meshes, self.starts, strict=False)]
+        self._contacts = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
 
     def table(self, leaves: Sequence[Leaf], extremity: float) -> Bools:
         """Whether each leaf selects each hull: (leaves, hulls)."""

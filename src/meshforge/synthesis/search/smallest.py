@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from meshforge.language import EXTREMITY, Extractor
-from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
+from meshforge.language import Extractor
+from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.search.bank import Bank, positions
@@ -21,7 +21,7 @@ NEAREST_SIZE = 5
 """Where nothing matches, the nearest miss is looked for among all selections of extractors up to this size."""
 
 _NEAREST_SIZE_LATE = 4
-"""The same where the time ran out."""
+"""Where the time ran out, only up to this size."""
 
 _MAX_COUNTEREXAMPLES = 16  # groups that join the search when its answer is wrong on them
 
@@ -76,13 +76,14 @@ class Search:
         vocabulary: Sequence[str],
         budget: TimeBudget,
         options: Options,
-        extremity: float = EXTREMITY,
         batch: Sequence[SymbolicMesh] = (),
     ) -> None:
         self.examples, self.options, self.budget = tuple(examples), options, budget
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
-        self.field = ObservationTable(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
+        self.field = ObservationTable(
+            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group
+        )
         self.width = self.field.width_of(len(examples))
         self.need = self.field.groups_in(self.selections)
         self._exhausted = self._kept = self._goals = 0
@@ -206,9 +207,8 @@ def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Seq
     missing = [example.selection & ~mask for mask, example in zip(on, examples, strict=True)]
     worst = max(range(len(examples)), key=lambda k: (extra[k].bit_count() + missing[k].bit_count(), -k))
     example = examples[worst]
-    return NearestExtractor(
-        extractor, example.name, _hull_names(example, extra[worst]), _hull_names(example, missing[worst])
-    )
+    names_of = example.mesh.names_of
+    return NearestExtractor(extractor, example.name, names_of(extra[worst]), names_of(missing[worst]))
 
 
 def describe_conflict(field: ObservationTable, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
@@ -221,10 +221,6 @@ def describe_conflict(field: ObservationTable, selections: Sequence[int], exampl
         f"{shown} was selected and {other} was not, yet every extractor treats them alike; "
         "a label of its own for one of them would tell them apart"
     )
-
-
-def _hull_names(example: Example, mask: int) -> tuple[str, ...]:
-    return tuple(example.mesh.hulls[index].name for index in sorted(bits_of(mask)))
 
 
 def _to_planes(weights: Sequence[int]) -> list[int]:

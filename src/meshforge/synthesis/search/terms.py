@@ -56,7 +56,7 @@ def leaf_key(leaf: All | Is | Attach | Geo, labels: Mapping[str, int]) -> Key:
     """The key of an extractor without set operators; labels: the place of each label in the vocabulary.
 
     Doubts count what fits by accident more easily than labels, and contact between two labels, do: `All`; a
-    direction, since there are six to try; an `Attach` that is not between two labels, since it tells how parts
+    direction, since there are six to try; an `Attach` that is not between two labels, since it says how parts
     were cut rather than what they are.
     """
     match leaf:
@@ -73,11 +73,11 @@ def leaf_key(leaf: All | Is | Attach | Geo, labels: Mapping[str, int]) -> Key:
             assert_never(leaf)
 
 
-def operator_key(joint: SetOperator, left: Key, right: Key) -> Key:
+def operator_key(operator: SetOperator, left: Key, right: Key) -> Key:
     """The key of a set operator over two extractors; the operands of `Union` and `Intersect` count in order."""
-    if joint is not Diff and right < left:
+    if operator is not Diff and right < left:
         left, right = right, left
-    return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[joint], left, right)
+    return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[operator], left, right)
 
 
 def order_key(extractor: Extractor, labels: Mapping[str, int]) -> Key:
@@ -112,7 +112,7 @@ class Compound:
 class Term:
     """An extractor, its place in the order, and its selection as a bit set over the search's groups of hulls.
 
-    made: the extractor itself, or the operands it is put together from: most terms are never written out.
+    form: the extractor itself, or the operands it is put together from: most terms are never written out.
     """
 
     bits: int
@@ -131,22 +131,16 @@ class Term:
         size: int = self.key[0]
         return size
 
-    @property
-    def doubts(self) -> int:
-        """How much in it fits by accident easily (search/order.py)."""
-        doubts: int = self.key[1]
-        return doubts
 
-
-def combine(joint: SetOperator, left: Term, right: Term) -> Term:
+def combine(operator: SetOperator, left: Term, right: Term) -> Term:
     """A set operator over two terms; the operands of `Union` and `Intersect` are put in order."""
-    if joint is not Diff and right.key < left.key:
+    if operator is not Diff and right.key < left.key:
         left, right = right, left
-    if joint is Union:
+    if operator is Union:
         bits = left.bits | right.bits
     else:
-        bits = left.bits & ~right.bits if joint is Diff else left.bits & right.bits
-    return Term(bits, operator_key(joint, left.key, right.key), Compound(joint, left, right))
+        bits = left.bits & ~right.bits if operator is Diff else left.bits & right.bits
+    return Term(bits, operator_key(operator, left.key, right.key), Compound(operator, left, right))
 
 
 def first_term(terms: list[Term]) -> Term | None:

@@ -108,6 +108,7 @@ def test_hulls_that_were_changed_or_are_gone_are_noticed(tmp_path: Path) -> None
         read_preparation(tmp_path / "p")
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
     asset, first = stand(tmp_path)

@@ -370,6 +370,7 @@ def test_without_the_sdk_the_message_names_the_extra(monkeypatch: pytest.MonkeyP
         client(server).ask(question())
 
 
+@pytest.mark.slow
 def test_nothing_heavy_is_loaded_before_something_is_asked() -> None:
     code = "import sys, meshforge.labels.vlm.client, meshforge.project; print({'openai', 'PIL'} & sys.modules.keys())"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -202,6 +202,7 @@ def test_dense_meshes_are_asked_about_in_groups_of_few_marks() -> None:
         assert all(len(asked.pictures) <= 6 for asked in server.answered)
 
 
+@pytest.mark.slow
 def test_the_groups_do_not_change_when_some_hulls_have_a_label_by_then() -> None:
     shown = table(legs=30)
     with labelling(right(shown), "balanced") as (labeller, _):
@@ -238,6 +239,7 @@ def test_the_answers_come_out_the_same_however_many_are_under_way(tmp_path: Path
     assert outcomes[0] == outcomes[1]
 
 
+@pytest.mark.slow
 def test_a_question_without_answer_leaves_its_hulls_open_and_the_others_are_labelled() -> None:
     shown = table(legs=60)
 

@@ -1,13 +1,11 @@
 // One argument of an action, as the control that its kind asks for.
-import type { Draft } from "../../store/desk";
-import { goesWith } from "../../store/drafts";
+import { Box, Circle, Cylinder, type LucideIcon, Pill } from "lucide-react";
+import { type ReactNode, useId, useState } from "react";
+import { goesWith } from "../../store/actions";
+import type { Draft } from "../../store/workspace";
+import { Check, Choice, Slide } from "../../ui/fields";
 import type { Argument } from "../../wire";
-import { Check } from "../../ui/Check";
-import { Choice } from "../../ui/Choice";
-import { DirectionField } from "./DirectionField";
-import { FactorField } from "./FactorField";
-import { Labelled } from "./Labelled";
-import { ShapeField } from "./ShapeField";
+import css from "./demonstrate.module.css";
 import { TemplateField } from "./TemplateField";
 
 type Value = string | number | boolean;
@@ -32,7 +30,7 @@ export function ArgumentField({ argument, value, given, onChange }: ArgumentFiel
   const words = wordsOf(argument, given);
   if (kind === "words" && words.length < 2 && !argument.required) return null;
   return (
-    <Labelled
+    <Field
       name={NAMES[name] ?? capital(name)}
       hint={wants}
       inline={kind === "words" && !isDirections(argument)}
@@ -50,7 +48,7 @@ export function ArgumentField({ argument, value, given, onChange }: ArgumentFiel
           onChange={(word) => onChange(word === USUAL ? "" : word)}
         />
       )}
-    </Labelled>
+    </Field>
   );
 }
 
@@ -81,4 +79,131 @@ function wordsOf({ choices, required }: Argument, given: Draft["arguments"]): { 
     .filter((word) => goesWith(word, given))
     .map((value) => ({ value, label: WORDS[value] ?? value }));
   return required ? options : [{ value: USUAL, label: "bounding box" }, ...options];
+}
+
+/** A factor: a number to type and a slider for the usual range. */
+function FactorField({
+  value,
+  onChange,
+}: {
+  value: string | number | boolean | undefined;
+  onChange: (value: number) => void;
+}) {
+  const number = typeof value === "number" ? value : NaN;
+  const [text, setText] = useState(String(value ?? ""));
+  const shown = Number(text) === number ? text : String(number);
+  const typed = (now: string) => {
+    setText(now);
+    onChange(now.trim() === "" ? NaN : Number(now.replace(",", ".")));
+  };
+  return (
+    <div className={css.factor}>
+      <input
+        className={css.input}
+        inputMode="decimal"
+        aria-label="Factor"
+        aria-invalid={!(number > 0)}
+        value={Number.isNaN(number) ? text : shown}
+        onChange={(event) => typed(event.target.value)}
+        onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
+      />
+      <Slide
+        name="Factor"
+        value={Number.isFinite(number) ? Math.min(Math.max(number, 0.1), 2) : 1}
+        min={0.1}
+        max={2}
+        step={0.05}
+        onChange={(now) => onChange(Number(now.toFixed(2)))}
+      />
+    </div>
+  );
+}
+
+const ICONS: Readonly<Record<string, LucideIcon>> = { box: Box, cylinder: Cylinder, capsule: Pill, sphere: Circle };
+
+interface ShapeFieldProps {
+  primitives: readonly string[];
+  value: string;
+  onChange: (value: string) => void;
+}
+
+/** A primitive or a template. */
+function ShapeField({ primitives, value, onChange }: ShapeFieldProps) {
+  return (
+    <>
+      <div className={css.shapes}>
+        {primitives.map((shape) => {
+          const Icon = ICONS[shape] ?? Box;
+          return (
+            <button
+              key={shape}
+              type="button"
+              className={css.shape}
+              aria-pressed={value === shape}
+              onClick={() => onChange(shape)}
+            >
+              <Icon size={18} aria-hidden />
+              {shape}
+            </button>
+          );
+        })}
+      </div>
+      <TemplateField value={primitives.includes(value) ? "" : value} onChange={onChange} />
+    </>
+  );
+}
+
+const AXES = [
+  { axis: "X", words: ["+X", "-X"] },
+  { axis: "Y", words: ["+Y", "-Y"] },
+  { axis: "Z", words: ["+Z", "-Z"] },
+] as const;
+const MEANING: Readonly<Record<string, string>> = { "+Z": "top", "-Z": "bottom" };
+
+/** One of the six directions of the upright asset, axis by axis. */
+export function DirectionField({ value, onChange }: { value: string; onChange: (value: string) => void }) {
+  return (
+    <div className={css.directions} role="radiogroup" aria-label="Direction">
+      {AXES.map(({ axis, words }) => (
+        <div key={axis} data-axis={axis}>
+          {words.map((word) => (
+            <label key={word} data-on={word === value || undefined}>
+              <input
+                type="radio"
+                className="visually-hidden"
+                name="direction"
+                checked={word === value}
+                onChange={() => onChange(word)}
+              />
+              {word.replace("-", "−")}
+              {MEANING[word] && <small>{MEANING[word]}</small>}
+            </label>
+          ))}
+        </div>
+      ))}
+    </div>
+  );
+}
+
+interface FieldProps {
+  name: string;
+  hint?: string;
+  /** Whether the name stands beside the control. */
+  inline?: boolean;
+  /** Whether the name is for screen readers only. */
+  hidden?: boolean;
+  children: ReactNode;
+}
+
+/** A field of a form under its name; a group where it has several controls. */
+export function Field({ name, hint, inline = false, hidden = false, children }: FieldProps) {
+  const id = useId();
+  return (
+    <div className={css.labelled} data-inline={inline || undefined} role="group" aria-labelledby={id}>
+      <span id={id} className={hidden ? "visually-hidden" : css.fieldName} title={hint}>
+        {name}
+      </span>
+      {children}
+    </div>
+  );
 }

@@ -1,30 +1,32 @@
 // The action in hand as a form: which action, its arguments, what it would do, and the button that keeps it.
 import { Check } from "lucide-react";
 import type { KeyboardEvent } from "react";
-import { inTurn } from "../../commands/turns";
-import { type Draft, useDesk } from "../../store/desk";
-import { acceptDraft, changeArgument, changeDraft, dropDraft, useDrafting } from "../../store/drafting";
-import { missingArgument } from "../../store/drafts";
+import { ACTION_KEYS } from "../../commands/demonstrate";
+import { runInTurn } from "../../commands/queue";
+import { actionIcon } from "../../steps/actionIcon";
+import { draftText, missingArgument } from "../../store/actions";
+import { acceptDraft, changeArgument, changeDraft, dropDraft, startDraft, useDraftStatus } from "../../store/draft";
 import { formOf, useLanguage } from "../../store/language";
-import { complainedOf } from "../../store/toasts";
+import { previewText, usePreview } from "../../store/preview";
+import { useProject } from "../../store/project";
+import { changeActionOn } from "../../store/steps";
+import { reportError } from "../../store/toasts";
+import { listText, shortName } from "../../store/words";
+import { type Draft, useWorkspace } from "../../store/workspace";
+import { Button, Tip } from "../../ui/Button";
+import { Check as CheckBox } from "../../ui/fields";
+import { Note } from "../../ui/Section";
 import type { ActionForm } from "../../wire";
-import { Button } from "../../ui/Button";
-import { Check as CheckBox } from "../../ui/Check";
-import { ActionChoice } from "./ActionChoice";
-import { ArgumentField } from "./ArgumentField";
-import { Labelled } from "./Labelled";
-import { MadeLabel } from "./MadeLabel";
-import { PreviewNote } from "./PreviewNote";
-import { RulePlace } from "./RulePlace";
+import { ArgumentField, Field } from "./ArgumentField";
 import css from "./demonstrate.module.css";
 
 export function DraftForm() {
-  const draft = useDesk((desk) => desk.draft);
+  const draft = useWorkspace((workspace) => workspace.draft);
   const forms = useLanguage((state) => state.language?.actions);
   if (!forms) return null;
   const form = draft && formOf(draft.action, forms);
   const onKeyDown = (event: KeyboardEvent) => {
-    if (!draft || !isAccepting(event)) return;
+    if (!draft || !isAcceptKey(event)) return;
     event.preventDefault();
     accept();
   };
@@ -36,25 +38,25 @@ export function DraftForm() {
   );
 }
 
-const accept = (): void => inTurn(acceptDraft);
+const accept = (): void => runInTurn(acceptDraft);
 
 /** Enter accepts, also on a switch that a click left the focus on; Space switches. */
-function isAccepting({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
+function isAcceptKey({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
   if (key !== "Enter" || ctrlKey || metaKey || altKey || !(target instanceof Element)) return false;
   return target.matches("[aria-pressed=true], [role=radio], [role=slider], input, select");
 }
 
 function Hint() {
-  const selected = useDesk((desk) => desk.selection.size);
+  const selected = useWorkspace((workspace) => workspace.selection.size);
   return (
-    <p className={css.hint}>{selected ? "Choose what happens to them." : "Select hulls in the view, then choose."}</p>
+    <p className={css.hint}>{selected ? "Choose an action." : "Select hulls in the view, then choose an action."}</p>
   );
 }
 
 function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
-  const selected = useDesk((desk) => desk.selection.size);
-  const sending = useDrafting((state) => state.sending);
-  const isReview = useDesk((desk) => desk.stage === "review");
+  const selected = useWorkspace((workspace) => workspace.selection.size);
+  const sending = useDraftStatus((state) => state.sending);
+  const isReview = useWorkspace((workspace) => workspace.stage === "review");
   const lacking = missingArgument(draft, form);
   return (
     <form
@@ -78,13 +80,13 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
         Each connected part separately
       </CheckBox>
       {form.makes && (
-        <Labelled name="Label of what is made" inline>
-          <MadeLabel value={draft.label} onChange={(label) => changeDraft({ label })} />
-        </Labelled>
+        <Field name="Label of new hulls" inline>
+          <LabelSelect value={draft.label} onChange={(label) => changeDraft({ label })} />
+        </Field>
       )}
       {!isReview && <RulePlace draft={draft} form={form} />}
       <div className={css.ending}>
-        <PreviewNote lacking={lacking ? `Still needed: ${lacking.wants}.` : null} />
+        <PreviewNote lacking={lacking ? `Missing: ${lacking.wants}.` : null} />
         <div className={css.buttons}>
           <Button
             type="submit"
@@ -96,11 +98,131 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           >
             {isReview ? "Keep this edit" : draft.editing === null ? "Add step" : `Keep as step ${draft.editing + 1}`}
           </Button>
-          <Button onClick={() => void dropDraft().catch(complainedOf)} keys="Esc" tip="Put the action down">
+          <Button onClick={() => void dropDraft().catch(reportError)} keys="Esc" tip="Cancel the action">
             Cancel
           </Button>
         </div>
       </div>
     </form>
+  );
+}
+
+/** The actions of the language, each with its key. */
+function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; action: string | null }) {
+  return (
+    <div className={css.actions} role="group" aria-label="Action">
+      {forms.map(({ name, summary }) => {
+        const Icon = actionIcon(name);
+        return (
+          <Tip key={name} text={summary} keys={ACTION_KEYS[name]}>
+            <button
+              type="button"
+              className={css.action}
+              aria-pressed={action === name}
+              onClick={() => runInTurn(() => startDraft(name))}
+            >
+              <Icon size={17} aria-hidden />
+              {name}
+              <kbd aria-hidden>{(ACTION_KEYS[name] ?? "").replace("Shift+", "⇧")}</kbd>
+            </button>
+          </Tip>
+        );
+      })}
+    </div>
+  );
+}
+
+/** What the action in hand would do, in words, or why it cannot be done. */
+function PreviewNote({ lacking }: { lacking: string | null }) {
+  const selected = useWorkspace((workspace) => workspace.selection.size);
+  const header = usePreview((state) => state.preview?.header ?? null);
+  const problem = useDraftStatus((state) => state.problem);
+  if (lacking) return <Note>{lacking}</Note>;
+  if (!selected) return <Note>Nothing is selected: click the hulls in the view.</Note>;
+  if (problem) {
+    return (
+      <Note mood="bad">
+        {problem.message} {problem.remedy}
+      </Note>
+    );
+  }
+  if (!header) return <Note>{selected === 1 ? "1 hull" : `${selected} hulls`} selected</Note>;
+  const wrong = header.findings.filter((finding) => finding.severity === "error");
+  return (
+    <Note mood={wrong.length ? "warn" : "plain"}>
+      <strong>{previewText(selected, header)}</strong>
+      {header.note && <p>{header.note}</p>}
+      {wrong.map((finding, k) => (
+        <p key={k}>
+          {finding.hull && `${finding.hull}: `}
+          {finding.text}
+        </p>
+      ))}
+    </Note>
+  );
+}
+
+/** Which rule of the family the action in hand shows: one that other assets show, or a new one. */
+function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
+  const rules = useProject((state) => state.project.rules);
+  if (!rules.length) return null;
+  return (
+    <>
+      <Field name="Rule" inline>
+        <select
+          className={css.input}
+          aria-label="Rule that it demonstrates"
+          value={draft.editing ?? "new"}
+          onChange={(event) =>
+            changeDraft({ editing: event.target.value === "new" ? null : Number(event.target.value) })
+          }
+        >
+          {rules.map((rule, place) => (
+            <option key={rule.rule} value={place}>
+              {rule.rule}: {rule.action}
+            </option>
+          ))}
+          <option value="new">a new one</option>
+        </select>
+      </Field>
+      {draft.editing !== null && <Differs place={draft.editing} text={draftText(draft, form.arguments)} />}
+    </>
+  );
+}
+
+/** A rule does the same everywhere: warns where it would not. */
+function Differs({ place, text }: { place: number; text: string }) {
+  const asset = useWorkspace((workspace) => workspace.asset);
+  const rule = useProject((state) => state.project.rules[place]);
+  const others = rule ? [...rule.shown, ...rule.nothing].filter((other) => other !== asset) : [];
+  if (!rule || rule.action === text || !others.length) return null;
+  return (
+    <Note mood="warn">
+      A rule does the same on every asset. On {listText(others.map(shortName), 2)} this rule is {rule.action}.
+      <div className={css.buttons}>
+        <Button onClick={() => changeDraft({ editing: null })}>Make this a new rule</Button>
+        <Button onClick={() => void changeActionOn(others, place, text)}>Change it there too</Button>
+      </div>
+    </Note>
+  );
+}
+
+/** The label of what an action makes: that of the hulls it is made of, or another one. */
+function LabelSelect({ value, onChange }: { value: string; onChange: (value: string) => void }) {
+  const vocabulary = useProject((state) => state.project.vocabulary);
+  return (
+    <select
+      className={css.input}
+      aria-label="Label of new hulls"
+      value={value}
+      onChange={(event) => onChange(event.target.value)}
+    >
+      <option value="">same as its source</option>
+      {vocabulary.map(({ name }) => (
+        <option key={name} value={name}>
+          {name}
+        </option>
+      ))}
+    </select>
   );
 }

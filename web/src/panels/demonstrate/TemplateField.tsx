@@ -1,10 +1,10 @@
 // The project's templates, one of which is taken; more are uploaded by choosing or dropping files.
 import { FileBox, Upload } from "lucide-react";
 import { type DragEvent, useRef, useState } from "react";
-import { inTurn } from "../../commands/turns";
+import { runInTurn } from "../../commands/queue";
 import { api } from "../../server/api";
 import { useProject } from "../../store/project";
-import { complainedOf } from "../../store/toasts";
+import { reportError } from "../../store/toasts";
 import { Button } from "../../ui/Button";
 import css from "./demonstrate.module.css";
 
@@ -16,14 +16,14 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
   const all = value && !templates.includes(value) ? [...templates, value] : templates;
   const take = async (files: readonly File[]) => {
     setSending(true);
-    const name = await uploaded(files);
+    const name = await uploadAll(files);
     setSending(false);
     if (name !== null) onChange(name);
   };
   // the list is emptied while its files are on their way
   const receive = (list: FileList) => {
     const files = [...list];
-    inTurn(() => take(files));
+    runInTurn(() => take(files));
   };
   const drag = (is: boolean) => (event: DragEvent) => {
     event.preventDefault();
@@ -81,14 +81,14 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
 }
 
 /** Uploads files one by one; the name of the first that was taken. */
-async function uploaded(files: readonly File[]): Promise<string | null> {
+async function uploadAll(files: readonly File[]): Promise<string | null> {
   let first: string | null = null;
   for (const file of files) {
     try {
       const { names } = await api.uploadTemplate(file);
       first ??= names[0] ?? null;
     } catch (error) {
-      complainedOf(error);
+      reportError(error);
     }
   }
   return first;

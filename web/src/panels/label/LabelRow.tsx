@@ -1,17 +1,17 @@
 // One label: its colour, its key, its name, how often it is used, and what can be done with it.
 import { Ellipsis } from "lucide-react";
 import { type KeyboardEvent, useState } from "react";
-import { useDesk } from "../../store/desk";
 import { perform } from "../../store/edits";
-import { selectLabel } from "../../store/labelling";
-import { applyLabel } from "../../store/queue";
-import { IconButton } from "../../ui/Button";
+import { selectLabel } from "../../store/labels";
+import { useProject } from "../../store/project";
+import { applyLabel } from "../../store/unsureHulls";
+import { countText } from "../../store/words";
+import { setFilters, setHighlight, useWorkspace } from "../../store/workspace";
+import { Button, IconButton } from "../../ui/Button";
 import { Menu } from "../../ui/Menu";
-import { Swatch } from "../../ui/Section";
+import { Note, Swatch } from "../../ui/Section";
 import type { VocabularyLabel } from "../../wire";
 import css from "./label.module.css";
-import { Rename } from "./Rename";
-import { InUse } from "./InUse";
 
 interface LabelRowProps {
   label: VocabularyLabel;
@@ -24,10 +24,10 @@ interface LabelRowProps {
 export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
   const { name, color, used } = label;
   const [state, setState] = useState<"shown" | "renamed" | "asked">("shown");
-  const armed = useDesk((desk) => desk.brush === name);
-  const remove = () => (used ? setState("asked") : removed(names, name));
+  const armed = useWorkspace((workspace) => workspace.brush === name);
+  const remove = () => (used ? setState("asked") : removeLabel(names, name));
   const onKeyDown = (event: KeyboardEvent) => {
-    const act = keyed(event, place, move, () => setState("renamed"), remove);
+    const act = keyAction(event, place, move, () => setState("renamed"), remove);
     if (!act) return;
     event.preventDefault();
     act();
@@ -67,12 +67,12 @@ export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
   );
 }
 
-function removed(names: readonly string[], name: string): void {
+function removeLabel(names: readonly string[], name: string): void {
   void perform({ kind: "vocabulary", labels: names.filter((other) => other !== name) });
 }
 
 /** What a key does to a row that has the focus. */
-function keyed(
+function keyAction(
   event: KeyboardEvent,
   place: number,
   move: (to: number) => void,
@@ -84,4 +84,87 @@ function keyed(
   if (event.altKey && event.key === "ArrowUp") return () => move(place - 1);
   if (event.altKey && event.key === "ArrowDown") return () => move(place + 1);
   return null;
+}
+
+/** A label while its name is changed, in its place in the list. */
+function Rename({ label: { name, color }, onDone }: { label: VocabularyLabel; onDone: () => void }) {
+  const [text, setText] = useState(name);
+  const finish = () => {
+    const now = text.trim();
+    if (now && now !== name) void perform({ kind: "rename-label", old: name, new: now });
+    onDone();
+  };
+  return (
+    <li className={css.row}>
+      <span className={css.label}>
+        <kbd data-empty />
+        <Swatch color={color} />
+        <input
+          autoFocus
+          className={css.rename}
+          aria-label={`New name of ${name}`}
+          value={text}
+          onFocus={(event) => event.target.select()}
+          onChange={(event) => setText(event.target.value)}
+          onBlur={finish}
+          onKeyDown={(event) => {
+            if (event.key === "Enter") finish();
+            if (event.key === "Escape") onDone();
+            if (event.key === "Enter" || event.key === "Escape") event.preventDefault();
+          }}
+        />
+      </span>
+    </li>
+  );
+}
+
+/** Why a label cannot be removed, and a way to the hulls that have it. */
+function InUse({
+  label: { name, used },
+  place,
+  onClose,
+}: {
+  label: VocabularyLabel;
+  place: number;
+  onClose: () => void;
+}) {
+  return (
+    <div className={css.inUse} role="status">
+      <Note mood="warn">
+        {countText(used, "hull")} {used === 1 ? "has" : "have"} it; give {used === 1 ? "it" : "them"} another label first.
+        <div className={css.buttons}>
+          <Button look="quiet" onClick={() => reveal(name, place)}>
+            Show them
+          </Button>
+          <Button
+            look="quiet"
+            onClick={() => {
+              conceal(name);
+              onClose();
+            }}
+          >
+            Close
+          </Button>
+        </div>
+      </Note>
+    </div>
+  );
+}
+
+/** Selects the hulls with a label, and points them out in the family. */
+function reveal(name: string, place: number): void {
+  const { cards } = useProject.getState();
+  const having = Object.values(cards).map(
+    ({ asset, labels }) => [asset, labels.flatMap((label, k) => (label === place ? [k] : []))] as const,
+  );
+  selectLabel(name);
+  setFilters({ search: name });
+  setHighlight({ what: name, assets: Object.fromEntries(having.filter(([, hulls]) => hulls.length)) });
+}
+
+/** The family is as it was before the label was pointed out. */
+function conceal(name: string): void {
+  const { filters, highlight } = useWorkspace.getState();
+  if (filters.search === name) setFilters({ search: "" });
+  if (highlight?.what === name) setHighlight(null);
 }

@@ -1,26 +1,27 @@
 // The labels that hulls can have: clicked to label or to paint, renamed, put in order, added and removed.
+import { Plus } from "lucide-react";
+import { type FormEvent, useState } from "react";
 import { perform } from "../../store/edits";
-import { useDesk } from "../../store/desk";
-import { selectLabel } from "../../store/labelling";
+import { addLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
-import { applyLabel } from "../../store/queue";
-import { moved } from "../../store/vocabulary";
+import { applyLabel, labelProgress } from "../../store/unsureHulls";
+import { countText } from "../../store/words";
+import { useWorkspace } from "../../store/workspace";
+import { IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
 import { useReorder } from "../../ui/useReorder";
-import { AddLabels } from "./AddLabels";
 import css from "./label.module.css";
 import { LabelRow } from "./LabelRow";
-import { Progress } from "./Progress";
 
 export function Vocabulary() {
   const vocabulary = useProject((state) => state.project.vocabulary);
   const names = vocabulary.map((label) => label.name);
-  const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moved(names, from, to) });
+  const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moveItem(names, from, to) });
   const reorder = useReorder("y", move);
   return (
     <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
       {vocabulary.length === 0 && (
-        <Note>What are the parts called? Type their names: the same ones on every asset.</Note>
+        <Note>Type the names of the parts. They are the same on every asset.</Note>
       )}
       <ul className={css.labels}>
         {vocabulary.map((label, place) => (
@@ -42,14 +43,14 @@ export function Vocabulary() {
 }
 
 function Hint() {
-  const some = useDesk((desk) => desk.selection.size > 0);
+  const some = useWorkspace((workspace) => workspace.selection.size > 0);
   return (
     <span className={css.hint}>{some ? "a click labels the selection" : "a click paints, Shift+click selects"}</span>
   );
 }
 
 function NoLabel() {
-  const armed = useDesk((desk) => desk.brush === "");
+  const armed = useWorkspace((workspace) => workspace.brush === "");
   return (
     <li className={css.row} data-armed={armed || undefined}>
       <button
@@ -63,5 +64,61 @@ function NoLabel() {
         <em className={css.name}>No label</em>
       </button>
     </li>
+  );
+}
+
+/** New labels, several at once between commas. */
+function AddLabels({ names }: { names: readonly string[] }) {
+  const [text, setText] = useState("");
+  const labels = addLabels(names, text);
+  const known = text.trim() !== "" && labels.length === names.length;
+  const add = async (event: FormEvent) => {
+    event.preventDefault();
+    if (labels.length > names.length && (await perform({ kind: "vocabulary", labels }))) setText("");
+  };
+  return (
+    <form className={css.add} onSubmit={(event) => void add(event)}>
+      <input
+        className={css.field}
+        aria-label="New labels, separated by commas"
+        placeholder={names.length ? "Add labels…" : "door, drawer, handle, frame"}
+        value={text}
+        onChange={(event) => setText(event.target.value)}
+        onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
+      />
+      <IconButton icon={Plus} name="Add labels" type="submit" disabled={labels.length === names.length} />
+      {known && (
+        <p role="status" className={css.known}>
+          This label is in the list already.
+        </p>
+      )}
+    </form>
+  );
+}
+
+/** How much of the family is labelled. */
+function Progress() {
+  const cards = useProject((state) => state.cards);
+  const { hulls, labelled } = labelProgress(cards);
+  if (!hulls) return null;
+  const text =
+    labelled < hulls
+      ? `${labelled.toLocaleString("en-GB")} of ${countText(hulls, "hull")} labelled`
+      : "Every hull is labelled";
+  return (
+    <div className={css.progress}>
+      <div
+        className={css.bar}
+        role="progressbar"
+        aria-label="Labelled hulls"
+        aria-valuemin={0}
+        aria-valuemax={hulls}
+        aria-valuenow={labelled}
+        aria-valuetext={text}
+      >
+        <span style={{ width: `${(100 * labelled) / hulls}%` }} />
+      </div>
+      {text}
+    </div>
   );
 }

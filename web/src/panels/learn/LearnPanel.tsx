@@ -1,12 +1,30 @@
 // The learn stage: how learning stands, what is asked, and the program rule by rule.
-import { useProject } from "../../store/project";
-import { Hint } from "./Hint";
-import { LearnHead } from "./LearnHead";
-import { NoProgram } from "./NoProgram";
-import { ProgramSection } from "./ProgramSection";
-import { QuestionCard } from "./QuestionCard";
+import {
+  ArrowRight,
+  Check,
+  CircleAlert,
+  CircleHelp,
+  CornerUpLeft,
+  Crosshair,
+  GraduationCap,
+  LoaderCircle,
+  MessageCircleReply,
+  RotateCw,
+  Square,
+  X,
+} from "lucide-react";
+import { demonstrate, learnNow, orientBy, showNearest, stopLearning, withdraw } from "../../commands/learn";
+import { summarizeLesson, type Summary } from "../../store/lessons";
+import { countReadable, useProject } from "../../store/project";
+import { countText, listText, shortName } from "../../store/words";
+import { Button, IconButton } from "../../ui/Button";
+import { Section } from "../../ui/Section";
+import type { HintView, LessonView, NearestView, Said } from "../../wire";
+import css from "./learn.module.css";
+import { ProgramSection } from "./Program";
+import { QuestionCard } from "./Question";
 import { Repairs } from "./Repairs";
-import { SaidList } from "./SaidList";
+import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
   const lesson = useProject((state) => state.lesson);
@@ -17,8 +35,173 @@ export function LearnPanel() {
       {lesson && lesson.repairs.length > 0 && <Repairs repairs={lesson.repairs} />}
       {lesson && <NoProgram lesson={lesson} />}
       <ProgramSection />
-      {lesson?.hint && <Hint hint={lesson.hint} />}
-      <SaidList />
+      {lesson?.hint && <NextDemonstration hint={lesson.hint} />}
+      <AnswerList />
     </>
+  );
+}
+
+/** The button that learns, and how learning stands in words. */
+function LearnHead() {
+  const learning = useProject((state) => state.learning);
+  const wanted = useProject(({ lesson }) => !lesson || lesson.status === "timeout" || lesson.status === "error");
+  const taught = useProject((state) => state.project.rules.length > 0);
+  return (
+    <section className={css.head} aria-label="Learning">
+      <LearnState />
+      {learning ? (
+        <Button icon={Square} onClick={() => void stopLearning()}>
+          Stop
+        </Button>
+      ) : (
+        <Button
+          look={wanted ? "primary" : "plain"}
+          icon={GraduationCap}
+          disabled={!taught}
+          tip={taught ? "Learn the program from your demonstrations and answers" : "Demonstrate the steps on an asset first"}
+          keys="Ctrl+Enter"
+          onClick={() => void learnNow()}
+        >
+          Learn
+        </Button>
+      )}
+    </section>
+  );
+}
+
+function LearnState() {
+  const lesson = useProject((state) => state.lesson);
+  const learning = useProject((state) => state.learning);
+  const assets = useProject((state) => countReadable(state.cards));
+  const said = summarizeLesson(lesson, assets);
+  const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
+  return (
+    <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">
+      <Icon size={18} aria-hidden className={learning ? css.spinning : undefined} />
+      <div>
+        <strong>{learning ? "Learning…" : said.title}</strong>
+        {said.more && <p>{learning ? "The program below is the previous one." : said.more}</p>}
+      </div>
+    </div>
+  );
+}
+
+const MOOD_ICONS: Record<Summary["mood"], typeof Check> = {
+  plain: GraduationCap,
+  good: Check,
+  warn: CircleHelp,
+  bad: CircleAlert,
+};
+
+/** Which asset is best demonstrated next. */
+function NextDemonstration({ hint }: { hint: HintView }) {
+  return (
+    <Section title="Next demonstration">
+      <div className={css.split}>
+        <p>
+          Demonstrate next: <strong title={hint.asset}>{shortName(hint.asset)}</strong>
+          <span className={css.dim}> ({hint.why})</span>
+        </p>
+        <Button icon={ArrowRight} aria-label={`Demonstrate ${hint.asset}`} onClick={() => demonstrate(hint.asset)}>
+          Go
+        </Button>
+      </div>
+    </Section>
+  );
+}
+
+const ANSWER_ICONS = { answer: MessageCircleReply, confirmed: Check, rejected: X } as const;
+const KINDS = { answer: "Answer", confirmed: "Repair accepted", rejected: "Repair rejected" } as const;
+
+/** What was said so far: answers and repairs, each of which can be taken back. */
+function AnswerList() {
+  const said = useProject((state) => state.project.said);
+  const stale = useProject((state) => state.lesson?.stale);
+  if (!said.length) return null;
+  return (
+    <Section title="Your answers" aside={countText(said.length, "answer")}>
+      <ul className={css.said}>
+        {said.map((line) => (
+          <AnswerRow key={`${line.kind} ${line.id}`} line={line} stale={stale?.includes(line.id) ?? false} />
+        ))}
+      </ul>
+    </Section>
+  );
+}
+
+function AnswerRow({ line, stale }: { line: Said; stale: boolean }) {
+  const Icon = ANSWER_ICONS[line.kind];
+  return (
+    <li className={css.saidRow}>
+      <Icon size={14} aria-label={KINDS[line.kind]} />
+      <span title={line.asset}>
+        {line.text}
+        {stale && <em className={css.stale}> no longer fits the demonstrations and is ignored</em>}
+      </span>
+      <IconButton icon={CornerUpLeft} name={`Withdraw: ${line.text}`} onClick={() => void withdraw(line.id)} />
+    </li>
+  );
+}
+
+/** Why there is no program, what came nearest, and what would help. */
+function NoProgram({ lesson }: { lesson: LessonView }) {
+  const { nearest, advice, suggested_orientation: orient } = lesson;
+  if (!nearest && !advice.length && !orient) return null;
+  return (
+    <Section title="What would help">
+      {nearest && <Nearest nearest={nearest} />}
+      {advice.length > 0 && (
+        <ul className={css.advice}>
+          {advice.map((line) => (
+            <li key={line}>{line}</li>
+          ))}
+        </ul>
+      )}
+      {orient && (
+        <div className={css.split}>
+          <p>
+            With another orientation every rule can be expressed: <code className={css.code}>{orient}</code>
+          </p>
+          <Button icon={RotateCw} onClick={() => void orientBy(orient)}>
+            Use it
+          </Button>
+        </div>
+      )}
+    </Section>
+  );
+}
+
+function Nearest({ nearest }: { nearest: NearestView }) {
+  const { rule, extractor, asset, extra, missing } = nearest;
+  return (
+    <div className={css.nearest}>
+      <p>
+        Nearest for rule {rule}: <RuleText text={extractor} />
+      </p>
+      <p>
+        On <span title={asset}>{shortName(asset)}</span> it
+      </p>
+      <Difference nearest={nearest} names={extra} what="selects too much:" />
+      <Difference nearest={nearest} names={missing} what="misses" />
+    </div>
+  );
+}
+
+function Difference({ nearest, names, what }: { nearest: NearestView; names: readonly string[]; what: string }) {
+  if (!names.length) return null;
+  return (
+    <div className={css.split}>
+      <p>
+        {what} {countText(names.length, "hull")}: <span title={names.join(", ")}>{listText(names)}</span>
+      </p>
+      <Button
+        look="quiet"
+        icon={Crosshair}
+        aria-label={`Show what it ${what} on ${nearest.asset}`}
+        onClick={() => showNearest(nearest, names)}
+      >
+        Show
+      </Button>
+    </div>
   );
 }

@@ -1,7 +1,7 @@
 // The program as a text to edit, checked while one types.
 import { Check } from "lucide-react";
 import { type KeyboardEvent, useEffect, useState } from "react";
-import { writeProgram } from "../../commands/learning";
+import { writeProgram } from "../../commands/learn";
 import { api } from "../../server/api";
 import { ServerProblem } from "../../server/http";
 import { useProject } from "../../store/project";
@@ -29,7 +29,7 @@ export function ProgramEditor({ onClose }: { onClose: () => void }) {
           Line {mark.line}, column {mark.column}: {mark.message}
         </Note>
       )}
-      {elsewhere && <Note mood="warn">It was changed elsewhere meanwhile: copy your text, cancel, and edit again.</Note>}
+      {elsewhere && <Note mood="warn">Another window changed the program: copy your text, cancel, and edit again.</Note>}
       <div className={css.row}>
         <Button
           look="primary"

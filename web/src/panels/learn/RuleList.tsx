@@ -1,9 +1,17 @@
 // The accepted program rule by rule; until there is one, the rules that the lesson has so far.
-import { learnedDiffers } from "../../store/lessons";
-import { useProject } from "../../store/project";
-import type { RuleView } from "../../wire";
+import { ChevronRight } from "lucide-react";
+import { memo, useState } from "react";
+import { chooseReading } from "../../commands/learn";
+import { highlightOfRule } from "../../store/highlight";
+import { coverageOfRule, coverageText } from "../../store/lessons";
+import { countReadable, useProject } from "../../store/project";
+import { extractorOf, learnedDiffers, readingsOf } from "../../store/readings";
+import { countText, shortName } from "../../store/words";
+import { setHighlight, visit } from "../../store/workspace";
+import { Button } from "../../ui/Button";
+import type { ReadingView, RuleView } from "../../wire";
 import css from "./learn.module.css";
-import { RuleRow } from "./RuleRow";
+import { RuleText, useExtractorHighlight } from "./RuleText";
 
 const NONE: readonly RuleView[] = [];
 
@@ -20,7 +28,7 @@ export function RuleList() {
     );
   }
   if (program.error) return null;
-  if (!sofar.length) return <p className={css.dim}>It stands here as soon as a step is shown on an asset.</p>;
+  if (!sofar.length) return <p className={css.dim}>The program appears here after the first demonstrated step.</p>;
   return (
     <>
       <p className={css.orient}>So far:</p>
@@ -35,7 +43,7 @@ function Learned() {
   if (!rules.length) return null;
   return (
     <details className={css.learned}>
-      <summary>What was learned in place of it</summary>
+      <summary>The learned program</summary>
       <Rows rules={rules} accepted={false} learned />
     </details>
   );
@@ -48,5 +56,124 @@ function Rows({ rules, accepted, learned }: { rules: readonly RuleView[]; accept
         <RuleRow key={rule.rule} rule={rule} accepted={accepted} learned={learned} />
       ))}
     </ol>
+  );
+}
+
+interface RuleRowProps {
+  rule: RuleView;
+  /** Whether it is in the accepted program, of which is known what it reaches. */
+  accepted: boolean;
+  /** Whether it was learned, so that there are readings of it. */
+  learned: boolean;
+}
+
+/** A rule in its own text with its sentence; what it selects is highlighted on all pictures while one points at it. */
+const RuleRow = memo(function RuleRow({ rule, accepted, learned }: RuleRowProps) {
+  const [open, setOpen] = useState(false);
+  const point = useRuleHighlight(rule, accepted);
+  return (
+    <li className={css.rule}>
+      <button
+        type="button"
+        className={css.ruleButton}
+        aria-expanded={learned ? open : undefined}
+        onClick={() => (learned ? setOpen(!open) : point.on())}
+        onPointerEnter={point.on}
+        onPointerLeave={point.off}
+        onFocus={point.on}
+        onBlur={point.off}
+      >
+        <span className={css.number}>{rule.rule}</span>
+        <span className={css.ruleBody}>
+          <RuleText text={rule.text} />
+          <span className={css.sentence}>{rule.sentence}</span>
+          <Facts rule={rule} accepted={accepted} learned={learned} />
+        </span>
+        {learned && <ChevronRight size={14} aria-hidden className={css.chevron} />}
+      </button>
+      {open && learned && <Readings rule={rule} />}
+    </li>
+  );
+});
+
+/** Lights up what a rule selects: as the program reaches it, or, where that is not known, as the server works it out. */
+function useRuleHighlight({ rule, text }: RuleView, accepted: boolean): { on: () => void; off: () => void } {
+  const asked = useExtractorHighlight(extractorOf(text), rule);
+  const on = () => {
+    const { reach } = useProject.getState();
+    if (accepted && coverageOfRule(reach, rule)) setHighlight(highlightOfRule(reach, rule));
+    else asked.on();
+  };
+  return { on, off: asked.off };
+}
+
+/** How much the rule selects in the family, and how many readings of it there are. */
+function Facts({ rule, accepted, learned }: RuleRowProps) {
+  const selects = useProject(({ reach, cards }) => {
+    const found = accepted ? coverageOfRule(reach, rule.rule) : null;
+    return found && coverageText(found, countReadable(cards));
+  });
+  const readings = useProject((state) => (learned ? readingsOf(state.lesson, rule).length : 0));
+  const fit = readings > 1 ? `${countText(readings, "reading")} fit` : readings === 1 ? "the only reading" : null;
+  const facts = [selects, fit].filter((fact) => fact !== null).join(" · ");
+  return facts ? <span className={css.facts}>{facts}</span> : null;
+}
+
+const MOST = 12;
+
+/** The readings of a rule, side by side: all do what was shown, and differ elsewhere. */
+function Readings({ rule }: { rule: RuleView }) {
+  const lesson = useProject((state) => state.lesson);
+  const readings = readingsOf(lesson, rule);
+  const own = extractorOf(rule.text);
+  if (!readings.length) return <p className={css.noReadings}>Learning found no other reading of this rule.</p>;
+  return (
+    <ul className={css.readings} aria-label={`Readings of rule ${rule.rule}`}>
+      {readings.slice(0, MOST).map((reading) => (
+        <ReadingRow key={reading.id} reading={reading} own={reading.extractor === own} />
+      ))}
+      {readings.length > MOST && <li className={css.dim}>and {readings.length - MOST} less probable readings</li>}
+    </ul>
+  );
+}
+
+/** One reading of a rule: what it says, how believable it is, and where it does something else. */
+function ReadingRow({ reading, own }: { reading: ReadingView; own: boolean }) {
+  const { rule, extractor, sentence, belief, size, differs_on: differs } = reading;
+  const point = useExtractorHighlight(extractor, rule);
+  const percent = Math.round(100 * belief);
+  return (
+    <li className={css.reading} data-own={own} onPointerEnter={point.on} onPointerLeave={point.off} onFocus={point.on} onBlur={point.off}>
+      <RuleText text={extractor} />
+      <span className={css.sentence}>{sentence}</span>
+      <span className={css.belief} title="Its probability and its number of parts: shorter readings are more probable">
+        <span className={css.bar} aria-hidden>
+          <span style={{ width: `${percent}%` }} />
+        </span>
+        {percent < 1 ? "< 1" : percent} % · {countText(size, "part")}
+      </span>
+      {own ? <span className={css.facts}>in the program</span> : <Elsewhere assets={differs} />}
+      {!own && differs.length > 0 && (
+        <Button tip="Answers the question on the assets where this reading differs from the others" onClick={() => void chooseReading(reading)}>
+          Choose this reading
+        </Button>
+      )}
+    </li>
+  );
+}
+
+/** The assets on which a reading selects something else than the program's. */
+function Elsewhere({ assets }: { assets: readonly string[] }) {
+  if (!assets.length) return <span className={css.facts}>selects the same on all your assets</span>;
+  return (
+    <span className={css.facts}>
+      differs on{" "}
+      {assets.slice(0, 4).map((asset) => (
+        <button key={asset} type="button" className={css.link} title={`Open ${asset}`} onClick={() => visit(asset, { kind: "source" })}>
+          {shortName(asset)}
+        </button>
+      ))}
+      {assets.length > 4 && <span>and {assets.length - 4} more</span>}
+    </span>
   );
 }

@@ -1,35 +1,38 @@
 // The result of the open asset: verdict, numbers, findings, what each rule did, and edits by hand.
-import { useDesk } from "../../store/desk";
+import { Check, Flag, RotateCw, SkipForward, Undo2 } from "lucide-react";
+import { useState } from "react";
+import { accept, flag, nextToReview, noteFlag, withdrawReview } from "../../commands/review";
+import { applyTo, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
+import { staleText } from "../../store/reviews";
+import { errorParts, shortName } from "../../store/words";
+import { useWorkspace } from "../../store/workspace";
+import { Button } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
-import { Checks } from "./checks/Checks";
+import type { Card } from "../../wire";
+import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
-import { Findings } from "./Findings";
-import { NumbersTable } from "./NumbersTable";
-import { Remarks } from "./Remarks";
+import { Findings, NumbersTable, Trace, useResult, useResultKind } from "./ResultDetails";
 import css from "./review.module.css";
-import { Trace } from "./Trace";
-import { useOf, useResult } from "./useResult";
-import { VerdictSection } from "./VerdictSection";
 
 export function AssetReview() {
-  const asset = useDesk((state) => state.asset);
+  const asset = useWorkspace((state) => state.asset);
   const there = useProject((state) => asset !== null && asset in state.cards);
   if (asset === null || !there) return <p className={css.empty}>Open an asset in the family on the left.</p>;
   return <OneAsset key={asset} asset={asset} />;
 }
 
 function OneAsset({ asset }: { asset: string }) {
-  const of = useOf(asset);
+  const of = useResultKind(asset);
   const result = useResult(asset, of);
-  const told = useProject((state) => state.cards[asset]?.error != null);
-  const correcting = useDesk((state) => state.draft !== null);
+  const hasError = useProject((state) => state.cards[asset]?.error != null);
+  const correcting = useWorkspace((state) => state.draft !== null);
   return (
     <>
       <VerdictSection asset={asset} />
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
-      {result.kind === "problem" && !told && (
+      {result.kind === "problem" && !hasError && (
         <Section title="Result">
           <Note mood="bad">
             {result.problem.message}
@@ -47,5 +50,114 @@ function OneAsset({ asset }: { asset: string }) {
       )}
       {!correcting && <Corrections asset={asset} />}
     </>
+  );
+}
+
+/** Accept or flag the output of an asset, with a note. */
+function VerdictSection({ asset }: { asset: string }) {
+  const card = useProject((state) => state.cards[asset]);
+  const some = useProject((state) => Object.values(state.cards).some(({ output }) => output !== "none"));
+  if (!card) return null;
+  const written = card.output === "edited" || card.output === "unchanged";
+  const stale = card.stale.length > 0;
+  return (
+    <Section title={shortName(asset)} aside={<ReviewState card={card} />}>
+      <div className={css.row}>
+        {written && card.review !== "accepted" && (
+          <Button
+            look={stale ? "plain" : "primary"}
+            icon={Check}
+            disabled={stale}
+            tip={stale ? "It is not up to date: apply first" : "Accept and go to the next result to review"}
+            keys="Y"
+            onClick={() => void accept(asset)}
+          >
+            Accept
+          </Button>
+        )}
+        {written && card.review !== "flagged" && (
+          <Button icon={Flag} tip="Flag it for another look" keys="F" onClick={() => void flag(asset, card.note)}>
+            Flag
+          </Button>
+        )}
+        {card.review && (
+          <Button icon={Undo2} onClick={() => void withdrawReview(asset)}>
+            {card.review === "accepted" ? "Undo accept" : "Remove flag"}
+          </Button>
+        )}
+        {some && (
+          <Button look="quiet" icon={SkipForward} tip="Next failed, flagged or unreviewed result" keys="N" onClick={nextToReview}>
+            Next
+          </Button>
+        )}
+      </div>
+      {card.review === "flagged" && <NoteField key={card.note ?? ""} card={card} />}
+    </Section>
+  );
+}
+
+function ReviewState({ card }: { card: Card }) {
+  if (card.review === "accepted") return <span className={css.good}>✓ accepted</span>;
+  if (card.review === "flagged") return <span className={css.warn}>⚑ flagged</span>;
+  if (card.output === "failed") return <span className={css.bad}>✗ failed</span>;
+  return <>{card.output === "none" ? "not applied yet" : "not reviewed"}</>;
+}
+
+function NoteField({ card }: { card: Card }) {
+  const [note, setNote] = useState(card.note ?? "");
+  const keep = () => {
+    if (note.trim() !== (card.note ?? "")) void noteFlag(card.asset, note.trim() || null);
+  };
+  return (
+    <input
+      className={css.field}
+      aria-label="Why it is flagged"
+      placeholder="What is wrong with it? (Enter keeps the note)"
+      value={note}
+      onChange={(event) => setNote(event.target.value)}
+      onBlur={keep}
+      onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
+    />
+  );
+}
+
+/** What must be known about an output: why it failed, that it is not up to date, what was left out. */
+function Remarks({ asset }: { asset: string }) {
+  const card = useProject((state) => state.cards[asset]);
+  if (!card || (!card.error && !card.stale.length && !card.flags.length)) return null;
+  return (
+    <div className={css.remarks}>
+      {card.error && <Failure error={card.error} asset={asset} />}
+      {card.stale.length > 0 && <Stale asset={asset} reasons={card.stale} />}
+      {card.flags.map((flag) => (
+        <Note key={flag} mood="warn">
+          ⚑ {flag}
+        </Note>
+      ))}
+    </div>
+  );
+}
+
+function Failure({ error, asset }: { error: string; asset: string }) {
+  const { message, remedy } = errorParts(error, asset);
+  return (
+    <Note mood="bad">
+      {message}
+      {remedy && <p className={css.remedy}>{remedy}</p>}
+    </Note>
+  );
+}
+
+function Stale({ asset, reasons }: { asset: string; reasons: readonly string[] }) {
+  const blocked = useProject(whyNotApply);
+  return (
+    <Note mood="warn">
+      <div className={css.split}>
+        <span>Not up to date: {staleText(reasons)}.</span>
+        <Button icon={RotateCw} disabled={blocked !== null} onClick={() => void applyTo([asset])}>
+          Apply here
+        </Button>
+      </div>
+    </Note>
   );
 }

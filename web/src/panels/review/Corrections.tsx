@@ -1,29 +1,32 @@
 // Where the result is not right: edits by hand, going back to what the program makes, or demonstrating this asset.
 import { GraduationCap, Hand, RotateCcw } from "lucide-react";
-import { demonstrate } from "../../commands/learning";
-import { beginCorrection, dropCorrections } from "../../commands/reviewing";
-import { useDesk } from "../../store/desk";
+import { useEffect, useState } from "react";
+import { demonstrate } from "../../commands/learn";
+import { dropCorrections, showPresent, startCorrection } from "../../commands/review";
+import { DraftForm } from "../demonstrate/DraftForm";
+import { followPreview } from "../../store/preview";
 import { useProject } from "../../store/project";
-import { counted, listed } from "../../store/words";
+import { getDetails } from "../../store/scenes";
+import { countText, listText } from "../../store/words";
+import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import { CorrectForm } from "./CorrectForm";
+import type { CorrectionView } from "../../wire";
 import css from "./review.module.css";
-import { useCorrections } from "./useCorrections";
 
 export function Corrections({ asset }: { asset: string }) {
   const corrections = useCorrections(asset);
-  const correcting = useDesk((state) => state.draft !== null);
+  const correcting = useWorkspace((state) => state.draft !== null);
   const program = useProject((state) => state.program.text.trim() !== "");
   const runs = useProject((state) => program && !state.reach[asset]?.error);
   if (!program && !corrections.length) return null;
   return (
-    <Section title="Where the program is wrong" aside={corrections.length ? counted(corrections.length, "edit by hand", "edits by hand") : null}>
+    <Section title="Where the program is wrong" aside={corrections.length ? countText(corrections.length, "edit by hand", "edits by hand") : null}>
       {corrections.length > 0 && (
         <ol className={css.corrections}>
           {corrections.map(({ select, action }, k) => (
             <li key={k} title={select.join(", ")}>
-              <code className={css.code}>{action}</code> <span className={css.dim}>{listed(select, 3)}</span>
+              <code className={css.code}>{action}</code> <span className={css.dim}>{listText(select, 3)}</span>
             </li>
           ))}
         </ol>
@@ -33,20 +36,59 @@ export function Corrections({ asset }: { asset: string }) {
       ) : (
         <div className={css.row}>
           {runs && (
-            <Button icon={Hand} tip="Mends this result alone; it is kept and done again after the program" onClick={() => beginCorrection(asset)}>
+            <Button icon={Hand} tip="Fixes only this result; the edit is repeated after the program" onClick={() => startCorrection(asset)}>
               Correct by hand
             </Button>
           )}
-          <Button icon={GraduationCap} tip="Show the steps on this asset; the program is learned again" onClick={() => demonstrate(asset)}>
-            Demonstrate this one
+          <Button icon={GraduationCap} tip="Demonstrate the steps on this asset; the program is learned again" onClick={() => demonstrate(asset)}>
+            Demonstrate this asset
           </Button>
           {corrections.length > 0 && (
             <Button look="quiet" icon={RotateCcw} onClick={() => void dropCorrections(asset)}>
-              Revert to what the program makes
+              Revert to the program's result
             </Button>
           )}
         </div>
       )}
     </Section>
   );
+}
+
+/** The action in hand, done to the result: a preview, and Enter keeps it as an edit by hand. */
+function CorrectForm({ asset }: { asset: string }) {
+  useEffect(() => {
+    // hulls are named as the program leaves them now, so that is what must be in view
+    const { showing } = useWorkspace.getState();
+    if (showing.kind !== "result" || showing.of !== "program") showPresent(asset);
+    return followPreview(true);
+  }, [asset]);
+  return (
+    <div className={css.correcting} ref={toView}>
+      <p className={css.dim}>Select hulls of the result. The edit applies to this asset only and is repeated after the program.</p>
+      <DraftForm />
+    </div>
+  );
+}
+
+function toView(form: HTMLElement | null): void {
+  form?.scrollIntoView({ block: "nearest" });
+}
+
+const NONE: readonly CorrectionView[] = [];
+
+/** The edits by hand of an asset, also where its result fails. */
+function useCorrections(asset: string): readonly CorrectionView[] {
+  const revision = useProject((state) => state.revisions[asset] ?? 0);
+  const [got, setGot] = useState<{ asset: string; corrections: readonly CorrectionView[] } | null>(null);
+  useEffect(() => {
+    let wanted = true;
+    getDetails(asset).then(
+      ({ view }) => wanted && setGot({ asset, corrections: view.corrections }),
+      () => undefined, // the viewport reports an asset that cannot be read
+    );
+    return () => {
+      wanted = false;
+    };
+  }, [asset, revision]);
+  return got?.asset === asset ? got.corrections : NONE;
 }

@@ -1,19 +1,17 @@
 // Copying outputs into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useState } from "react";
-import { exportTo } from "../../store/jobs";
+import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
-import { exportable } from "../../store/reviews";
-import { complainedOf, told } from "../../store/toasts";
-import { counted } from "../../store/words";
-import type { Job } from "../../wire";
+import { countExportable } from "../../store/reviews";
+import { notify, reportError } from "../../store/toasts";
+import { countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
-import { Choice } from "../../ui/Choice";
+import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
-import { JobLines } from "./JobLines";
-import { JobProgress } from "./JobProgress";
+import type { Job } from "../../wire";
+import { JobLines, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
-import { useJob } from "./useJob";
 
 type What = "accepted" | "all";
 
@@ -33,8 +31,8 @@ function Form() {
   const [what, setWhat] = useState<What>("accepted");
   const project = useProject((state) => state.project.folder);
   const counts = {
-    accepted: useProject((state) => exportable(Object.values(state.cards), true)),
-    all: useProject((state) => exportable(Object.values(state.cards), false)),
+    accepted: useProject((state) => countExportable(Object.values(state.cards), true)),
+    all: useProject((state) => countExportable(Object.values(state.cards), false)),
   };
   const options = [
     { value: "accepted", label: `Accepted (${counts.accepted})` },
@@ -57,7 +55,7 @@ function Form() {
       <p className={css.dim}>{why ?? `Below ${project}.`}</p>
       <span />
       <Button look="primary" icon={FolderOutput} type="submit" disabled={why !== null || !folder.trim()}>
-        Export {counted(counts[what], "asset")}
+        Export {countText(counts[what], "asset")}
       </Button>
     </form>
   );
@@ -76,7 +74,7 @@ function Outcome({ job }: { job: Job }) {
 }
 
 function Where({ folder }: { folder: string }) {
-  const copy = () => navigator.clipboard.writeText(folder).then(() => told("Path copied"), complainedOf);
+  const copy = () => navigator.clipboard.writeText(folder).then(() => notify("Path copied"), reportError);
   return (
     <div className={css.where}>
       <code>{folder}</code>

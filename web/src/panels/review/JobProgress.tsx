@@ -3,9 +3,10 @@ import { Square } from "lucide-react";
 import { useState } from "react";
 import { cancelJob } from "../../store/jobs";
 import { rateOf } from "../../store/reviews";
-import { counted } from "../../store/words";
-import type { Job } from "../../wire";
+import { countText, shortName } from "../../store/words";
+import { openAsset } from "../../store/workspace";
 import { Button } from "../../ui/Button";
+import type { Job, JobLine } from "../../wire";
 import css from "./review.module.css";
 
 export function JobProgress({ job, unit }: { job: Job; unit: string }) {
@@ -15,7 +16,7 @@ export function JobProgress({ job, unit }: { job: Job; unit: string }) {
     <div className={css.job}>
       <div className={css.split}>
         <span role="status">
-          {job.done.toLocaleString("en-GB")} of {counted(job.total, unit)}
+          {job.done.toLocaleString("en-GB")} of {countText(job.total, unit)}
           {rate !== null && <span className={css.dim}> · {rate < 10 ? rate.toFixed(1) : Math.round(rate)} a second</span>}
         </span>
         <Button icon={Square} onClick={() => cancelJob(job.id)}>
@@ -24,5 +25,25 @@ export function JobProgress({ job, unit }: { job: Job; unit: string }) {
       </div>
       <progress value={job.done} max={Math.max(1, job.total)} aria-label={job.title} />
     </div>
+  );
+}
+
+const SIGNS: Readonly<Record<JobLine["status"], string>> = { done: "✓", edited: "✓", unchanged: "=", failed: "✗", skipped: "–" };
+
+/** Results by asset in a job. */
+export function JobLines({ lines }: { lines: readonly JobLine[] }) {
+  if (!lines.length) return null;
+  return (
+    <ul className={css.jobLines} aria-label="Results by asset">
+      {lines.map((line) => (
+        <li key={line.asset}>
+          <button type="button" data-status={line.status} title={`Open ${line.asset}`} onClick={() => openAsset(line.asset)}>
+            <span aria-hidden>{SIGNS[line.status]}</span>
+            <strong>{shortName(line.asset)}</strong>
+            <span>{line.text || line.status}</span>
+          </button>
+        </li>
+      ))}
+    </ul>
   );
 }

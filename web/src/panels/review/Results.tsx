@@ -1,21 +1,33 @@
 // All results in a list, those first that want a look.
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { CheckCheck } from "lucide-react";
-import { useMemo, useRef, useState } from "react";
-import { acceptLegal } from "../../commands/reviewing";
+import { memo, useEffect, useMemo, useRef, useState } from "react";
+import { acceptLegal } from "../../commands/review";
+import { Thumbnail } from "../../pictures/Thumbnail";
+import { countByEdit, faultsOf, findingsText } from "../../store/checks";
 import { useProject } from "../../store/project";
-import { acceptable, grouped, type Group, GROUPS } from "../../store/reviews";
-import type { Card } from "../../wire";
+import {
+  getVerdict,
+  type Group,
+  groupCards,
+  GROUPS,
+  listAcceptable,
+  staleText,
+  useVerdicts,
+  verdictKey,
+} from "../../store/reviews";
+import { errorParts, shortName } from "../../store/words";
+import { openAsset, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { CheckAll } from "./checks/CheckAll";
-import { ResultRow } from "./ResultRow";
+import type { Card } from "../../wire";
+import { CheckAll } from "./CheckAll";
 import css from "./review.module.css";
 
 const HEADS: Readonly<Record<Group, string>> = {
   failed: "Failed",
   flagged: "Flagged",
   stale: "Not up to date",
-  telling: "Look at these first",
+  informative: "Look at these first",
   open: "Not reviewed",
   accepted: "Accepted",
   none: "Not applied yet",
@@ -33,7 +45,7 @@ export function Results({ onOpen }: { onOpen: () => void }) {
     <div className={css.results}>
       <div className={css.family}>
         <CheckAll />
-        <AcceptLegal count={acceptable(inOrder).length} />
+        <AcceptLegal count={listAcceptable(inOrder).length} />
       </div>
       <List lines={lines} onOpen={onOpen} />
     </div>
@@ -82,7 +94,7 @@ function AcceptLegal({ count }: { count: number }) {
     <Button
       icon={CheckCheck}
       disabled={progress !== null}
-      tip="Accepts all outputs that are up to date, without a flag, and not illegal; nobody reviewed them yet"
+      tip="Accepts all unreviewed outputs that are up to date, legal and not flagged"
       onClick={run}
     >
       {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}
@@ -91,7 +103,7 @@ function AcceptLegal({ count }: { count: number }) {
 }
 
 function linesOf(cards: readonly Card[], sample: readonly string[]): Line[] {
-  const groups = grouped(cards, sample);
+  const groups = groupCards(cards, sample);
   return GROUPS.flatMap((group) => {
     const rows = groups[group];
     if (!rows.length) return [];
@@ -102,4 +114,74 @@ function linesOf(cards: readonly Card[], sample: readonly string[]): Line[] {
 function keyOf(line: Line | undefined, k: number): string | number {
   if (!line) return k;
   return line.kind === "head" ? line.group : `= ${line.card.asset}`;
+}
+
+/** One result in the list: pictures before and after, numbers, and how it stands. */
+const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen: () => void }) {
+  const current = useWorkspace((state) => state.asset === card.asset);
+  const written = card.output === "edited" || card.output === "unchanged";
+  const open = () => {
+    openAsset(card.asset);
+    onOpen();
+  };
+  return (
+    <button type="button" className={css.result} aria-current={current} title={card.asset} onClick={open}>
+      <span className={css.pictures}>
+        <Thumbnail asset={card.asset} of="source" size={68} label="" />
+        {written && <Thumbnail asset={card.asset} of="output" size={68} label="" />}
+      </span>
+      <span className={css.resultText}>
+        <strong>{shortName(card.asset)}</strong>
+        {written && (
+          <span className={css.facts}>
+            {card.output === "unchanged" ? `${card.hulls ?? 0} hulls, unchanged` : `${card.hulls ?? 0} → ${card.after ?? 0} hulls`} <Legality card={card} /> <CheckCount card={card} />
+          </span>
+        )}
+        <StateLine card={card} />
+      </span>
+    </button>
+  );
+});
+
+/** The most pressing thing to say of a result. */
+function StateLine({ card }: { card: Card }) {
+  if (card.output === "failed" || card.error) return <FailureLine card={card} />;
+  if (card.stale.length) return <span className={css.warn}>not up to date: {staleText(card.stale)}</span>;
+  if (card.review === "flagged") return <span className={css.warn}>⚑ {card.note ?? "flagged"}</span>;
+  const flag = card.flags[0];
+  if (flag) return <span className={css.warn}>⚑ {flag}</span>;
+  return card.review === "accepted" ? <span className={css.good}>✓ accepted</span> : null;
+}
+
+function FailureLine({ card }: { card: Card }) {
+  const { message, remedy } = errorParts(card.error ?? "failed", card.asset);
+  return (
+    <>
+      <span className={css.bad}>✗ {message}</span>
+      {remedy && <span className={css.dim}>{remedy}</span>}
+    </>
+  );
+}
+
+/** What the checks found, where they were made. */
+function CheckCount({ card }: { card: Card }) {
+  const engine = useWorkspace((state) => state.checks.engine);
+  const found = faultsOf(card, engine);
+  if (!found.length) return null;
+  return (
+    <span className={countByEdit(found) ? css.warn : undefined} title={findingsText(found)}>
+      · ⚠&nbsp;{found.length}
+    </span>
+  );
+}
+
+function Legality({ card }: { card: Card }) {
+  const found = useVerdicts((state) => state.verdicts[verdictKey(card)]);
+  useEffect(() => {
+    // one that fails says nothing here; opening the asset says why
+    if (!found) getVerdict(card).catch(() => undefined);
+  }, [card, found]);
+  if (!found) return null;
+  if (found === "legal") return <span className={css.good}>· legal</span>;
+  return found === "illegal" ? <span className={css.bad}>· not legal</span> : <span className={css.warn}>· warnings</span>;
 }

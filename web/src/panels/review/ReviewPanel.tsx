@@ -1,9 +1,17 @@
 // The review stage: apply the program, look at what came of it, accept, flag, correct, export.
-import { useState } from "react";
-import { Choice } from "../../ui/Choice";
-import { ApplySection } from "./ApplySection";
+import { Play } from "lucide-react";
+import { useMemo, useState } from "react";
+import { applyTo, useJob, whyNotApply } from "../../store/jobs";
+import { useProject } from "../../store/project";
+import { groupCards, listOutdated } from "../../store/reviews";
+import { countText } from "../../store/words";
+import { Button } from "../../ui/Button";
+import { Choice } from "../../ui/fields";
+import { Note } from "../../ui/Section";
+import type { Card } from "../../wire";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
+import { JobProgress } from "./JobProgress";
 import { Results } from "./Results";
 import css from "./review.module.css";
 
@@ -29,4 +37,70 @@ export function ReviewPanel() {
       </div>
     </div>
   );
+}
+
+/** Applying the program to all assets: the button, its progress, and what came of it. */
+function ApplySection() {
+  const job = useJob("apply");
+  const running = job?.state === "running";
+  return (
+    <section className={css.apply} aria-label="Apply the program">
+      {running ? <JobProgress job={job} unit="asset" /> : <Start />}
+      {!running && job && job.state !== "done" && (
+        <Note mood={job.state === "failed" ? "bad" : "warn"}>{job.message || "Stopped. Written outputs are kept."}</Note>
+      )}
+      <OutputCounts />
+    </section>
+  );
+}
+
+function Start() {
+  const why = useProject(whyNotApply);
+  const late = useProject((state) => listOutdated(Object.values(state.cards)).length);
+  const failed = useProject((state) => groupCards(Object.values(state.cards)).failed.length);
+  const some = useProject((state) => Object.values(state.cards).some((card) => card.output !== "none"));
+  return (
+    <div className={css.split}>
+      <p>{why ?? stateText(late, failed, some)}</p>
+      <Button look={late && !why ? "primary" : "plain"} icon={Play} disabled={why !== null} onClick={() => void applyTo(null)}>
+        Apply to all
+      </Button>
+    </div>
+  );
+}
+
+function stateText(late: number, failed: number, some: boolean): string {
+  if (!late) return failed ? `Up to date; ${countText(failed, "asset")} failed.` : "All outputs are up to date.";
+  if (!some) return `The program is ready for ${countText(late, "asset")}.`;
+  return `${countText(late, "output")} ${late === 1 ? "is" : "are"} not up to date.`;
+}
+
+/** How many results there are of each kind. */
+function OutputCounts() {
+  const cards = useProject((state) => state.cards);
+  const rows = useMemo(() => countOutputs(Object.values(cards)), [cards]);
+  if (!rows.length) return null;
+  return (
+    <dl className={css.tally}>
+      {rows.map(([what, count]) => (
+        <div key={what} data-what={what}>
+          <dd>{count.toLocaleString("en-GB")}</dd>
+          <dt>{what}</dt>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+function countOutputs(cards: readonly Card[]): (readonly [string, number])[] {
+  const of = (output: Card["output"]) => cards.filter((card) => card.output === output).length;
+  const { accepted, flagged } = groupCards(cards);
+  const rows = [
+    ["edited", of("edited")],
+    ["unchanged", of("unchanged")],
+    ["failed", of("failed")],
+    ["flagged", flagged.length],
+    ["accepted", accepted.length],
+  ] as const;
+  return of("none") === cards.length ? [] : rows.filter(([what, count]) => count > 0 || what === "edited" || what === "accepted");
 }

@@ -1,5 +1,5 @@
 // Where one looks from: a point, a direction and a size, the same for perspective and parallel projection.
-import type { StandardView } from "../../store/desk";
+import type { StandardView } from "../../store/workspace";
 
 export type Vec = readonly [number, number, number];
 
@@ -37,20 +37,20 @@ export function axesOf({ azimuth, elevation }: Pose): { right: Vec; up: Vec; eye
 export const distanceOf = ({ height }: Pose): number => height / 2 / Math.tan(FIELD / 2);
 
 /** Turned by an angle sideways and up; never over the pole. */
-export function orbited(pose: Pose, sideways: number, up: number): Pose {
+export function orbit(pose: Pose, sideways: number, up: number): Pose {
   const elevation = Math.min(QUARTER, Math.max(-QUARTER, pose.elevation + up));
   return { ...pose, azimuth: pose.azimuth + sideways, elevation };
 }
 
 /** Moved so that what was in the middle is that much of the height to the right and up. */
-export function panned(pose: Pose, right: number, up: number): Pose {
+export function pan(pose: Pose, right: number, up: number): Pose {
   const axes = axesOf(pose);
   const target = plus(plus(pose.target, axes.right, -right * pose.height), axes.up, -up * pose.height);
   return { ...pose, target };
 }
 
 /** Nearer by a factor below 1; what is under a point, given in heights from the middle, stays there. */
-export function zoomed(pose: Pose, factor: number, right: number, up: number, limits: readonly [number, number]): Pose {
+export function zoom(pose: Pose, factor: number, right: number, up: number, limits: readonly [number, number]): Pose {
   const height = Math.min(limits[1], Math.max(limits[0], pose.height * factor));
   const kept = pose.height - height;
   const axes = axesOf(pose);
@@ -59,17 +59,17 @@ export function zoomed(pose: Pose, factor: number, right: number, up: number, li
 }
 
 /** Seen from a standard side; what is in the middle and how large it is stay. */
-export function from(pose: Pose, side: StandardView): Pose {
+export function lookFromSide(pose: Pose, side: StandardView): Pose {
   return { ...pose, ...STANDARD[side] };
 }
 
 const MARGIN = 1.12;
 
 /** Shows all of some points in a picture of that width over height, from the same side. */
-export function fitted(pose: Pose, points: readonly Vec[], aspect: number, perspective: boolean): Pose {
+export function fit(pose: Pose, points: readonly Vec[], aspect: number, perspective: boolean): Pose {
   const axes = axesOf(pose);
   const rows = points.map((p) => [dot(p, axes.right), dot(p, axes.up), dot(p, axes.eye)] as const);
-  const [r, u, e] = [0, 1, 2].map((k) => middle(rows.map((row) => row[k] ?? 0))) as [number, number, number];
+  const [r, u, e] = [0, 1, 2].map((k) => midrange(rows.map((row) => row[k] ?? 0))) as [number, number, number];
   const slope = Math.tan(FIELD / 2);
   const heights = rows.map((row) => {
     const half = Math.max(Math.abs(row[1] - u), Math.abs(row[0] - r) / aspect) * MARGIN;
@@ -80,7 +80,7 @@ export function fitted(pose: Pose, points: readonly Vec[], aspect: number, persp
 }
 
 /** Between two poses; the shorter way round. */
-export function between(a: Pose, b: Pose, share: number): Pose {
+export function interpolate(a: Pose, b: Pose, share: number): Pose {
   const turn = ((((b.azimuth - a.azimuth + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
   return {
     target: plus(a.target, [b.target[0] - a.target[0], b.target[1] - a.target[1], b.target[2] - a.target[2]], share),
@@ -99,7 +99,7 @@ export const plus = (a: Vec, b: Vec, times: number): Vec => [a[0] + b[0] * times
 export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 /** Halfway between the lowest and the highest. */
-function middle(values: readonly number[]): number {
+function midrange(values: readonly number[]): number {
   const [low, high] = values.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
   return (low + high) / 2;
 }

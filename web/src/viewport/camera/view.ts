@@ -1,17 +1,30 @@
-// What the camera sees now: its pose, moves that are under way, and the way between pixels and rays.
-import { Vector3, type OrthographicCamera, type PerspectiveCamera } from "three";
-import type { StandardView } from "../../store/desk";
-import { Cameras, type Projection } from "./cameras";
-import { Glide } from "./glide";
-import { fitted, from, orbited, panned, type Pose, START, type Vec, zoomed } from "./pose";
+// What the camera sees now: its pose, moves that are under way, the three.js cameras, and the way between pixels and
+// rays.
+import { Matrix4, OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from "three";
+import type { StandardView } from "../../store/workspace";
+import {
+  axesOf,
+  distanceOf,
+  FIELD,
+  fit,
+  interpolate,
+  lookFromSide,
+  orbit,
+  pan,
+  plus,
+  type Pose,
+  START,
+  type Vec,
+  zoom,
+} from "./pose";
 
 /** A line from the eye into the scene, in the canonical frame. */
-export interface Sight {
+interface SightLine {
   readonly from: Vec;
   readonly along: Vec;
 }
 
-export class View {
+export class CameraView {
   pose: Pose = START;
   projection: Projection = "perspective";
   /** Of one pane [px]. */
@@ -20,7 +33,7 @@ export class View {
   /** The box around all there is, in the canonical frame. */
   bounds: readonly number[] = [-1, -1, -1, 1, 1, 1];
   explode = 0;
-  private glide: Glide | null = null;
+  private glide: CameraMove | null = null;
   private readonly cameras = new Cameras();
   private placed: { key: string; camera: PerspectiveCamera | OrthographicCamera } | null = null;
 
@@ -44,12 +57,12 @@ export class View {
   }
 
   lookFrom(side: StandardView, now: number): void {
-    this.go(from(this.pose, side), now);
+    this.go(lookFromSide(this.pose, side), now);
   }
 
   /** Shows all of some points; at once, or as a move that begins now. */
   fit(points: readonly Vec[], now: number | null): void {
-    const pose = fitted(this.pose, points, this.aspect, this.projection === "perspective");
+    const pose = fit(this.pose, points, this.aspect, this.projection === "perspective");
     if (now === null) this.jump(pose);
     else this.go(pose, now);
   }
@@ -70,17 +83,17 @@ export class View {
 
   /** By a drag of so many pixels. */
   orbit(dx: number, dy: number): void {
-    this.jump(orbited(this.pose, -dx * 0.0085, dy * 0.0085));
+    this.jump(orbit(this.pose, -dx * 0.0085, dy * 0.0085));
   }
 
   pan(dx: number, dy: number): void {
-    this.jump(panned(this.pose, dx / this.height, -dy / this.height));
+    this.jump(pan(this.pose, dx / this.height, -dy / this.height));
   }
 
   /** Nearer by a factor below 1, towards a pixel of the pane. */
   zoom(factor: number, x: number, y: number): void {
     const [right, up] = [(x - this.width / 2) / this.height, (this.height / 2 - y) / this.height];
-    this.jump(zoomed(this.pose, factor, right, up, [this.radius * 2e-3, this.radius * 40]));
+    this.jump(zoom(this.pose, factor, right, up, [this.radius * 2e-3, this.radius * 40]));
   }
 
   camera(): PerspectiveCamera | OrthographicCamera {
@@ -95,7 +108,7 @@ export class View {
     return this.placed.camera;
   }
 
-  sightAt(x: number, y: number): Sight {
+  sightAt(x: number, y: number): SightLine {
     const camera = this.camera();
     const spot = [(2 * x) / this.width - 1, 1 - (2 * y) / this.height] as const;
     const near = new Vector3(...spot, -1).unproject(camera);
@@ -110,7 +123,7 @@ export class View {
   }
 
   private go(pose: Pose, now: number): void {
-    this.glide = Glide.start(this.pose, pose, now);
+    this.glide = CameraMove.start(this.pose, pose, now);
   }
 
   private jump(pose: Pose): void {
@@ -118,3 +131,59 @@ export class View {
     this.pose = pose;
   }
 }
+
+type Projection = "perspective" | "orthographic";
+
+/** The two three.js cameras, both placed by one pose, so that switching keeps what is seen. */
+class Cameras {
+  private readonly perspective = new PerspectiveCamera((FIELD * 180) / Math.PI);
+  private readonly orthographic = new OrthographicCamera();
+
+  /** The camera at a pose; reach: how far from the target anything is that is to be seen. */
+  placed(pose: Pose, projection: Projection, aspect: number, reach: number): PerspectiveCamera | OrthographicCamera {
+    const camera = projection === "perspective" ? this.perspective : this.orthographic;
+    const { right, up, eye } = axesOf(pose);
+    const distance = projection === "perspective" ? distanceOf(pose) : reach + pose.height;
+    camera.position.set(...plus(pose.target, eye, distance));
+    const basis = new Matrix4().makeBasis(new Vector3(...right), new Vector3(...up), new Vector3(...eye));
+    camera.quaternion.copy(new Quaternion().setFromRotationMatrix(basis));
+    camera.far = distance + reach;
+    camera.near = Math.max(distance - reach, projection === "perspective" ? distance * 0.02 : 0);
+    if (camera instanceof PerspectiveCamera) camera.aspect = aspect;
+    else this.frame(pose.height, aspect);
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    return camera;
+  }
+
+  private frame(height: number, aspect: number): void {
+    const camera = this.orthographic;
+    [camera.top, camera.bottom] = [height / 2, -height / 2];
+    [camera.right, camera.left] = [(height / 2) * aspect, (-height / 2) * aspect];
+  }
+}
+
+const SECONDS = 0.22;
+
+/** A short smooth move from one pose to another. */
+class CameraMove {
+  private constructor(
+    private readonly from: Pose,
+    private readonly to: Pose,
+    private readonly began: number,
+  ) {}
+
+  /** A move that begins now; one that is over at once where motion is to be reduced. */
+  static start(from: Pose, to: Pose, now: number): CameraMove {
+    return new CameraMove(from, to, reducesMotion() ? -Infinity : now);
+  }
+
+  /** Where it is, and whether it has arrived; now: [s]. */
+  at(now: number): { pose: Pose; done: boolean } {
+    const share = Math.min(1, (now - this.began) / SECONDS);
+    if (share >= 1) return { pose: this.to, done: true };
+    return { pose: interpolate(this.from, this.to, 1 - (1 - share) ** 3), done: false };
+  }
+}
+
+const reducesMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -1,16 +1,16 @@
 // The cutting plane: a translucent square, the contour of the cut, and an arrow each way to slide it.
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
-import type { CutPlane as Plane } from "../../store/cutting";
+import type { CutPlane as Plane } from "../../store/cut";
 import type { Shape } from "../../server/packet";
-import type { Ink } from "./ink";
+import type { ThemeColors } from "./themeColors";
 import { type Frame, linesBetween, Strokes } from "./strokes";
 
-export class CutPlane {
+export class CutPlaneDrawing {
   readonly object = new Group();
   private readonly square: Mesh<BufferGeometry, MeshBasicMaterial>;
   private readonly lines: Strokes;
 
-  constructor(ink: Ink) {
+  constructor(ink: ThemeColors) {
     const material = new MeshBasicMaterial({
       color: ink.accent,
       opacity: 0.2,
@@ -43,7 +43,7 @@ export class CutPlane {
     this.lines.set(linesBetween([...rim, arrow, ...contour(shape, at, across)].map(([a, b]) => [a.toArray(), b.toArray()])));
   }
 
-  setInk(ink: Ink): void {
+  setInk(ink: ThemeColors): void {
     this.square.material.color = ink.accent;
     this.lines.recolor(ink.accent);
   }

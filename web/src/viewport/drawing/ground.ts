@@ -1,7 +1,6 @@
 // The grid on the ground and the three axes, fitted to the size of the asset; they fade towards the rim.
 import { BufferAttribute, BufferGeometry, Color, Group, LineSegments, Scene, ShaderMaterial } from "three";
-import { niceStep } from "../shapes/nice";
-import type { Ink } from "./ink";
+import type { ThemeColors } from "./themeColors";
 
 const AXES = [new Color("#d4503f"), new Color("#5a9e3a"), new Color("#3f7ad4")] as const;
 
@@ -39,7 +38,7 @@ export class Ground {
   }
 
   /** Lies below a box, given by its lowest and highest corner, in the canonical frame. */
-  fit(box: readonly number[], ink: Ink): void {
+  fit(box: readonly number[], ink: ThemeColors): void {
     this.dispose();
     const [x0, y0, z0, x1, y1, z1] = box as [number, number, number, number, number, number];
     const size = Math.max(x1 - x0, y1 - y0, 0.5 * (z1 - z0), 1e-6);
@@ -62,7 +61,7 @@ export class Ground {
 /** Rows of x, y, z, r, g, b, opacity. */
 type Rows = number[][];
 
-function gridOf(middle: readonly [number, number], rim: number, step: number, z: number, ink: Ink): Rows {
+function gridOf(middle: readonly [number, number], rim: number, step: number, z: number, ink: ThemeColors): Rows {
   const count = Math.round(rim / step);
   const rows: Rows = [];
   for (let k = -count; k <= count; k++) {
@@ -108,3 +107,12 @@ function lines(rows: Rows, middle: readonly [number, number], rim: number): Line
 }
 
 const snap = (value: number, step: number): number => Math.round(value / step) * step;
+
+// Round lengths, and how lengths and volumes are written.
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above a length. */
+export function niceStep(length: number): number {
+  const power = 10 ** Math.floor(Math.log10(length));
+  const times = length / power;
+  return (times >= 5 ? 5 : times >= 2 ? 2 : 1) * power;
+}

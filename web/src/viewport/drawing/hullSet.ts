@@ -1,17 +1,13 @@
 // All hulls of a scene as three.js objects: one mesh, its edges, and tables of colours and states.
-import { type BufferGeometry, Group, LineSegments, Mesh, type Color } from "three";
+import { BufferAttribute, BufferGeometry, type Color, Group, LineSegments, Mesh } from "three";
+import { EDGE, type Edges, edgesOf, type Outline } from "../geometry/edges";
+import { type Facets, facetsOf, type MergedShapes, mergeShapes, middleOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
-import { type Edges, edgesOf } from "../shapes/edges";
-import type { Outline } from "../shapes/silhouette";
-import { merged, middleOf, type Merged, type Point } from "../shapes/merged";
-import { faceGeometry, lineGeometry } from "./hullGeometry";
-import { hullMaterial, shared, type Shared } from "./hullShader";
-import type { Ink } from "./ink";
-import { lineMaterial } from "./lineShader";
-import { Table } from "./table";
+import { ByteTable, hullMaterial, lineMaterial, type SharedUniforms, shareUniforms } from "./hullShader";
+import type { ThemeColors } from "./themeColors";
 
 /** How one hull looks. role: one of ROLE; selected, hover: 0 to 1. */
-export interface Look {
+export interface HullLook {
   readonly color: Color;
   readonly hatched: boolean;
   readonly visible: boolean;
@@ -24,14 +20,14 @@ export class HullSet {
   readonly object = new Group();
   readonly names: readonly string[];
   readonly places: ReadonlyMap<string, number>;
-  readonly shapes: Merged;
+  readonly shapes: MergedShapes;
   readonly middles: readonly Point[];
   readonly aways: readonly Point[];
   readonly visible: boolean[];
-  readonly common: Shared;
+  readonly common: SharedUniforms;
   readonly faceGeometry: BufferGeometry;
-  private readonly colors: Table;
-  private readonly states: Table;
+  private readonly colors: ByteTable;
+  private readonly states: ByteTable;
   private readonly edges: readonly Edges[];
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
@@ -39,17 +35,17 @@ export class HullSet {
   private readonly sharp: number;
 
   /** centre: what hulls move away from in the exploded view. */
-  constructor(hulls: readonly { name: string; shape: Shape }[], centre: Point, ink: Ink, opacity = 1) {
+  constructor(hulls: readonly { name: string; shape: Shape }[], centre: Point, ink: ThemeColors, opacity = 1) {
     this.names = hulls.map((hull) => hull.name);
     this.places = new Map(this.names.map((name, k) => [name, k]));
-    this.shapes = merged(hulls.map((hull) => hull.shape));
+    this.shapes = mergeShapes(hulls.map((hull) => hull.shape));
     this.middles = hulls.map((_, k) => middleOf(this.shapes.boxes, k));
     this.aways = this.middles.map((at) => [at[0] - centre[0], at[1] - centre[1], at[2] - centre[2]] as const);
     this.visible = hulls.map(() => true);
-    this.edges = hulls.map((hull) => keptEdges(hull.shape));
-    this.colors = new Table(hulls.length, true);
-    this.states = new Table(hulls.length, false);
-    this.common = shared(this.colors, this.states, ink);
+    this.edges = hulls.map((hull) => cachedEdges(hull.shape));
+    this.colors = new ByteTable(hulls.length, true);
+    this.states = new ByteTable(hulls.length, false);
+    this.common = shareUniforms(this.colors, this.states, ink);
     this.faceGeometry = faceGeometry(hulls.map((hull) => hull.shape), this.aways);
     this.faces = new Mesh(this.faceGeometry, hullMaterial(this.common, opacity));
     const lines = lineGeometry(this.edges, this.aways);
@@ -63,7 +59,7 @@ export class HullSet {
     this.setWireframe(false, false);
   }
 
-  paint(look: (k: number) => Look): void {
+  paint(look: (k: number) => HullLook): void {
     this.names.forEach((_, k) => {
       const { color, hatched, visible, selected, hover, role } = look(k);
       const [r, g, b] = bytes(color);
@@ -87,7 +83,7 @@ export class HullSet {
     this.lines.geometry.setDrawRange(0, on ? Infinity : this.sharp);
   }
 
-  setInk(ink: Ink): void {
+  setInk(ink: ThemeColors): void {
     this.common.ink.tint.value = ink.selected;
     this.common.ink.pale.value = ink.pale;
     this.common.ink.removed.value = ink.removed;
@@ -122,11 +118,11 @@ export class HullSet {
 }
 
 const NOTHING = new Float32Array(0);
-const known = new WeakMap<Shape, Edges>();
+const knownEdges = new WeakMap<Shape, Edges>();
 
-function keptEdges(shape: Shape): Edges {
-  const edges = known.get(shape) ?? edgesOf(shape);
-  known.set(shape, edges);
+function cachedEdges(shape: Shape): Edges {
+  const edges = knownEdges.get(shape) ?? edgesOf(shape);
+  knownEdges.set(shape, edges);
   return edges;
 }
 
@@ -134,3 +130,61 @@ const bytes = (color: Color): [number, number, number] => {
   const hex = color.getHex();
   return [hex >> 16, (hex >> 8) & 255, hex & 255];
 };
+
+/** Faces of all hulls; each vertex knows the place of its hull, and where that drifts in the exploded view. */
+function faceGeometry(shapes: readonly Shape[], aways: readonly Point[]): BufferGeometry {
+  const parts = shapes.map(cachedFacets);
+  const vertices = parts.reduce((sum, part) => sum + part.positions.length / 3, 0);
+  const corners = parts.reduce((sum, part) => sum + part.index.length, 0);
+  const [positions, normals] = [new Float32Array(3 * vertices), new Float32Array(3 * vertices)];
+  const [owner, index] = [new Float32Array(vertices), new Uint32Array(corners)];
+  let [vertex, corner] = [0, 0];
+  parts.forEach((part, k) => {
+    const many = part.positions.length / 3;
+    positions.set(part.positions, 3 * vertex);
+    normals.set(part.normals, 3 * vertex);
+    owner.fill(k, vertex, vertex + many);
+    for (const at of part.index) index[corner++] = at + vertex;
+    vertex += many;
+  });
+  const out = geometryOf(positions, owner, aways);
+  out.setAttribute("normal", new BufferAttribute(normals, 3));
+  out.setIndex(new BufferAttribute(index, 1));
+  return out;
+}
+
+const knownFacets = new WeakMap<Shape, Facets>();
+
+function cachedFacets(shape: Shape): Facets {
+  const facets = knownFacets.get(shape) ?? facetsOf(shape);
+  knownFacets.set(shape, facets);
+  return facets;
+}
+
+/** Lines of all hulls; sharp: how many vertices those of the sharp edges have. */
+function lineGeometry(edges: readonly Edges[], aways: readonly Point[]): { geometry: BufferGeometry; sharp: number } {
+  const total = edges.reduce((sum, { records }) => sum + records.length / EDGE, 0);
+  const ends = new Float32Array(6 * total);
+  const owner = new Float32Array(2 * total);
+  let at = 0;
+  const add = (k: number, records: Float32Array, first: number, last: number) => {
+    for (let e = first; e < last; e++, at++) {
+      ends.set(records.subarray(e * EDGE, e * EDGE + 6), 6 * at);
+      owner.fill(k, 2 * at, 2 * at + 2);
+    }
+  };
+  edges.forEach(({ records, sharp }, k) => add(k, records, 0, sharp));
+  const sharp = 2 * at;
+  edges.forEach(({ records, sharp: first }, k) => add(k, records, first, records.length / EDGE));
+  return { geometry: geometryOf(ends, owner, aways), sharp };
+}
+
+function geometryOf(positions: Float32Array, owner: Float32Array, aways: readonly Point[]): BufferGeometry {
+  const away = new Float32Array(positions.length);
+  for (let v = 0; v < owner.length; v++) away.set(aways[owner[v] ?? 0] ?? [0, 0, 0], 3 * v);
+  const out = new BufferGeometry();
+  out.setAttribute("position", new BufferAttribute(positions, 3));
+  out.setAttribute("owner", new BufferAttribute(owner, 1));
+  out.setAttribute("away", new BufferAttribute(away, 3));
+  return out;
+}

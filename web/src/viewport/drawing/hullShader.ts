@@ -1,13 +1,25 @@
-// How hulls are drawn: flat faces under soft light, with colours and states looked up by the hull's place.
-import { FrontSide, type IUniform, ShaderMaterial } from "three";
-import type { Ink } from "./ink";
-import { WIDTH, type Table } from "./table";
+// How hulls and their thin edges are drawn: flat faces under soft light, with colours and states looked up in a small
+// texture by the hull's place.
+import {
+  DataTexture,
+  FrontSide,
+  type IUniform,
+  NearestFilter,
+  RGBAFormat,
+  ShaderMaterial,
+  SRGBColorSpace,
+  UnsignedByteType,
+} from "three";
+import type { ThemeColors } from "./themeColors";
+
+/** Hulls in a row of the textures. */
+const WIDTH = 256;
 
 /** What is to become of a hull, as the third byte of its state has it. */
 export const ROLE = { plain: 0, washed: 1, removed: 2 } as const;
 
 /** What all materials of one set of hulls share; changing a value changes it for all. */
-export interface Shared {
+export interface SharedUniforms {
   readonly colors: IUniform;
   readonly states: IUniform;
   readonly explode: IUniform<number>;
@@ -15,7 +27,7 @@ export interface Shared {
   readonly pixel: IUniform<number>;
 }
 
-export function shared(colors: Table, states: Table, ink: Ink): Shared {
+export function shareUniforms(colors: ByteTable, states: ByteTable, ink: ThemeColors): SharedUniforms {
   return {
     colors: { value: colors.texture },
     states: { value: states.texture },
@@ -26,7 +38,7 @@ export function shared(colors: Table, states: Table, ink: Ink): Shared {
 }
 
 /** Puts a vertex where its hull is, or out of sight; also used by lines and by the picture of places. */
-export const PLACING = /* glsl */ `
+export const PLACE_VERTEX = /* glsl */ `
   in float owner;
   in vec3 away;
   uniform sampler2D colors;
@@ -50,8 +62,8 @@ export const LIGHT = /* glsl */ `
 `;
 
 // all that is the same on a whole face is reckoned at its last corner, so that pixels cost next to nothing
-const VERTEX = /* glsl */ `
-  ${PLACING}
+const FACE_VERTEX = /* glsl */ `
+  ${PLACE_VERTEX}
   flat out vec4 color;
   flat out vec3 stripe;
   flat out float role;
@@ -77,7 +89,7 @@ const VERTEX = /* glsl */ `
   }
 `;
 
-const FRAGMENT = /* glsl */ `
+const FACE_FRAGMENT = /* glsl */ `
   precision highp float;
   flat in vec4 color;
   flat in vec3 stripe;
@@ -93,11 +105,11 @@ const FRAGMENT = /* glsl */ `
   }
 `;
 
-export function hullMaterial(common: Shared, opacity = 1): ShaderMaterial {
+export function hullMaterial(common: SharedUniforms, opacity = 1): ShaderMaterial {
   return new ShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader: FRAGMENT,
-    uniforms: { ...placing(common), ...common.ink, opacity: { value: opacity } },
+    vertexShader: FACE_VERTEX,
+    fragmentShader: FACE_FRAGMENT,
+    uniforms: { ...placeUniforms(common), ...common.ink, opacity: { value: opacity } },
     transparent: opacity < 1,
     depthWrite: opacity === 1,
     side: FrontSide,
@@ -107,4 +119,70 @@ export function hullMaterial(common: Shared, opacity = 1): ShaderMaterial {
   });
 }
 
-export const placing = ({ colors, states, explode, pixel }: Shared) => ({ colors, states, explode, pixel });
+export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms) => ({ colors, states, explode, pixel });
+
+const LINE_VERTEX = /* glsl */ `
+  ${PLACE_VERTEX}
+  flat out vec3 color;
+  flat out float shown;
+  void main() {
+    vec4 state = texelFetch(states, place(), 0);
+    color = texelFetch(colors, place(), 0).rgb;
+    vec4 at = placed(state);
+    shown = state.b > 0.006 ? 0.35 : 1.0;
+    // a little towards the eye, so that the faces beside it do not cover it
+    if (isOrthographic) at.z += 0.0008 * abs(at.z); else at.xyz *= 0.9992;
+    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+  }
+`;
+
+const LINE_FRAGMENT = /* glsl */ `
+  precision highp float;
+  flat in vec3 color;
+  flat in float shown;
+  uniform float wire;
+  void main() {
+    gl_FragColor = vec4(color * mix(0.22, 0.85, wire), mix(0.5 * shown, 0.95, wire));
+    #include <colorspace_fragment>
+  }
+`;
+
+/** wire: 1 where there are no faces. */
+export function lineMaterial(common: SharedUniforms, wire: IUniform<number>): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: LINE_VERTEX,
+    fragmentShader: LINE_FRAGMENT,
+    uniforms: { ...placeUniforms(common), wire },
+    transparent: true,
+    depthWrite: false,
+  });
+}
+
+/** A small texture that holds four bytes for each hull, so that a change of looks never touches geometry. */
+export class ByteTable {
+  readonly texture: DataTexture;
+  private readonly data: Uint8Array;
+
+  /** colors: whether the first three bytes are a colour as the screen has it. */
+  constructor(count: number, colors: boolean) {
+    const rows = Math.max(1, Math.ceil(count / WIDTH));
+    this.data = new Uint8Array(4 * WIDTH * rows);
+    this.texture = new DataTexture(this.data, WIDTH, rows, RGBAFormat, UnsignedByteType);
+    this.texture.minFilter = this.texture.magFilter = NearestFilter;
+    if (colors) this.texture.colorSpace = SRGBColorSpace;
+    this.texture.needsUpdate = true;
+  }
+
+  set(k: number, r: number, g: number, b: number, a: number): void {
+    this.data.set([r, g, b, a], 4 * k);
+  }
+
+  /** To be called once after a round of changes. */
+  changed(): void {
+    this.texture.needsUpdate = true;
+  }
+
+  dispose(): void {
+    this.texture.dispose();
+  }
+}

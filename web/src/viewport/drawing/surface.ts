@@ -1,7 +1,7 @@
-// Surfaces that are no hulls: opaque pieces, and the visual mesh as a ghost.
+// Surfaces that are no hulls: non-convex pieces, and the visual mesh as a ghost.
 import { BufferAttribute, BufferGeometry, type Color, DoubleSide, Group, Mesh, ShaderMaterial } from "three";
 import type { Shape } from "../../server/packet";
-import { merged, type Merged } from "../shapes/merged";
+import { mergeShapes, type MergedShapes } from "../geometry/triangles";
 import { LIGHT } from "./hullShader";
 
 const VERTEX = /* glsl */ `
@@ -28,14 +28,14 @@ const FRAGMENT = /* glsl */ `
 /** Translucent surfaces in one colour; the one that is pointed at is denser. */
 export class Surfaces {
   readonly object = new Group();
-  readonly shapes: Merged;
+  readonly shapes: MergedShapes;
 
   constructor(
     readonly rows: readonly { name: string; shape: Shape }[],
     color: Color,
     private readonly opacity: number,
   ) {
-    this.shapes = merged(rows.map((row) => row.shape));
+    this.shapes = mergeShapes(rows.map((row) => row.shape));
     for (const { shape } of rows) {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(shape.positions, 3));

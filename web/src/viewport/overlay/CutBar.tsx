@@ -1,11 +1,10 @@
 // The controls of the cutting tool: along which axis, where, cut or leave.
 import { useEffect } from "react";
-import { useDesk } from "../../store/desk";
-import { type CutAxis, hullToCut, leaveCut, performCut, setCut, useCutting } from "../../store/cutting";
+import { type CutAxis, hullToCut, leaveCut, performCut, setCut, useCut } from "../../store/cut";
 import { useScenes } from "../../store/scenes";
+import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { Choice } from "../../ui/Choice";
-import { Slide } from "../../ui/Slide";
+import { Choice, Slide } from "../../ui/fields";
 import css from "./overlay.module.css";
 
 const AXES: readonly { value: CutAxis; label: string; name: string }[] = [
@@ -16,14 +15,14 @@ const AXES: readonly { value: CutAxis; label: string; name: string }[] = [
 ];
 
 export function CutBar() {
-  const inHand = useDesk((desk) => desk.tool === "cut");
+  const inHand = useWorkspace((workspace) => workspace.tool === "cut");
   return inHand ? <Bar /> : null;
 }
 
 function Bar() {
-  const selection = useDesk((desk) => desk.selection);
+  const selection = useWorkspace((workspace) => workspace.selection);
   const scene = useScenes((state) => state.scene);
-  const { axis, share, drawn } = useCutting();
+  const { axis, share, drawn } = useCut();
   const hull = hullToCut(scene, selection);
   useEffect(() => {
     // before other commands that have these keys
@@ -54,9 +53,9 @@ function Bar() {
           </Button>
         </>
       ) : (
-        <span>Click the hull to cut; hulls that a step made cannot be cut.</span>
+        <span>Click the hull to cut. Hulls made by a step cannot be cut.</span>
       )}
-      <Button look="quiet" onClick={leaveCut} tip="Put the tool down" keys="Escape">
+      <Button look="quiet" onClick={leaveCut} tip="Leave the tool" keys="Escape">
         Leave
       </Button>
     </div>

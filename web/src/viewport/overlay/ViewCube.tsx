@@ -1,9 +1,9 @@
 // A small cube that turns with the view; its faces look from that side. It is for the pointer: keys and screen readers
 // have the same in the menu of standard views and on the number keys.
 import { useRef } from "react";
-import { lookFrom, type StandardView } from "../../store/desk";
+import { lookFrom, type StandardView } from "../../store/workspace";
 import { axesOf } from "../camera/pose";
-import { useDrawn, useStage } from "../stage/context";
+import { useFrame, useStage } from "../stage/context";
 import css from "./cube.module.css";
 
 const HALF = 24;
@@ -19,7 +19,7 @@ const FACES: readonly { side: StandardView; name: string; turn: string }[] = [
 export function ViewCube() {
   const stage = useStage();
   const cube = useRef<HTMLDivElement>(null);
-  useDrawn(() => {
+  useFrame(() => {
     if (cube.current) cube.current.style.transform = transformOf(stage.view.pose);
   });
   return (

@@ -1,9 +1,9 @@
 // Pointer, wheel and touch on the viewport: moves of the camera are done here, all else is handed to the tool in hand.
 import type { Stage } from "../stage/stage";
-import type { Spot } from "../picking/region";
+import type { Spot } from "../geometry/region";
 
 /** What a tool does with the left button; spots are pixels of the viewport. */
-export interface Grip {
+export interface PointerTool {
   /** Goes on with a drag; null where drags move the camera. */
   begin(spot: Spot, event: PointerEvent): Drag | null;
   click(spot: Spot, event: PointerEvent): void;
@@ -28,7 +28,7 @@ export class Gestures {
   constructor(
     private readonly element: HTMLElement,
     private readonly stage: Stage,
-    private readonly grip: Grip,
+    private readonly grip: PointerTool,
   ) {}
 
   /** Listens until the returned function is called. */

@@ -1,28 +1,27 @@
 // What is in the picture: both sides of the asset, the preview, the ghost, the contact graph, the ground.
+import { AssetDrawing, extentOf } from "../drawing/assetDrawing";
+import { ContactGraph } from "../drawing/contactGraph";
+import { CutPlaneDrawing } from "../drawing/cutPlane";
+import { Ground } from "../drawing/ground";
+import type { Appearance } from "../drawing/hullLooks";
+import { PreviewHulls } from "../drawing/previewHulls";
+import { Surfaces } from "../drawing/surface";
+import { readThemeColors, type ThemeColors } from "../drawing/themeColors";
+import { type Point, rotateBox } from "../geometry/triangles";
 import type { EditedPacket, ShapesPacket } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
-import { ContactGraph } from "../drawing/contacts";
-import { CutPlane } from "../drawing/cutPlane";
-import { Ground } from "../drawing/ground";
-import { type Ink, readInk } from "../drawing/ink";
-import type { Appearance } from "../drawing/looks";
-import { Made } from "../drawing/made";
-import { extentOf, Side } from "../drawing/side";
-import { Surfaces } from "../drawing/surface";
-import type { Point } from "../shapes/merged";
-import { turnedBox } from "../shapes/turned";
 
 const NOTHING = [-0.5, -0.5, 0, 0.5, 0.5, 1];
 const GHOST = 0.16;
 
 export class Contents {
-  ink: Ink = readInk();
+  ink: ThemeColors = readThemeColors();
   readonly ground = new Ground();
   readonly graph = new ContactGraph(this.ink);
-  readonly cut = new CutPlane(this.ink);
-  shown: Side | null = null;
-  before: Side | null = null;
-  made: Made | null = null;
+  readonly cut = new CutPlaneDrawing(this.ink);
+  shown: AssetDrawing | null = null;
+  before: AssetDrawing | null = null;
+  made: PreviewHulls | null = null;
   ghost: Surfaces | null = null;
   /** The box around all there is, in the canonical frame. */
   bounds: readonly number[] = NOTHING;
@@ -39,7 +38,7 @@ export class Contents {
       this.compareWith(null);
     }
     if (scene && (isOther || String(scene.view.upright) !== String(last?.view.upright))) this.survey(scene, isOther);
-    this.shown = scene ? new Side(scene, this.centre, this.ink) : null;
+    this.shown = scene ? new AssetDrawing(scene, this.centre, this.ink) : null;
     this.shown?.turned.add(this.graph.object, this.cut.object);
     if (this.ghost) this.shown?.turned.add(this.ghost.object);
     return isOther;
@@ -47,13 +46,13 @@ export class Contents {
 
   compareWith(scene: Scene | null): void {
     this.before?.dispose();
-    this.before = scene ? new Side(scene, this.centre, this.ink) : null;
+    this.before = scene ? new AssetDrawing(scene, this.centre, this.ink) : null;
   }
 
   preview(packet: EditedPacket | null): void {
     this.made?.object.removeFromParent();
     this.made?.dispose();
-    this.made = packet && this.shown ? new Made(packet, this.centre, this.ink) : null;
+    this.made = packet && this.shown ? new PreviewHulls(packet, this.centre, this.ink) : null;
     if (this.made) this.shown?.turned.add(this.made.object);
   }
 
@@ -73,7 +72,7 @@ export class Contents {
     this.before?.paint(before);
   }
 
-  setInk(ink: Ink): void {
+  setInk(ink: ThemeColors): void {
     this.ink = ink;
     this.shown?.setInk(ink);
     this.before?.setInk(ink);
@@ -96,7 +95,7 @@ export class Contents {
     const box = extentOf(scene) ?? NOTHING;
     const mid = (axis: number) => ((box[axis] ?? 0) + (box[axis + 3] ?? 0)) / 2;
     if (isOther) this.centre = [mid(0), mid(1), mid(2)];
-    this.bounds = turnedBox(box, scene.view.upright);
+    this.bounds = rotateBox(box, scene.view.upright);
     this.ground.fit(this.bounds, this.ink);
   }
 }

@@ -11,7 +11,7 @@ export function useStage(): Stage {
 }
 
 /** Calls back after each frame, with no rendering by React. */
-export function useDrawn(drawn: () => void): void {
+export function useFrame(drawn: () => void): void {
   const stage = useStage();
   const latest = useRef(drawn);
   useEffect(() => {

@@ -1,5 +1,6 @@
-// The parts of the picture: one, or before and after, side by side or with a line between them.
-import type { Compare } from "../../store/desk";
+// The view settings that the picture needs, and its parts: one, or before and after, side by side or with a line
+// between them.
+import type { Compare, ViewSettings } from "../../store/workspace";
 
 export interface Pane {
   readonly which: "before" | "shown";
@@ -31,3 +32,21 @@ export function paneAt(panes: readonly Pane[], x: number): Pane {
   if (!pane) throw new RangeError("a picture has at least one pane");
   return pane;
 }
+
+export interface Settings {
+  readonly projection: ViewSettings["projection"];
+  readonly wireframe: boolean;
+  readonly opaque: boolean;
+  readonly grid: boolean;
+  readonly ghost: boolean;
+  readonly contacts: boolean;
+  readonly compare: Compare;
+  readonly divider: number;
+  /** How far hulls move away, in their distances from the centre. */
+  readonly explode: number;
+}
+
+const FARTHEST = 1.4;
+
+/** What of the workspace's view settings the picture needs. */
+export const settingsOf = (view: ViewSettings): Settings => ({ ...view, explode: FARTHEST * view.explode });

@@ -1,8 +1,8 @@
 // What is under a pixel of the viewport.
 import { Matrix4, Vector3 } from "three";
-import type { Side } from "../drawing/side";
-import { firstMet, type Ray } from "../picking/ray";
-import type { Point } from "../shapes/merged";
+import { type AssetDrawing, spotsOf } from "../drawing/assetDrawing";
+import { castRay, type Ray } from "../geometry/ray";
+import type { Point } from "../geometry/triangles";
 import type { Stage } from "./stage";
 
 /** The line of sight through a pixel, in the frame of the file. */
@@ -22,7 +22,7 @@ export function hullAt(stage: Stage, x: number, y: number): string | null {
   return side ? hullOf(side, rayAt(stage, x, y), stage.settings.explode) : null;
 }
 
-/** The hull, or else the opaque piece, under a pixel. */
+/** The hull, or else the non-convex piece, under a pixel. */
 export function pieceAt(stage: Stage, x: number, y: number): string | null {
   const side = stage.sideOf(stage.paneAt(x));
   if (!side) return null;
@@ -30,20 +30,20 @@ export function pieceAt(stage: Stage, x: number, y: number): string | null {
   return hullOf(side, ray, stage.settings.explode) ?? (stage.settings.opaque ? opaqueOf(side, ray) : null);
 }
 
-function hullOf({ hulls }: Side, ray: Ray, explode: number): string | null {
-  const met = firstMet(hulls.shapes, ray, hulls.visible, hulls.aways, explode);
+function hullOf({ hulls }: AssetDrawing, ray: Ray, explode: number): string | null {
+  const met = castRay(hulls.shapes, ray, hulls.visible, hulls.aways, explode);
   return met ? (hulls.names[met.place] ?? null) : null;
 }
 
-function opaqueOf({ opaque }: Side, ray: Ray): string | null {
-  const met = firstMet(opaque.shapes, ray, opaque.rows.map(() => true), [], 0);
+function opaqueOf({ opaque }: AssetDrawing, ray: Ray): string | null {
+  const met = castRay(opaque.shapes, ray, opaque.rows.map(() => true), [], 0);
   return met ? (opaque.rows[met.place]?.name ?? null) : null;
 }
 
 type Pixel = { readonly x: number; readonly y: number };
 
 /** A pixel of the viewport where a hull is seen and that is open to the pointer, null where there is none. */
-export function pixelOfHull(stage: Stage, name: string, isOpen: (x: number, y: number) => boolean): Pixel | null {
+function pixelOfHull(stage: Stage, name: string, isOpen: (x: number, y: number) => boolean): Pixel | null {
   const side = stage.shown;
   const place = side?.hulls.places.get(name);
   const pane = stage.panes().at(-1);
@@ -60,15 +60,42 @@ export function pixelOfHull(stage: Stage, name: string, isOpen: (x: number, y: n
   return null;
 }
 
-/** The middle of a hull, and of each of its triangles. */
-export function* spotsOf({ hulls }: Side, place: number, explode: number): Generator<Point> {
-  yield hulls.middle(place, explode);
-  const { faces, index, positions } = hulls.shapes;
-  const away = hulls.aways[place] ?? [0, 0, 0];
-  for (let face = faces[place] ?? 0; face < (faces[place + 1] ?? 0); face++) {
-    const mid = (axis: number): number =>
-      [0, 1, 2].reduce((sum, k) => sum + (positions[3 * (index[3 * face + k] ?? 0) + axis] ?? 0) / 3, 0) +
-      explode * (away[axis] ?? 0);
-    yield [mid(0), mid(1), mid(2)];
+interface ViewportProbe {
+  /** A pixel of the window where a hull is seen, null where nothing of it is. */
+  project(name: string): { x: number; y: number } | null;
+  hullAt(x: number, y: number): string | null;
+  frames(): number;
+}
+
+declare global {
+  interface Window {
+    meshforgeViewport?: ViewportProbe;
   }
 }
+
+/** Offers it on the window, and marks the root with the asset whose first frame was drawn, until called. */
+export function exposeProbe(stage: Stage, root: HTMLElement): () => void {
+  const corner = (): DOMRect => (root.querySelector("canvas") ?? root).getBoundingClientRect();
+  const exposed: ViewportProbe = {
+    project: (name) => {
+      const { left, top } = corner();
+      const seen = pixelOfHull(stage, name, (x, y) => isOpen(root, left + x, top + y));
+      return seen && { x: left + seen.x, y: top + seen.y };
+    },
+    hullAt: (x, y) => hullAt(stage, x - corner().left, y - corner().top),
+    frames: () => stage.frames,
+  };
+  window.meshforgeViewport = exposed;
+  const stop = stage.onDrawn(() => {
+    const asset = stage.shown?.scene.asset ?? "";
+    if (root.dataset["ready"] !== asset) root.dataset["ready"] = asset;
+  });
+  return () => {
+    stop();
+    if (window.meshforgeViewport === exposed) delete window.meshforgeViewport;
+  };
+}
+
+/** Whether nothing lies over the picture in a pixel of the window. */
+const isOpen = (root: HTMLElement, x: number, y: number): boolean =>
+  document.elementFromPoint(x, y) === root.querySelector("canvas");

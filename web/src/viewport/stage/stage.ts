@@ -1,22 +1,20 @@
-// The one mutable place where the picture lives; React and the stores tell it what changed, it draws.
+// The one mutable place where the picture lives; React and the stores change it, it draws.
 import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLRenderer } from "three";
+import { CameraView } from "../camera/view";
+import { type AssetDrawing, pointsOf } from "../drawing/assetDrawing";
+import type { Gap } from "../drawing/contactGraph";
+import type { Eye } from "../geometry/edges";
+import type { Point } from "../geometry/triangles";
 import type { Scene } from "../../store/scenes";
-import { View } from "../camera/view";
-import { pointsOf, type Side } from "../drawing/side";
-import type { Point } from "../shapes/merged";
-import type { Eye } from "../shapes/silhouette";
-import { poseTowards } from "./approach";
+import { findViewpoint } from "./viewpoint";
 import { Contents } from "./contents";
-import { drawPanes, MANY_LINES } from "./draw";
-import type { Gap } from "./graph";
-import { Pace } from "./pace";
-import { type Pane, paneAt, panesOf } from "./panes";
-import type { Settings } from "./settings";
+import { FrameRate } from "./frameRate";
+import { type Pane, paneAt, panesOf, type Settings } from "./panes";
 
 const MANY_PIXELS = 1.2e6;
 
 export class Stage {
-  readonly view = new View();
+  readonly view = new CameraView();
   readonly contents = new Contents();
   width = 0;
   height = 0;
@@ -30,7 +28,7 @@ export class Stage {
   /** Asks for a frame. */
   invalidate: () => void = () => undefined;
   private screenPixel = 1;
-  private readonly pace = new Pace(() => this.invalidate());
+  private readonly pace = new FrameRate(() => this.invalidate());
   private wantsFit = false;
   /** Hulls to be looked at as soon as their asset is shown. */
   private wanted: { asset: string; names: ReadonlySet<string> } | null = null;
@@ -43,7 +41,7 @@ export class Stage {
     private readonly smooth: boolean,
   ) {}
 
-  get shown(): Side | null {
+  get shown(): AssetDrawing | null {
     return this.contents.shown;
   }
 
@@ -98,7 +96,7 @@ export class Stage {
     return paneAt(this.panes(), x);
   }
 
-  sideOf(pane: Pane): Side | null {
+  sideOf(pane: Pane): AssetDrawing | null {
     return pane.which === "before" ? this.contents.before : this.shown;
   }
 
@@ -142,7 +140,7 @@ export class Stage {
   }
 
   /** Does something to the camera. */
-  moveCamera(change: (view: View) => void): void {
+  moveCamera(change: (view: CameraView) => void): void {
     change(this.view);
     this.pace.move(performance.now() / 1000);
     this.invalidate();
@@ -155,7 +153,7 @@ export class Stage {
 
   private approach(now: number): void {
     if (!this.wanted || this.wanted.asset !== this.shown?.scene.asset || this.height === 0) return;
-    const pose = poseTowards(this, this.wanted.names);
+    const pose = findViewpoint(this, this.wanted.names);
     this.wanted = null;
     if (pose) this.view.glideTo(pose, now);
   }
@@ -172,4 +170,41 @@ export class Stage {
     if (!same) gl.setDrawingBufferSize(this.width, this.height, pixel);
     this.pixel = pixel;
   }
+}
+
+/** Draws the panes of the picture, each with the same camera, clipped to its part. */
+function drawPanes(gl: WebGLRenderer, stage: Stage, panes: readonly Pane[]): void {
+  gl.autoClear = false;
+  gl.setScissorTest(false);
+  gl.setViewport(0, 0, stage.width, stage.height);
+  gl.clear();
+  gl.setScissorTest(panes.length > 1);
+  for (const pane of panes) drawPane(gl, stage, pane);
+}
+
+function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
+  const side = stage.sideOf(pane);
+  const camera = stage.view.camera();
+  const { settings, height, pixel } = stage;
+  gl.setViewport(pane.x, 0, pane.width, height);
+  gl.setScissor(pane.clip[0], 0, pane.clip[1] - pane.clip[0], height);
+  const frame = { width: pane.width, height, pixel, explode: settings.explode, eye: stage.eye(camera) };
+  if (settings.grid) gl.render(stage.contents.ground.scene, camera);
+  if (!side) return;
+  prepare(stage, side);
+  side.measure(frame);
+  stage.contents.graph.measure(frame);
+  stage.contents.cut.measure(frame);
+  stage.contents.made?.measure(frame);
+  gl.render(side.root, camera);
+}
+
+/** Edges from which on a scene is too much for thin lines where drawing is slow. */
+const MANY_LINES = 6000;
+
+function prepare({ settings, contents: { graph, ghost }, coarse }: Stage, side: AssetDrawing): void {
+  side.hulls.setWireframe(settings.wireframe, coarse && side.hulls.sharpEdges > MANY_LINES);
+  side.opaque.object.visible = settings.opaque;
+  graph.object.visible = settings.contacts;
+  if (ghost) ghost.object.visible = settings.ghost;
 }

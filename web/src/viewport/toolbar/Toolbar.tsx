@@ -1,20 +1,31 @@
 // The bar over the picture: tools and selecting on the first line, looking on the second.
+import {
+  BoxSelect,
+  Columns2,
+  Expand,
+  Ghost,
+  Grid2x2X,
+  Lasso,
+  MousePointer2,
+  Network,
+  Slice,
+  Square,
+  SquareSplitHorizontal,
+  Triangle,
+} from "lucide-react";
 import { lazy, Suspense } from "react";
-import { useScenes } from "../../store/scenes";
-import { firstPicture } from "../firstPicture";
-import { ColorChoice } from "./ColorChoice";
-import { CompareChoice } from "./CompareChoice";
-import { ExplodeSlide } from "./ExplodeSlide";
-import { SelectionMenu } from "./SelectionMenu";
-import { ShowingMenu } from "./ShowingMenu";
-import { Switches } from "./Switches";
+import { startCut } from "../../commands/demonstrate";
+import { useScenes, waitForFirstScene } from "../../store/scenes";
+import { type Compare, setTool, setView, type Tool, useWorkspace, type ViewSettings } from "../../store/workspace";
+import { IconButton, Tip } from "../../ui/Button";
+import { Choice, Slide } from "../../ui/fields";
+import { keyOf } from "./commandLines";
+import { ColorChoice, SelectionMenu, ShowingMenu, ViewMenu } from "./menus";
 import css from "./toolbar.module.css";
-import { Tools } from "./Tools";
-import { ViewMenu } from "./ViewMenu";
 
 /** Its editor takes longer to begin than the picture, so it comes after it. */
 const ExtractorField = lazy(async () => {
-  await firstPicture();
+  await waitForFirstScene();
   return { default: (await import("../../text/ExtractorField")).ExtractorField };
 });
 
@@ -39,5 +50,100 @@ export function Toolbar() {
         <ViewMenu />
       </div>
     </div>
+  );
+}
+
+const TAKES = "selects hulls that are visible inside or completely inside; Shift adds, Alt subtracts";
+
+/** What the left button does: one of four tools. */
+function Tools() {
+  const tool = useWorkspace((workspace) => workspace.tool);
+  const take = (next: Tool) => setTool(tool === next ? "select" : next);
+  return (
+    <div className={css.group} role="group" aria-label="Tools">
+      <IconButton
+        icon={MousePointer2}
+        name="Select by clicking; Shift adds, Ctrl toggles; drag to orbit"
+        on={tool === "select"}
+        onClick={() => setTool("select")}
+      />
+      <IconButton
+        icon={BoxSelect}
+        name={`Box: ${TAKES}`}
+        keys={keyOf("tool-box")}
+        on={tool === "box"}
+        onClick={() => take("box")}
+      />
+      <IconButton
+        icon={Lasso}
+        name={`Lasso: ${TAKES}`}
+        keys={keyOf("tool-lasso")}
+        on={tool === "lasso"}
+        onClick={() => take("lasso")}
+      />
+      <IconButton
+        icon={Slice}
+        name="Cut a hull in two by a plane"
+        keys="K"
+        on={tool === "cut"}
+        onClick={() => (tool === "cut" ? setTool("select") : startCut())}
+      />
+    </div>
+  );
+}
+
+/** What is drawn besides the hulls, and how. */
+function Switches() {
+  const ghosts = useScenes(({ scene }) => scene?.view.has_visual ?? false);
+  const opaque = useScenes(({ scene }) => scene?.view.opaque.length ?? 0);
+  return (
+    <div className={css.group} role="group" aria-label="Overlays">
+      <Switch what="contacts" icon={Network} name="Contact graph; near misses are dashed" />
+      <Switch what="wireframe" icon={Triangle} name="Wireframe" />
+      {ghosts && <Switch what="ghost" icon={Ghost} name="Visual mesh as a ghost" />}
+      {opaque > 0 && <Switch what="opaque" icon={Grid2x2X} name={`Non-convex pieces (${opaque})`} />}
+    </div>
+  );
+}
+
+type What = "contacts" | "wireframe" | "ghost" | "opaque";
+
+function Switch({ what, icon, name }: { what: What; icon: typeof Ghost; name: string }) {
+  const on = useWorkspace((workspace) => workspace.view[what]);
+  const flip = (): Partial<ViewSettings> => ({ [what]: !on });
+  return <IconButton icon={icon} name={name} keys={keyOf(`toggle-${what}`)} on={on} onClick={() => setView(flip())} />;
+}
+
+const OPTIONS: readonly { value: Compare; icon: typeof Square; name: string }[] = [
+  { value: "off", icon: Square, name: "No comparison" },
+  { value: "slider", icon: SquareSplitHorizontal, name: "Before and after with a line between them" },
+  { value: "side", icon: Columns2, name: "Before and after side by side" },
+];
+
+/** Before and after: off, with a line between them, or side by side. */
+function CompareChoice() {
+  const compare = useWorkspace((workspace) => workspace.view.compare);
+  const edited = useScenes(({ scene }) => scene?.edit != null);
+  if (!edited) return null;
+  return (
+    <Choice
+      name="Compare with the original asset"
+      value={compare}
+      options={OPTIONS.map(({ value, icon: Icon, name }) => ({ value, name, label: <Icon size={15} aria-hidden /> }))}
+      onChange={(value) => setView({ compare: value })}
+    />
+  );
+}
+
+/** How far hulls are moved apart; a double click puts them together again. */
+function ExplodeSlide() {
+  const explode = useWorkspace((workspace) => workspace.view.explode);
+  return (
+    <Tip text="Exploded view; double-click to reset">
+      <span className={css.explode} onDoubleClick={() => setView({ explode: 0 })}>
+        <Expand size={15} aria-hidden />
+        <Slide name="Exploded view" value={explode} onChange={(value) => setView({ explode: value })} />
+      </span>
+    </Tip>
   );
 }

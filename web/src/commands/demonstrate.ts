@@ -1,0 +1,126 @@
+// Commands that demonstrate: actions are begun, accepted and cancelled; steps are removed; hulls are cut.
+import { acceptDraft, changeDraft, dropDraft, selectedHulls, startDraft } from "../store/draft";
+import { acceptGuess, guessFor } from "../store/guesses";
+import { useScenes } from "../store/scenes";
+import { openRules, removeStep } from "../store/steps";
+import { reportError } from "../store/toasts";
+import { setTool, show, useWorkspace } from "../store/workspace";
+import type { Command } from "./command";
+
+/** The key that begins each action. */
+export const ACTION_KEYS: Readonly<Record<string, string>> = {
+  Delete: "X",
+  Replace: "R",
+  Add: "Shift+A",
+  Merge: "M",
+  Scale: "S",
+};
+
+const isHere = (): boolean => useWorkspace.getState().stage === "demonstrate" && useWorkspace.getState().asset !== null;
+
+/** Whether actions can be begun: while demonstrating, and on the result that is reviewed. */
+function canDraft(): boolean {
+  const { asset, stage, showing } = useWorkspace.getState();
+  return asset !== null && (stage === "demonstrate" || (stage === "review" && showing.kind === "result"));
+}
+
+const draftCommands: readonly Command[] = Object.entries(ACTION_KEYS).map(([action, key]) => ({
+  id: `draft-${action.toLowerCase()}`,
+  title: action === "Add" ? "Add a template beside the selection" : `${action} the selection`,
+  group: "Demonstrate",
+  keys: [key],
+  enabled: canDraft,
+  run: () => startDraft(action),
+}));
+
+/** The rule (from 1) whose guess Enter takes: the first that the asset says nothing about. */
+function offeredRule(): number | null {
+  const { scene } = useScenes.getState();
+  if (!scene || scene.asset !== useWorkspace.getState().asset) return null;
+  const place = openRules(scene.view)[0];
+  return place !== undefined && guessFor(place + 1) ? place + 1 : null;
+}
+
+async function acceptStep(): Promise<void> {
+  const rule = offeredRule();
+  if (useWorkspace.getState().draft) await acceptDraft();
+  else if (rule !== null) await acceptGuess(rule).catch(reportError);
+}
+
+/** The place (from 0) of the step that is shown last. */
+function shownStep(): number | null {
+  const { asset, showing } = useWorkspace.getState();
+  const { scene } = useScenes.getState();
+  if (scene?.asset !== asset || showing.kind !== "steps" || showing.steps === 0) return null;
+  return showing.steps - 1;
+}
+
+async function removeShownStep(): Promise<void> {
+  const { asset } = useWorkspace.getState();
+  const place = shownStep();
+  if (asset !== null && place !== null) await removeStep(asset, place).catch(reportError);
+}
+
+export const demonstrateCommands: readonly Command[] = [
+  ...draftCommands,
+  {
+    id: "draft-each",
+    title: "Each connected part separately",
+    group: "Demonstrate",
+    keys: ["E"],
+    enabled: () => useWorkspace.getState().draft !== null,
+    run: () => changeDraft({ each: !useWorkspace.getState().draft?.each }),
+  },
+  {
+    id: "draft-accept",
+    title: "Add the step, or accept the guess",
+    group: "Demonstrate",
+    keys: ["Enter"],
+    enabled: () => useWorkspace.getState().draft !== null || (isHere() && offeredRule() !== null),
+    run: acceptStep,
+  },
+  {
+    id: "draft-drop",
+    title: "Cancel the action",
+    group: "Demonstrate",
+    keys: ["Escape"],
+    enabled: () => useWorkspace.getState().draft !== null,
+    run: () => dropDraft().catch(reportError),
+  },
+  {
+    id: "step-delete",
+    title: "Remove the shown step",
+    group: "Demonstrate",
+    keys: ["Backspace", "Delete"],
+    enabled: () => isHere() && useWorkspace.getState().draft === null && shownStep() !== null,
+    run: removeShownStep,
+  },
+  {
+    id: "cut",
+    title: "Split the selected hull by a plane",
+    group: "Demonstrate",
+    keys: ["K"],
+    enabled: () => isHere() && selectedHulls().length === 1,
+    run: startCut,
+  },
+  {
+    id: "landmark",
+    title: "Click the landmarks of the orientation",
+    group: "Demonstrate",
+    keys: [],
+    enabled: isHere,
+    run: startLandmarks,
+  },
+];
+
+/** Cuts are made in the original asset. */
+export function startCut(): void {
+  show({ kind: "source" });
+  setTool("cut");
+}
+
+/** Landmarks are hulls of the original asset. */
+export function startLandmarks(): void {
+  show({ kind: "source" });
+  setTool("landmark");
+}

@@ -1,0 +1,92 @@
+// Commands that label: the digits, the brush, propagated labels, and the queue of hulls whose label is not sure.
+import { propagateLabels, whyNotPropagate } from "../store/jobs";
+import { useProject } from "../store/project";
+import { useScenes } from "../store/scenes";
+import { notify } from "../store/toasts";
+import { applyLabel, confirmLabels, goToUnsure, isUnsure } from "../store/unsureHulls";
+import { setBrush, useWorkspace } from "../store/workspace";
+import type { Command } from "./command";
+
+export { paint } from "../store/labels";
+
+const isLabelling = (): boolean => useWorkspace.getState().stage === "label";
+const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
+
+const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit) => ({
+  id: `label-${digit}`,
+  title: `Label ${digit}: label the selection, or paint`,
+  group: "Label",
+  keys: [String(digit)],
+  enabled: () => isLabelling() && labelAt(digit - 1) !== undefined,
+  run: () => applyLabel(labelAt(digit - 1) ?? null),
+}));
+
+const isUnsureAny = (): boolean =>
+  isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0);
+
+/** Carries labels over, or says why not. */
+function tryPropagate(): unknown {
+  const why = whyNotPropagate();
+  return why === null ? propagateLabels() : notify(why);
+}
+
+/** Whether a hull is selected whose label is not sure. */
+function isDoubtful(): boolean {
+  const { asset, selection } = useWorkspace.getState();
+  const { scene } = useScenes.getState();
+  if (asset === null || scene?.asset !== asset) return false;
+  const card = useProject.getState().cards[asset];
+  return [...selection].some((name) => isUnsure(card, scene.view.hulls, name));
+}
+
+export const labelCommands: readonly Command[] = [
+  ...digitCommands,
+  {
+    id: "label-none",
+    title: "No label: remove it from the selection, or by painting",
+    group: "Label",
+    keys: ["0"],
+    enabled: isLabelling,
+    run: () => applyLabel(null),
+  },
+  {
+    id: "label-right",
+    title: "Confirm the labels of the selection; next unsure hull",
+    group: "Label",
+    keys: ["Enter"],
+    enabled: () => isLabelling() && isDoubtful(),
+    run: confirmLabels,
+  },
+  {
+    id: "label-next-unsure",
+    title: "Next unsure hull",
+    group: "Label",
+    keys: ["N"],
+    enabled: isUnsureAny,
+    run: () => goToUnsure(),
+  },
+  {
+    id: "label-previous-unsure",
+    title: "Previous unsure hull",
+    group: "Label",
+    keys: ["Shift+N"],
+    enabled: isUnsureAny,
+    run: () => goToUnsure(-1),
+  },
+  {
+    id: "label-carry-over",
+    title: "Propagate labels to all assets",
+    group: "Label",
+    keys: ["P"],
+    enabled: isLabelling,
+    run: tryPropagate,
+  },
+  {
+    id: "label-brush-down",
+    title: "Stop painting",
+    group: "Label",
+    keys: ["Escape"],
+    enabled: () => useWorkspace.getState().brush !== null,
+    run: () => setBrush(null),
+  },
+];

@@ -1,0 +1,80 @@
+// Commands that go somewhere.
+import { beforeEach, expect, test, vi } from "vitest";
+import { emptyProject, useProject } from "../store/project";
+import { sampleCard } from "../store/sample.test-help";
+import { initialLayout, initialWorkspace, useLayout, useWorkspace } from "../store/workspace";
+import { commandFor } from "./list";
+import { goCommands } from "./navigate";
+
+vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn() }));
+
+const plain = sampleCard({ hulls: 1, labels: [0] });
+const run = (key: string) => commandFor(key, goCommands)?.run();
+const asset = () => useWorkspace.getState().asset;
+
+beforeEach(() => {
+  const cards = [plain, { ...plain, asset: "b", unsure: [0] }, { ...plain, asset: "c" }];
+  useProject.setState({ ...emptyProject, cards: Object.fromEntries(cards.map((card) => [card.asset, card])), order: ["a", "b", "c"] });
+  useWorkspace.setState({ ...initialWorkspace, asset: "a" });
+  useLayout.setState(initialLayout);
+});
+
+test("Tab and Shift+Tab walk through the assets that are shown", () => {
+  run("Tab");
+  expect(asset()).toBe("b");
+  run("Shift+Tab");
+  run("Shift+Tab");
+  expect(asset()).toBe("c");
+  useWorkspace.setState({ asset: "a", filters: { ...initialWorkspace.filters, search: "c" } });
+  run("Tab");
+  expect(asset()).toBe("c");
+});
+
+test("N goes to the next asset that wants to be looked at, where no stage has a queue of its own", () => {
+  expect(commandFor("N", goCommands)).toBeUndefined();
+  useWorkspace.setState({ stage: "learn" });
+  run("N");
+  expect(asset()).toBe("b");
+  expect(commandFor("N", goCommands)).toBeUndefined();
+});
+
+test("Alt and a digit go to a stage", () => {
+  run("Alt+3");
+  expect(useWorkspace.getState().stage).toBe("learn");
+});
+
+test("what is next is one key away", () => {
+  useProject.setState((state) => ({ project: { ...state.project, next: { stage: "review", say: "Look.", asset: "c" } } }));
+  run("Alt+Enter");
+  expect([useWorkspace.getState().stage, asset()]).toEqual(["review", "c"]);
+});
+
+test("undo is there only if there is something to undo", () => {
+  expect(commandFor("Ctrl+Z", goCommands)).toBeUndefined();
+  useProject.setState({ history: { undo: "Delete", redo: null, undoable: 1, redoable: 0 } });
+  expect(commandFor("Ctrl+Z", goCommands)?.id).toBe("undo");
+  expect(commandFor("Ctrl+Y", goCommands)).toBeUndefined();
+});
+
+test("the same key opens and closes help", () => {
+  run("?");
+  expect(useWorkspace.getState().overlay).toBe("help");
+  run("?");
+  expect(useWorkspace.getState().overlay).toBe("none");
+});
+
+test("themes come round", () => {
+  const theme = goCommands.find((command) => command.id === "theme");
+  const seen = [0, 1, 2].map(() => {
+    theme?.run();
+    return useWorkspace.getState().theme;
+  });
+  expect(seen).toEqual(["light", "dark", "system"]);
+});
+
+test("Q lets the family fill the centre and gives it back", () => {
+  run("Q");
+  expect(useLayout.getState().gallery).toBe(true);
+  run("Q");
+  expect(useLayout.getState().gallery).toBe(false);
+});

@@ -1,0 +1,123 @@
+// Commands that go somewhere: to assets, stages, undo and redo, help, and what surrounds them.
+import { redo, undo } from "../store/edits";
+import { matchesFilter, neighbour, shownAssets } from "../store/family";
+import { useProject } from "../store/project";
+import { startTour } from "../store/tour";
+import {
+  openAsset,
+  openStage,
+  setLayout,
+  STAGES,
+  useLayout,
+  useWorkspace,
+  type WorkspaceState,
+} from "../store/workspace";
+import type { Command } from "./command";
+
+function openBeside(by: 1 | -1): void {
+  const next = neighbour(shownAssets(), useProject.getState().order, useWorkspace.getState().asset, by);
+  if (next !== null) openAsset(next);
+}
+
+/** The next asset that wants to be looked at: flagged, failed, or with labels that are not sure. */
+function nextDoubtful(): string | null {
+  const { cards, order } = useProject.getState();
+  const doubtful = (asset: string) => {
+    const card = cards[asset];
+    return card !== undefined && (matchesFilter(card, "flagged") || matchesFilter(card, "failed") || matchesFilter(card, "unsure"));
+  };
+  return neighbour(order, order, useWorkspace.getState().asset, 1, doubtful);
+}
+
+function toggleOverlay(overlay: WorkspaceState["overlay"]): void {
+  useWorkspace.setState((workspace) => ({ overlay: workspace.overlay === overlay ? "none" : overlay }));
+}
+
+const NAMES = { label: "Label", demonstrate: "Demonstrate", learn: "Learn", review: "Review" } as const;
+
+const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
+  id: `stage-${stage}`,
+  title: `Stage ${k + 1}: ${NAMES[stage]}`,
+  group: "Go",
+  keys: [`Alt+${k + 1}`],
+  run: () => openStage(stage),
+}));
+
+const hasOthers = () => useProject.getState().order.length > 1;
+
+function goToNext(): void {
+  const { next } = useProject.getState().project;
+  openStage(next.stage);
+  if (next.asset !== null) openAsset(next.asset);
+}
+
+export const goCommands: readonly Command[] = [
+  { id: "next-asset", title: "Next asset", group: "Go", keys: ["Tab"], enabled: hasOthers, run: () => openBeside(1) },
+  {
+    id: "previous-asset",
+    title: "Previous asset",
+    group: "Go",
+    keys: ["Shift+Tab"],
+    enabled: hasOthers,
+    run: () => openBeside(-1),
+  },
+  {
+    id: "next-doubtful",
+    title: "Next asset that is flagged, failed or unsure",
+    group: "Go",
+    keys: ["N"],
+    enabled: () => ["demonstrate", "learn"].includes(useWorkspace.getState().stage) && nextDoubtful() !== null,
+    run: () => openAsset(nextDoubtful()),
+  },
+  ...stageCommands,
+  { id: "go-on", title: "Go to the next step", group: "Go", keys: ["Alt+Enter"], run: goToNext },
+  {
+    id: "undo",
+    title: "Undo",
+    group: "Edit",
+    keys: ["Ctrl+Z"],
+    enabled: () => useProject.getState().history.undo !== null,
+    run: undo,
+  },
+  {
+    id: "redo",
+    title: "Redo",
+    group: "Edit",
+    keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
+    enabled: () => useProject.getState().history.redo !== null,
+    run: redo,
+  },
+  {
+    id: "gallery",
+    title: "Show the family in the centre",
+    group: "View",
+    keys: ["Q"],
+    run: () => setLayout({ gallery: !useLayout.getState().gallery }),
+  },
+  {
+    id: "family",
+    title: "Show or hide the family's column",
+    group: "View",
+    keys: ["F9"],
+    run: () => setLayout({ family: !useLayout.getState().family }),
+  },
+  {
+    id: "theme",
+    title: "Theme: light, dark, or like the system",
+    group: "View",
+    keys: [],
+    run: () => useWorkspace.setState(({ theme }) => ({ theme: nextTheme(theme) })),
+  },
+  {
+    id: "palette",
+    title: "Find a command or an asset",
+    group: "Go",
+    keys: ["Ctrl+K", "/"],
+    run: () => toggleOverlay("palette"),
+  },
+  { id: "help", title: "Keys and help", group: "Go", keys: ["?", "F1"], run: () => toggleOverlay("help") },
+  { id: "tour", title: "Guided tour", group: "Go", keys: [], run: startTour },
+];
+
+const THEMES = ["system", "light", "dark"] as const;
+const nextTheme = (theme: WorkspaceState["theme"]) => THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "system";

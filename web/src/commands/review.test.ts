@@ -1,0 +1,118 @@
+
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import { api } from "../server/api";
+import { whyNotApply } from "../store/jobs";
+import { emptyProject, useProject } from "../store/project";
+import { sampleCard } from "../store/sample.test-help";
+import { useToasts } from "../store/toasts";
+import { initialWorkspace, useWorkspace } from "../store/workspace";
+import type { AnyEdit, Card, EditedHeader } from "../wire";
+import { accept, acceptLegal, nextToReview, reviewCommands } from "./review";
+
+const card = (asset: string, more: Partial<Card> = {}) =>
+  sampleCard({ asset, output: "edited", after: 2, edited_picture: asset, ...more });
+
+let edits: AnyEdit[] = [];
+beforeEach(() => {
+  edits = [];
+  vi.spyOn(api, "edit").mockImplementation((edit) => {
+    edits.push(edit);
+    return Promise.resolve({ said: "" });
+  });
+  useWorkspace.setState({ ...initialWorkspace, stage: "review" });
+  useToasts.setState({ toasts: [] });
+});
+
+function family(...cards: Card[]): void {
+  const rows = Object.fromEntries(cards.map((one) => [one.asset, one]));
+  const program = { ...emptyProject.program, text: "All => Merge" };
+  useProject.setState({ ...emptyProject, cards: rows, order: cards.map((one) => one.asset), program });
+}
+
+const command = (id: string) => reviewCommands.find((one) => one.id === id);
+
+describe("accepting", () => {
+  it("goes on to the next that wants a look", async () => {
+    family(card("a"), card("b", { review: "accepted" }), card("c"));
+    useWorkspace.setState({ asset: "a" });
+    await accept("a");
+    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted" }]);
+    expect(useWorkspace.getState().asset).toBe("c");
+  });
+
+  it("stays with the last one", async () => {
+    family(card("a"), card("b", { review: "accepted" }));
+    useWorkspace.setState({ asset: "a" });
+    await accept("a");
+    expect(useWorkspace.getState().asset).toBe("a");
+  });
+
+  it("takes all at once that are legal, and reports those that are not", async () => {
+    family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "flagged" }));
+    vi.spyOn(api, "result").mockImplementation((asset) => {
+      const findings = asset === "b" ? [{ severity: "error", text: "not convex", hull: null }] : [];
+      return Promise.resolve({ header: { findings } as unknown as EditedHeader, rows: [], shapes: [] });
+    });
+    const steps: string[] = [];
+    await acceptLegal((done, total) => steps.push(`${done}/${total}`));
+    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted" }]);
+    expect(useToasts.getState().toasts[0]?.text).toMatch(/^1 not accepted/);
+    expect(steps.at(-1)).toBe("2/2");
+  });
+});
+
+describe("keys of the review stage", () => {
+  it("accept nothing where there is no output", () => {
+    family(card("a", { output: "failed" }));
+    useWorkspace.setState({ asset: "a" });
+    expect(command("accept")?.enabled?.()).toBe(false);
+  });
+
+  it("accept only what is up to date, which can be flagged all the same", () => {
+    family(card("a", { stale: ["program"] }), card("b"));
+    useWorkspace.setState({ asset: "a" });
+    expect([command("accept")?.enabled?.(), command("flag")?.enabled?.()]).toEqual([false, true]);
+    useWorkspace.setState({ asset: "b" });
+    expect(command("accept")?.enabled?.()).toBe(true);
+  });
+
+  it("flag, and take a flag back", () => {
+    family(card("a"), card("b", { review: "flagged" }));
+    useWorkspace.setState({ asset: "b" });
+    command("flag")?.run();
+    useWorkspace.setState({ asset: "a" });
+    command("flag")?.run();
+    return vi.waitFor(() => expect(edits.map((edit) => "verdict" in edit && edit.verdict)).toEqual([null, "flagged"]));
+  });
+
+  it("say so when nothing is left to review", () => {
+    family(card("a", { review: "accepted" }));
+    nextToReview();
+    expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing is left to review/);
+  });
+
+  it("do not call a failed asset reviewed that is the only one left", () => {
+    family(card("a", { review: "accepted" }), card("b", { output: "failed" }));
+    useWorkspace.setState({ asset: "b" });
+    nextToReview();
+    expect(useToasts.getState().toasts[0]?.text).toBe("No other result needs review.");
+  });
+});
+
+describe("why the program cannot be applied", () => {
+  it("is told", () => {
+    family();
+    expect(whyNotApply()).toMatch(/no assets/);
+    family(card("a"));
+    expect(whyNotApply()).toBeNull();
+    useProject.setState({ program: emptyProject.program });
+    expect(whyNotApply()).toMatch(/no program yet/);
+  });
+
+  it("is that it is being applied", () => {
+    family(card("a"));
+    const job = { id: "1", kind: "apply", title: "", done: 0, total: 1, state: "running", message: "", lines: [], out: null } as const;
+    useProject.setState({ jobs: [{ ...job, lines: [] }] });
+    expect(whyNotApply()).toBe("The program is being applied now.");
+  });
+});

@@ -1,0 +1,154 @@
+// What a person does with results: apply, accept, flag, correct, export, and go to the next that wants a look.
+import { startDraft } from "../store/draft";
+import { perform } from "../store/edits";
+import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
+import { useProject } from "../store/project";
+import { getVerdict, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
+import { notify, reportError } from "../store/toasts";
+import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
+import type { Card } from "../wire";
+import type { Command } from "./command";
+import { runInTurn } from "./queue";
+
+/** All cards in the family's order. */
+function cardsInOrder(): Card[] {
+  const { order, cards } = useProject.getState();
+  return order.flatMap((asset) => cards[asset] ?? []);
+}
+
+/** Accepts an output and goes on to the next that wants a look. */
+export async function accept(asset: string): Promise<void> {
+  const next = nextOf(asset);
+  const done = await perform({ kind: "review", ids: [asset], verdict: "accepted" });
+  if (done && next && useWorkspace.getState().asset === asset) openAsset(next);
+}
+
+export const flag = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "flagged", note });
+
+/** Keeps a note with a flag that is there. */
+export const noteFlag = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "flagged", note }, { quiet: true });
+
+export const withdrawReview = (asset: string): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: null });
+
+/** Accepts all outputs that nobody reviewed, that are up to date, without flags, and legal; reports how many are not. */
+export async function acceptLegal(progress: (done: number, total: number) => void): Promise<void> {
+  const { cards } = useProject.getState();
+  const open = listAcceptable(cardsInOrder()).flatMap((asset) => cards[asset] ?? []);
+  let done = 0;
+  progress(0, open.length);
+  const verdicts = open.map(async (card) => {
+    const found = await getVerdict(card);
+    progress(++done, open.length);
+    return found === "illegal" ? [] : [card.asset];
+  });
+  try {
+    const ids = (await Promise.all(verdicts)).flat();
+    const left = open.length - ids.length;
+    if (ids.length) await perform({ kind: "review", ids, verdict: "accepted" });
+    if (left) notify(`${left} not accepted: ${left === 1 ? "it is" : "they are"} not legal`);
+  } catch (error) {
+    reportError(error);
+  }
+}
+
+/** Shows what the program and the edits by hand make of an asset now, which is what a next edit by hand is about. */
+export function showPresent(asset: string): void {
+  const { showing, selection } = useWorkspace.getState();
+  visit(asset, { kind: "result", of: "program" }, showing.kind === "result" ? selection : []);
+}
+
+/** Begins an action that fixes the result of an asset. */
+export function startCorrection(asset: string): void {
+  showPresent(asset);
+  runInTurn(() => startDraft("Delete"));
+}
+
+export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-corrections", asset });
+
+const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().lesson?.sample ?? []);
+
+function nextOf(asset: string | null): string | null {
+  return nextInQueue(queue(), useProject.getState().order, asset);
+}
+
+/** Opens the next asset that failed, is flagged, or was not reviewed yet. */
+export function nextToReview(): void {
+  const { asset } = useWorkspace.getState();
+  const next = nextOf(asset);
+  if (next) return openAsset(next);
+  const last = asset !== null && queue().includes(asset);
+  notify(last ? "No other result needs review." : "Nothing is left to review.");
+}
+
+/** The card of the open asset, if it has an output that can be reviewed. */
+function reviewable(): Card | null {
+  const { asset, stage } = useWorkspace.getState();
+  const card = useProject.getState().cards[asset ?? ""];
+  return stage === "review" && card && (card.output === "edited" || card.output === "unchanged") ? card : null;
+}
+
+export const reviewCommands: readonly Command[] = [
+  {
+    id: "accept",
+    title: "Accept the result, go to the next",
+    group: "Review",
+    keys: ["Y"],
+    enabled: () => reviewable()?.stale.length === 0,
+    run: () => {
+      const card = reviewable();
+      if (card) return accept(card.asset);
+    },
+  },
+  {
+    id: "flag",
+    title: "Flag the result, or remove the flag",
+    group: "Review",
+    keys: ["F"],
+    enabled: () => reviewable() !== null,
+    run: () => {
+      const card = reviewable();
+      if (card) return (card.review === "flagged" ? withdrawReview(card.asset) : flag(card.asset, card.note));
+    },
+  },
+  {
+    id: "apply",
+    title: "Apply the program to all assets",
+    group: "Review",
+    keys: [],
+    enabled: () => whyNotApply() === null,
+    run: () => {
+      openStage("review");
+      void applyTo(null);
+    },
+  },
+  {
+    id: "check-all",
+    title: "Check all results",
+    group: "Review",
+    keys: [],
+    enabled: () => whyNotCheck() === null,
+    run: () => {
+      openStage("review");
+      void checkAll();
+    },
+  },
+  {
+    id: "checks",
+    title: "Show or hide the checks of the result",
+    group: "Review",
+    keys: ["Shift+C"],
+    enabled: () => useWorkspace.getState().stage === "review",
+    run: () => setChecks({ open: !useWorkspace.getState().checks.open }),
+  },
+  {
+    id: "next-to-review",
+    title: "Next result to review",
+    group: "Review",
+    keys: ["N"],
+    enabled: () => useWorkspace.getState().stage === "review",
+    run: nextToReview,
+  },
+];

@@ -1,0 +1,111 @@
+// Commands that select hulls, and put hulls out of sight.
+import { type Scene, useScenes } from "../store/scenes";
+import {
+  type Connected,
+  hide,
+  invert,
+  isolate,
+  type Selection,
+  showAll,
+  withConnected,
+  withNeighbours,
+  withSameLabel,
+} from "../store/selection";
+import { select, useWorkspace } from "../store/workspace";
+import type { Command } from "./command";
+
+/** The scene that the selection belongs to. */
+function here(): Scene | null {
+  const { scene } = useScenes.getState();
+  return scene && scene.asset === useWorkspace.getState().asset ? scene : null;
+}
+
+const hasSelection = (): boolean => here() !== null && useWorkspace.getState().selection.size > 0;
+const hasHulls = (): boolean => (here()?.hulls.length ?? 0) > 0;
+
+/** Selects what a rule makes of the selection, as far as it is in sight. */
+function changeSelection(rule: (scene: Connected, selection: Selection) => Set<string>): void {
+  const scene = here();
+  const { selection, hidden } = useWorkspace.getState();
+  if (scene) select([...rule(scene, selection)].filter((name) => !hidden.has(name)));
+}
+
+function isolateSelection(): void {
+  const scene = here();
+  if (scene) isolate(scene, useWorkspace.getState().selection);
+}
+
+export const selectCommands: readonly Command[] = [
+  {
+    id: "select-all",
+    title: "Select all hulls",
+    group: "Select",
+    keys: ["A"],
+    enabled: hasHulls,
+    run: () => changeSelection(({ hulls }) => new Set(hulls.map((hull) => hull.name))),
+  },
+  {
+    id: "select-none",
+    title: "Select nothing",
+    group: "Select",
+    keys: ["Alt+A", "Escape"],
+    enabled: () => useWorkspace.getState().selection.size > 0,
+    run: () => select([]),
+  },
+  {
+    id: "select-invert",
+    title: "Invert the selection",
+    group: "Select",
+    keys: ["I"],
+    enabled: hasHulls,
+    run: () => changeSelection(invert),
+  },
+  {
+    id: "select-grow",
+    title: "Grow the selection to touching hulls",
+    group: "Select",
+    keys: ["G"],
+    enabled: hasSelection,
+    run: () => changeSelection(withNeighbours),
+  },
+  {
+    id: "select-connected",
+    title: "Select all connected hulls",
+    group: "Select",
+    keys: ["Shift+G"],
+    enabled: hasSelection,
+    run: () => changeSelection(withConnected),
+  },
+  {
+    id: "select-alike",
+    title: "Select all hulls with the same label",
+    group: "Select",
+    keys: ["Shift+L"],
+    enabled: hasSelection,
+    run: () => changeSelection(withSameLabel),
+  },
+  {
+    id: "hide",
+    title: "Hide the selection",
+    group: "Select",
+    keys: ["H"],
+    enabled: hasSelection,
+    run: () => hide(useWorkspace.getState().selection),
+  },
+  {
+    id: "isolate",
+    title: "Hide all but the selection",
+    group: "Select",
+    keys: ["Shift+H"],
+    enabled: hasSelection,
+    run: isolateSelection,
+  },
+  {
+    id: "show-all",
+    title: "Show all hulls",
+    group: "Select",
+    keys: ["Alt+H"],
+    enabled: () => useWorkspace.getState().hidden.size > 0,
+    run: showAll,
+  },
+];

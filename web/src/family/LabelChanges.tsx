@@ -1,0 +1,75 @@
+// What the last edit of all labels changed: how many, where, and a way to each of them; until the next edit.
+import { Undo2, X } from "lucide-react";
+import { useEffect } from "react";
+import css from "./labelChanges.module.css";
+import { undo } from "../store/edits";
+import {
+  type ChangeKind,
+  clearLabelChanges,
+  countChanges,
+  dismissLabelChanges,
+  highlightLabelChanges,
+  openNextChange,
+  useLabelChanges,
+} from "../store/labelChanges";
+import { useProject } from "../store/project";
+import { labelProgress } from "../store/unsureHulls";
+import { countText } from "../store/words";
+import { useWorkspace } from "../store/workspace";
+import { Button, IconButton } from "../ui/Button";
+import type { Relabelled } from "../wire";
+
+const TITLES: Readonly<Record<Relabelled["way"], string>> = {
+  propagate: "Labels propagated",
+  "label-files": "Labels taken from files",
+  "label-names": "Labels taken from names",
+  "label-vlm": "Labels from a model",
+};
+
+/** Where labels are given, and nothing else is in hand. */
+export function LabelChanges() {
+  const relabelled = useLabelChanges();
+  const isFree = useWorkspace(({ stage, tool }) => stage === "label" && tool !== "cut");
+  return relabelled && isFree ? <ChangeBar relabelled={relabelled} /> : null;
+}
+
+function ChangeBar({ relabelled }: { relabelled: Relabelled }) {
+  const { settled, way } = relabelled;
+  const unsure = useProject((state) => labelProgress(state.cards).unsure);
+  useEffect(() => clearLabelChanges, []);
+  return (
+    <div className={css.outcome} role="status" aria-label={TITLES[way]}>
+      <b>{TITLES[way]}</b>
+      <ChangeButton relabelled={relabelled} sort="new" />
+      <ChangeButton relabelled={relabelled} sort="changed" />
+      {settled > 0 && <span className={css.count}>{settled.toLocaleString("en-GB")} now sure</span>}
+      <span className={css.count}>{unsure ? `${unsure.toLocaleString("en-GB")} unsure` : "all sure"}</span>
+      <span className={css.buttons}>
+        <Button look="quiet" icon={Undo2} onClick={() => void undo()} tip="Undo all changes" keys="Ctrl+Z">
+          Undo
+        </Button>
+        <IconButton icon={X} name="Dismiss; the labels stay" onClick={dismissLabelChanges} />
+      </span>
+    </div>
+  );
+}
+
+function ChangeButton({ relabelled, sort }: { relabelled: Relabelled; sort: ChangeKind }) {
+  const { hulls, assets } = countChanges(relabelled, sort);
+  if (!hulls) return null;
+  return (
+    <button
+      type="button"
+      className={css.changed}
+      title="Highlights them in the family; click to open the next asset with some"
+      onPointerEnter={() => highlightLabelChanges(relabelled, sort)}
+      onPointerLeave={clearLabelChanges}
+      onFocus={() => highlightLabelChanges(relabelled, sort)}
+      onBlur={clearLabelChanges}
+      onClick={() => openNextChange(relabelled, sort)}
+    >
+      <span className={css.filled} aria-hidden />
+      {hulls.toLocaleString("en-GB")} {sort} on {countText(assets, "asset")}
+    </button>
+  );
+}

@@ -1,0 +1,71 @@
+// Words on cards.
+import { expect, test } from "vitest";
+import type { Card } from "../wire";
+import { badgesOf, cardText, fitBadges, relabelledText, shortenMiddle } from "./cardText";
+
+const card: Card = {
+  asset: "a.urdf",
+  hulls: 3,
+  labels: [0, -1, 0],
+  given: 0,
+  unsure: [0],
+  demonstrated: true,
+  output: "edited",
+  after: 2,
+  after_labels: [],
+  stale: ["program"],
+  error: null,
+  flags: [],
+  review: null,
+  note: null,
+  corrections: 1,
+  sources: 0,
+  prepared: [],
+  picture: null,
+  edited_picture: null,
+  check: null,
+  faults: null,
+};
+
+test("long names lose their middle, more of the front than of the end", () => {
+  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toHaveLength(20);
+  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/^assets/);
+  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/t_17\.urdf$/);
+  expect(shortenMiddle("short", 20)).toBe("short");
+});
+
+test("every way an asset stands has a badge of its own", () => {
+  expect(badgesOf(card).map((badge) => badge.name)).toEqual([
+    "stale",
+    "demonstrated",
+    "corrected",
+    "edited",
+    "unsure",
+    "unlabelled",
+  ]);
+});
+
+test("why an asset is flagged is said", () => {
+  const [first] = badgesOf({ ...card, review: "flagged", note: "leg too short", flags: ["open mesh"] });
+  expect(first?.text).toBe("Flagged: leg too short; open mesh");
+});
+
+test("a screen reader hears name, hulls before and after, and how it stands", () => {
+  expect(cardText(card)).toMatch(/^a\.urdf; 3 hulls, 2 after; Not up to date: program; Demonstrated/);
+  expect(cardText({ ...card, hulls: null, error: "no mesh file" })).toContain("no mesh file");
+});
+
+test("signs that do not fit are counted; what matters most stays", () => {
+  const all = badgesOf(card);
+  expect(fitBadges(all, 500)).toEqual({ shown: all, rest: [] });
+  const { shown, rest } = fitBadges(all, 60);
+  expect(shown.map((badge) => badge.name)).toEqual(["stale", "demonstrated"]);
+  expect(rest).toHaveLength(all.length - 2);
+  expect(fitBadges(all, 0)).toEqual({ shown: [], rest: all });
+});
+
+test("what became of labels is said in words", () => {
+  const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
+  expect(relabelledText(found)).toBe("2 labels are new, 1 label changed");
+  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels changed");
+});

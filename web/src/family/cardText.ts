@@ -1,0 +1,82 @@
+// Words on cards: names that fit, and what a screen reader says.
+import { countByEdit, faultsOf, findingsText } from "../store/checks";
+import { matchesFilter, unlabelled } from "../store/family";
+import type { FilterName } from "../store/workspace";
+import type { Card, RelabelledAsset } from "../wire";
+
+/** A text of at most so many letters, shortened in the middle, where ids differ least. */
+export function shortenMiddle(text: string, most: number): string {
+  if (text.length <= most || most < 5) return text;
+  const end = Math.ceil((most - 1) * 0.6);
+  return `${text.slice(0, most - 1 - end)}…${text.slice(-end)}`;
+}
+
+export const hullsText = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);
+
+export interface Badge {
+  name: FilterName | "corrected";
+  /** What it says, in words. */
+  text: string;
+  count?: number;
+  /** Whether it was there before the edit already. */
+  old?: boolean;
+}
+
+/** How an asset stands, what matters most first; engine: whose limits count. */
+export function badgesOf(card: Card, engine = ""): readonly Badge[] {
+  const { output, review, corrections, stale } = card;
+  const [bare, unsure] = [unlabelled(card), card.unsure.length];
+  const faults = faultsOf(card, engine);
+  const out: (Badge | false)[] = [
+    output === "failed" && { name: "failed", text: "The program fails on it" },
+    matchesFilter(card, "flagged") && { name: "flagged", text: flaggedText(card) },
+    review === "accepted" && { name: "accepted", text: "Accepted" },
+    matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
+    faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },
+    card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
+    corrections > 0 && countBadge("corrected", corrections, "edit by hand", "edits by hand"),
+    output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
+    unsure > 0 && countBadge("unsure", unsure, "label is not sure", "labels are not sure"),
+    bare > 0 && countBadge("unlabelled", bare, "hull has no label", "hulls have no label"),
+  ];
+  return out.filter((badge) => badge !== false);
+}
+
+const countBadge = (name: Badge["name"], count: number, one: string, several: string): Badge => ({
+  name,
+  count,
+  text: count === 1 ? `1 ${one}` : `${count} ${several}`,
+});
+
+const SIGN = 16; // pixels that a sign takes
+const DIGIT = 7;
+
+/** Those that fit into a width [px], and the rest, which then takes the place of a sign. */
+export function fitBadges(all: readonly Badge[], room: number): { shown: readonly Badge[]; rest: readonly Badge[] } {
+  const widths = all.map(({ count }) => SIGN + (count === undefined ? 0 : DIGIT * String(count).length));
+  const sum = (count: number) => widths.slice(0, count).reduce((a, b) => a + b, 0);
+  if (sum(all.length) <= room) return { shown: all, rest: [] };
+  const most = widths.findLastIndex((_, k) => sum(k) + SIGN <= room);
+  return { shown: all.slice(0, Math.max(most, 0)), rest: all.slice(Math.max(most, 0)) };
+}
+
+function flaggedText(card: Card): string {
+  const reasons = [card.note, ...card.flags].filter(Boolean);
+  return reasons.length ? `Flagged: ${reasons.join("; ")}` : "Flagged";
+}
+
+/** What became of the labels of an asset: `24 labels are new, 1 is another`. */
+export function relabelledText({ new: fresh, changed }: RelabelledAsset): string {
+  const parts = [
+    fresh.length && (fresh.length === 1 ? "1 label is new" : `${fresh.length} labels are new`),
+    changed.length && (changed.length === 1 ? "1 label changed" : `${changed.length} labels changed`),
+  ];
+  return parts.filter(Boolean).join(", ");
+}
+
+/** A card as a screen reader says it. */
+export function cardText(card: Card, engine = ""): string {
+  const amount = card.hulls === null ? (card.error ?? "being read") : hullsText(card.hulls);
+  const after = card.after !== null && card.output !== "none" ? `, ${card.after} after` : "";
+  return [card.asset, amount + after, ...badgesOf(card, engine).map((badge) => badge.text)].join("; ");
+}

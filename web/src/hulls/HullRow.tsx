@@ -1,0 +1,110 @@
+// One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
+import { memo } from "react";
+import type { Tone } from "../pictures/hullColors";
+import { volumeText } from "../store/units";
+import { sourceText } from "../store/words";
+import { hover, useWorkspace } from "../store/workspace";
+import { Swatch } from "../ui/Section";
+import css from "./hulls.module.css";
+import type { Row } from "./rows";
+import type { OpaqueView } from "../wire";
+
+interface Place {
+  readonly index: number;
+  readonly top: number;
+}
+
+interface HullRowProps extends Place {
+  readonly row: Row;
+  readonly tone: Tone;
+  /** Whether the keys are at it. */
+  readonly active: boolean;
+  /** The label that it had before the last edit of all labels, where that was another one. */
+  readonly was: string | undefined;
+}
+
+export const HullRow = memo(function HullRow({ row, tone, active, was, index, top }: HullRowProps) {
+  const { hull, neighbours } = row;
+  const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
+  const pointed = useWorkspace((workspace) => workspace.hover === hull.name);
+  const hidden = useWorkspace((workspace) => workspace.hidden.has(hull.name));
+  return (
+    <div
+      id={`hull-${index}`}
+      role="row"
+      aria-rowindex={index + 2}
+      aria-selected={selected}
+      className={css.row}
+      data-pointed={pointed}
+      data-hidden={hidden}
+      data-active={active}
+      data-name={hull.name}
+      style={{ transform: `translateY(${top}px)` }}
+      onPointerEnter={() => hover(hull.name)}
+      onPointerLeave={() => hover(null)}
+    >
+      <span role="gridcell" className={css.name} title={hidden ? `${hull.name} (hidden)` : hull.name}>
+        <Swatch color={tone.color ?? "var(--hull-unlabelled)"} hatched={tone.hatched} />
+        <Shortened text={hull.name} />
+      </span>
+      <span role="gridcell" title={labelTitle(row, was)}>
+        {hull.label ?? <i aria-label="no label">–</i>}
+        {was !== undefined && <span className={css.changed} role="img" aria-label={`was ${was}`} />}
+      </span>
+      <span role="gridcell" className={css.number}>
+        {volumeText(hull.volume)}
+      </span>
+      <span role="gridcell" className={css.number} title={`${hull.vertices} vertices, ${hull.faces} faces`}>
+        {hull.primitive ?? `${hull.vertices} v`}
+      </span>
+      <span role="gridcell" className={css.number}>
+        {neighbours}
+      </span>
+    </div>
+  );
+});
+
+const TAIL = 6;
+
+/** A name that loses letters before its last ones, by which most names differ. */
+function Shortened({ text }: { text: string }) {
+  return (
+    <span className={css.shortened}>
+      <span>{text.slice(0, -TAIL)}</span>
+      <span>{text.slice(-TAIL)}</span>
+    </span>
+  );
+}
+
+function labelTitle({ hull }: Row, was: string | undefined): string {
+  if (hull.label === null) return "No label";
+  const share = hull.confidence === null ? "" : `${Math.round(100 * hull.confidence)} % sure`;
+  const parts = [hull.label, share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
+  return parts.filter(Boolean).join(", ");
+}
+
+/** Collision geometry that is no hull, with the reason. */
+export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & { piece: OpaqueView }) {
+  const pointed = useWorkspace((workspace) => workspace.hover === piece.name);
+  return (
+    <div
+      id={`hull-${index}`}
+      role="row"
+      aria-rowindex={index + 2}
+      aria-disabled
+      className={css.opaque}
+      data-pointed={pointed}
+      style={{ transform: `translateY(${top}px)` }}
+      onPointerEnter={() => hover(piece.name)}
+      onPointerLeave={() => hover(null)}
+    >
+      <span role="gridcell" className={css.name} title={piece.name}>
+        <Swatch color="var(--hull-pale)" hatched />
+        <Shortened text={piece.name} />
+      </span>
+      <span role="gridcell" className={css.reason} title={piece.reason}>
+        {piece.reason}
+      </span>
+    </div>
+  );
+});

@@ -1,0 +1,284 @@
+// The ways to get labels other than by hand, each with what it would give: from labelled assets, from files, from
+// names, from a vision-language model.
+import { ArrowRight, Eye, FileText, type LucideIcon, Square, Type, Waypoints } from "lucide-react";
+import { type ReactNode, useEffect, useState } from "react";
+import { api } from "../../server/api";
+import { perform } from "../../store/edits";
+import { askModel, cancelJob, forecastModel, propagateLabels, useJob, whyNotPropagate } from "../../store/jobs";
+import { useProject } from "../../store/project";
+import { reportError } from "../../store/toasts";
+import { givenLabels } from "../../store/unsureHulls";
+import { countText } from "../../store/words";
+import { openAsset, useWorkspace } from "../../store/workspace";
+import { Button, IconButton } from "../../ui/Button";
+import { Choice } from "../../ui/fields";
+import { Note, Section } from "../../ui/Section";
+import type { Job, LabelSources, Model } from "../../wire";
+import css from "./getLabels.module.css";
+
+export function GetLabels() {
+  const { files, names, model } = useSources();
+  return (
+    <Section title="Get labels">
+      <ul className={css.ways}>
+        <FromAssets />
+        <FromFiles files={files} />
+        <FromNames names={names} />
+        <FromModel key={model?.name} model={model} />
+      </ul>
+    </Section>
+  );
+}
+
+/** How much there is, asked anew when labels or assets change. */
+function useSources(): LabelSources {
+  const [sources, setSources] = useState<LabelSources>({ files: 0, names: 0, model: null });
+  const vocabulary = useProject((state) => state.project.vocabulary);
+  const assets = useProject((state) => state.order.length);
+  useEffect(() => {
+    let is = true;
+    const timer = setTimeout(() => {
+      api.labelSources().then((found) => is && setSources(found), reportError);
+    }, 250);
+    return () => {
+      is = false;
+      clearTimeout(timer);
+    };
+  }, [vocabulary, assets]);
+  return sources;
+}
+
+interface SourceRowProps {
+  icon: LucideIcon;
+  title: string;
+  /** What it would give, or why it gives nothing. */
+  text: ReactNode;
+  action: ReactNode;
+  /** What there is more to tell, below. */
+  children?: ReactNode;
+}
+
+/** One way to get labels: where they come from, what it would give, and the button that does it. */
+function SourceRow({ icon: Icon, title, text, action, children }: SourceRowProps) {
+  return (
+    <li className={css.way}>
+      <Icon size={16} aria-hidden className={css.sign} />
+      <div className={css.words}>
+        <span className={css.title}>{title}</span>
+        <span className={css.text}>{text}</span>
+      </div>
+      {action}
+      {children && <div className={css.more}>{children}</div>}
+    </li>
+  );
+}
+
+/** files: assets whose labels file says something that is not taken yet. */
+function FromFiles({ files }: { files: number }) {
+  if (!files) return null;
+  const beside = `beside ${countText(files, "asset")}`;
+  const take = (
+    <Button
+      onClick={() => void perform({ kind: "label-files" })}
+      aria-label={`From files ${beside}: take`}
+      tip="Use the labels files beside the assets"
+    >
+      Take
+    </Button>
+  );
+  return <SourceRow icon={FileText} title="From files" text={beside} action={take} />;
+}
+
+/** names: hulls without a label whose names say one. */
+function FromNames({ names }: { names: number }) {
+  if (!names) return null;
+  const of = `of ${countText(names, "hull")} without a label`;
+  const take = (
+    <Button
+      onClick={() => void perform({ kind: "label-names" })}
+      aria-label={`From names ${of}: take`}
+      tip="Use labels found in the names of hulls and bodies"
+    >
+      Take
+    </Button>
+  );
+  return <SourceRow icon={Type} title="From names" text={of} action={take} />;
+}
+
+const PROPAGATE_TITLE = "From labelled assets";
+
+/** Labels propagated from the assets that a person or a file has labelled to all others. */
+function FromAssets() {
+  const job = useJob("propagate");
+  if (job?.state === "running") return <PropagateRunning job={job} />;
+  return <PropagateReady job={job} />;
+}
+
+function PropagateReady({ job }: { job: Job | null }) {
+  const why = useProject(whyNotPropagate);
+  const given = useGiven();
+  const carried = useProject((state) => state.project.carried);
+  const unused = carried?.unused ?? 0;
+  const carry = (
+    <Button
+      look={why === null && (!carried || unused > 0) ? "primary" : "plain"}
+      disabled={why !== null}
+      onClick={() => void propagateLabels()}
+      aria-label={carried ? "Propagate labels again" : "Propagate labels"}
+      tip="Label all other hulls like the labelled hulls that they resemble most"
+      keys="P"
+    >
+      {carried ? "Propagate again" : "Propagate"}
+    </Button>
+  );
+  const text = why ?? (carried ? sinceThen(unused) : given);
+  return (
+    <SourceRow icon={Waypoints} title={PROPAGATE_TITLE} text={text} action={carry}>
+      {job?.state === "failed" && <Note mood="bad">{job.message}</Note>}
+      {job?.state === "cancelled" && <Note mood="warn">{job.message}</Note>}
+      {carried?.next && <Best asset={carried.next} />}
+    </SourceRow>
+  );
+}
+
+const sinceThen = (unused: number): string =>
+  unused ? `${countText(unused, "label")} not propagated yet` : "All your labels are propagated";
+
+function useGiven(): string {
+  const { given, assets } = givenLabels(useProject((state) => state.cards));
+  return `${countText(given, "label")} on ${countText(assets, "asset")}`;
+}
+
+/** The asset that helps most if you label it. */
+function Best({ asset }: { asset: string }) {
+  const isOpen = useWorkspace((workspace) => workspace.asset === asset);
+  return (
+    <div className={css.best}>
+      <span title={`${asset} helps most if you label it`}>
+        Label next: <b>{asset}</b>
+      </span>
+      {!isOpen && (
+        <IconButton icon={ArrowRight} name={`Open ${asset} and label it`} onClick={() => openAsset(asset)} />
+      )}
+    </div>
+  );
+}
+
+/** Reading can be counted; comparing all hulls cannot. */
+function PropagateRunning({ job }: { job: Job }) {
+  const reading = job.done < job.total;
+  const text = reading ? `Reading assets: ${job.done} of ${job.total}` : "Comparing all hulls…";
+  const stop = (
+    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop propagating labels">
+      Stop
+    </Button>
+  );
+  return (
+    <SourceRow icon={Waypoints} title={PROPAGATE_TITLE} text={<span role="status">{text}</span>} action={stop}>
+      <progress className={css.progress} value={reading ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
+    </SourceRow>
+  );
+}
+
+const MODEL_TITLE = "From a model";
+const MODES = [
+  { value: "cheap", label: "Cheap", name: "One question about a whole asset" },
+  { value: "balanced", label: "Balanced", name: "Two questions about each dozen hulls" },
+  { value: "exact", label: "Exact", name: "One question about each view of every five hulls" },
+] as const;
+const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
+type Mode = Model["mode"];
+
+/** What is chosen, and the forecast that was asked for: it is of its mode and its vocabulary only. */
+interface Chosen {
+  mode: Mode;
+  limit: string;
+  forecast: { job: string; mode: Mode; vocabulary: string } | null;
+}
+
+/** model: the one that the project's settings name. */
+function FromModel({ model }: { model: Model | null }) {
+  const asking = useJob("ask");
+  const counting = useJob("forecast");
+  const limit = model?.max_cost?.toString() ?? "";
+  const [chosen, setChosen] = useState<Chosen>({ mode: model?.mode ?? "balanced", limit, forecast: null });
+  if (asking?.state === "running") return <ModelRunning job={asking} stop="Stop asking" />;
+  if (counting?.state === "running") return <ModelRunning job={counting} stop="Stop counting" />;
+  if (!model) return <SourceRow icon={Eye} title={MODEL_TITLE} text="Set a model under [vlm] in meshforge.toml" action={null} />;
+  return <ModelReady model={model} asked={asking} chosen={chosen} choose={(next) => setChosen({ ...chosen, ...next })} />;
+}
+
+interface ModelReadyProps {
+  model: Model;
+  asked: Job | null;
+  chosen: Chosen;
+  choose: (next: Partial<Chosen>) => void;
+}
+
+function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
+  const { mode, limit, forecast } = chosen;
+  const vocabulary = useProject((state) => state.project.vocabulary.join("\n"));
+  const forecastJob = useProject((state) => state.jobs.find((job) => job.id === forecast?.job) ?? null);
+  const isFor = forecast?.mode === mode && forecast.vocabulary === vocabulary;
+  const isKnown = isFor && forecastJob?.state === "done";
+  const most = limit.trim() === "" ? null : Number(limit);
+  const isLimit = most === null || (Number.isFinite(most) && most >= 0);
+
+  async function count() {
+    const job = await forecastModel(mode);
+    if (job) choose({ forecast: { job, mode, vocabulary } });
+  }
+  async function ask() {
+    if (await askModel(mode, most)) choose({ forecast: null });
+  }
+  const action = isKnown ? (
+    <Button look="primary" disabled={!isLimit} onClick={() => void ask()} aria-label={`Ask ${model.name}`}>
+      Ask
+    </Button>
+  ) : (
+    <Button
+      disabled={model.why !== null}
+      onClick={() => void count()}
+      aria-label="What asking would cost"
+      tip="Counts questions, pictures and tokens; nothing is sent"
+    >
+      Cost…
+    </Button>
+  );
+  return (
+    <SourceRow icon={Eye} title={MODEL_TITLE} text={model.why ?? `${model.name} at ${model.host}`} action={action}>
+      {model.why === null && (
+        <div className={css.model}>
+          <Choice name="How much is asked" value={mode} options={MODES} onChange={(next) => choose({ mode: next })} />
+          <label className={css.limit}>
+            at most $
+            <input
+              value={limit}
+              inputMode="decimal"
+              aria-label="At most, in dollars"
+              aria-invalid={!isLimit}
+              onChange={(event) => choose({ limit: event.target.value })}
+            />
+          </label>
+        </div>
+      )}
+      {isKnown && <Note>{forecastJob.message}</Note>}
+      {isFor && forecastJob?.state === "failed" && <Note mood="bad">{forecastJob.message}</Note>}
+      {asked && !isKnown && <Note mood={MOODS[asked.state]}>{asked.message}</Note>}
+    </SourceRow>
+  );
+}
+
+function ModelRunning({ job, stop }: { job: Job; stop: string }) {
+  const action = (
+    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label={stop}>
+      Stop
+    </Button>
+  );
+  const text = <span role="status">{`${job.title}: ${job.done} of ${job.total}`}</span>;
+  return (
+    <SourceRow icon={Eye} title={MODEL_TITLE} text={text} action={action}>
+      <progress className={css.progress} value={job.done} max={job.total || 1} aria-label={job.title} />
+    </SourceRow>
+  );
+}

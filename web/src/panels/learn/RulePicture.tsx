@@ -1,0 +1,83 @@
+// The picture of an asset as a rule meets it, with some of its hulls in a strong colour; fetched once for each program.
+import { useCallback, useEffect, useMemo, useState } from "react";
+import { IdPicture } from "../../pictures/IdPicture";
+import { decodePicture } from "../../pictures/pictureCache";
+import { api } from "../../server/api";
+import { useProject } from "../../store/project";
+import css from "./learn.module.css";
+
+export function HullsPicture({ picture, hulls, label }: {
+  picture: RulePictureView | "failed" | null;
+  hulls: readonly string[];
+  label: string;
+}) {
+  const names = picture === "failed" ? undefined : picture?.names;
+  const marked = useMemo(() => {
+    const wanted = new Set(hulls);
+    return new Set((names ?? []).flatMap((name, k) => (wanted.has(name) ? [k] : [])));
+  }, [names, hulls]);
+  const colors = useCallback(
+    (position: number) => {
+      if (position < 0) return "var(--hull-opaque)";
+      return marked.has(position) ? "var(--highlight)" : "var(--hull-pale)";
+    },
+    [marked],
+  );
+  if (picture === "failed") return <div className={css.noPicture}>No picture</div>;
+  if (!picture) return <div className={css.noPicture} aria-hidden />;
+  return <IdPicture png={picture.png} label={label} colors={colors} className={css.picture ?? ""} />;
+}
+
+export interface RulePictureView {
+  readonly names: readonly string[];
+  readonly png: Blob;
+  /** Names of the hulls that are in sight in it. */
+  readonly inSight: ReadonlySet<string>;
+}
+
+/** So many pixels of a picture are needed to see a hull in it. */
+const ENOUGH = 300;
+
+/** The picture; null while it comes, "failed" where there is none. */
+export function useRulePicture(asset: string, rule: number): RulePictureView | "failed" | null {
+  const version = useProject((state) => `${state.lesson?.number ?? 0} ${state.shapeRevisions[asset] ?? 0}`);
+  const key = `${asset} ${rule} ${version}`;
+  const [got, setGot] = useState<{ key: string; picture: RulePictureView | "failed" } | null>(null);
+  useEffect(() => {
+    let wanted = true;
+    const take = (picture: RulePictureView | "failed") => wanted && setGot({ key, picture });
+    fetchView(asset, rule, version).then(take, () => take("failed"));
+    return () => {
+      wanted = false;
+    };
+  }, [asset, rule, version, key]);
+  return got?.key === key ? got.picture : null;
+}
+
+async function fetchView(asset: string, rule: number, version: string): Promise<RulePictureView> {
+  const { names, png } = await rulePicture(asset, rule, version);
+  const { ids } = await decodePicture(png);
+  const pixels = new Uint32Array(names.length + 1);
+  for (const id of ids) pixels[id] = (pixels[id] ?? 0) + 1;
+  return { names, png, inSight: new Set(names.filter((_, k) => (pixels[k + 1] ?? 0) >= ENOUGH)) };
+}
+
+interface RulePicture {
+  readonly names: readonly string[];
+  readonly png: Blob;
+}
+
+const MOST = 24;
+const kept = new Map<string, Promise<RulePicture>>();
+
+/** The asset as a rule (from 1) meets it; version: of what is shown, so that another one is fetched anew. */
+function rulePicture(asset: string, rule: number, version: string): Promise<RulePicture> {
+  const key = [asset, rule, version].join("\n");
+  const known = kept.get(key);
+  if (known) return known;
+  const fresh = api.picture(asset, rule);
+  kept.set(key, fresh);
+  fresh.catch(() => kept.delete(key));
+  if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
+  return fresh;
+}

@@ -1,0 +1,98 @@
+// Pictures of what was measured, drawn when they are wanted.
+import { LoaderCircle, X } from "lucide-react";
+import { Dialog } from "radix-ui";
+import { useEffect, useState } from "react";
+import { api } from "../../server/api";
+import { ServerProblem } from "../../server/http";
+import { type Part, showPictures, useShowsPictures } from "../../store/checks";
+import { toSentence } from "../../store/words";
+import { Button, IconButton } from "../../ui/Button";
+import { Note } from "../../ui/Section";
+import type { CheckPicture, Problem } from "../../wire";
+import css from "./checks.module.css";
+
+interface PartId {
+  asset: string;
+  version: string;
+  part: Part;
+}
+
+export function CheckPictures(of: PartId) {
+  const on = useShowsPictures(of.part);
+  return (
+    <div className={css.pictures}>
+      <Button look="quiet" aria-expanded={on} onClick={() => showPictures(of.part, !on)}>
+        {on ? "Hide the pictures" : of.part === "fit" ? "Show where" : "Show the space"}
+      </Button>
+      {on && <Pictures {...of} />}
+    </div>
+  );
+}
+
+type PicturesState = { kind: "coming" } | { kind: "there"; pictures: readonly CheckPicture[] } | { kind: "problem"; problem: Problem };
+
+function Pictures({ asset, version, part }: PartId) {
+  const drawn = usePictures(asset, version, part);
+  if (drawn.kind === "problem") return <Note mood="bad">{drawn.problem.message}</Note>;
+  if (drawn.kind === "coming") {
+    return (
+      <p className={css.coming} role="status">
+        <LoaderCircle size={14} aria-hidden className={css.spinning} /> drawing
+      </p>
+    );
+  }
+  if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to draw.</p>;
+  return drawn.pictures.map(({ name, text }) => (
+    <figure key={name}>
+      <EnlargeablePicture source={api.checkPicture(asset, name, version)} text={toSentence(text)} />
+      <figcaption>{toSentence(text)}</figcaption>
+    </figure>
+  ));
+}
+
+/** The pictures, drawn anew when the output changes; the drawing stops when nobody looks any more. */
+function usePictures(asset: string, version: string, part: Part): PicturesState {
+  const [drawn, setDrawn] = useState<PicturesState>({ kind: "coming" });
+  useEffect(() => {
+    const stop = new AbortController();
+    api.checkPictures(asset, part, stop.signal).then(
+      (pictures) => setDrawn({ kind: "there", pictures }),
+      (error: unknown) => {
+        if (stop.signal.aborted) return;
+        if (error instanceof ServerProblem) setDrawn({ kind: "problem", problem: error.problem });
+        else throw error;
+      },
+    );
+    return () => stop.abort();
+  }, [asset, version, part]);
+  return drawn;
+}
+
+/** Not the button in it, whose hint would take the first Escape. */
+function focusWhole(event: Event): void {
+  event.preventDefault();
+  if (event.currentTarget instanceof HTMLElement) event.currentTarget.focus();
+}
+
+/** A picture that a click shows large, over everything else. */
+function EnlargeablePicture({ source, text }: { source: string; text: string }) {
+  return (
+    <Dialog.Root>
+      <Dialog.Trigger className={css.small} title="Enlarge">
+        <img src={source} alt={text} />
+      </Dialog.Trigger>
+      <Dialog.Portal>
+        <Dialog.Overlay className={css.shade} />
+        <Dialog.Content className={css.large} aria-describedby={undefined} onOpenAutoFocus={focusWhole}>
+          <header>
+            <Dialog.Title>{text}</Dialog.Title>
+            <Dialog.Close asChild>
+              <IconButton icon={X} name="Close" />
+            </Dialog.Close>
+          </header>
+          <img src={source} alt="" />
+        </Dialog.Content>
+      </Dialog.Portal>
+    </Dialog.Root>
+  );
+}

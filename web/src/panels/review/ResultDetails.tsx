@@ -1,0 +1,195 @@
+// What an edited asset comes to: numbers before and after, what the check of legality says, and what each rule did.
+import { CircleAlert, CircleCheck, Info, TriangleAlert } from "lucide-react";
+import { useEffect, useState } from "react";
+import { RuleText } from "../learn/RuleText";
+import { ServerProblem } from "../../server/http";
+import { highlightOfRule } from "../../store/highlight";
+import { useProject } from "../../store/project";
+import { numbersOf, verdictOf } from "../../store/reviews";
+import { type Scene, sceneOf } from "../../store/scenes";
+import { changeText, countText, listText } from "../../store/words";
+import { hover, select, setHighlight, useWorkspace } from "../../store/workspace";
+import { Section } from "../../ui/Section";
+import type { EditedHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
+import css from "./review.module.css";
+
+export function NumbersTable({ before, edit }: { before: readonly HullView[]; edit: EditedHeader }) {
+  const numbers = numbersOf(before, edit);
+  const whole = (value: number) => value.toLocaleString("en-GB");
+  return (
+    <Section title="Numbers" aside={`${edit.made.length} made, ${edit.removed.length} removed`}>
+      <table className={css.numbers}>
+        <thead>
+          <tr>
+            <td />
+            <th scope="col">Before</th>
+            <th scope="col">After</th>
+            <th scope="col">Change</th>
+          </tr>
+        </thead>
+        <tbody>
+          <NumbersRow what="Hulls" pair={numbers.hulls} text={whole} />
+          <NumbersRow what="Vertices" pair={numbers.vertices} text={whole} />
+          <NumbersRow what="Faces" pair={numbers.faces} text={whole} />
+          <NumbersRow what="Volume" pair={numbers.volume} text={volumeText} />
+        </tbody>
+      </table>
+      {edit.note && <p className={css.dim}>{edit.note}</p>}
+    </Section>
+  );
+}
+
+function NumbersRow({ what, pair: [before, after], text }: { what: string; pair: readonly [number, number]; text: (value: number) => string }) {
+  return (
+    <tr>
+      <th scope="row">{what}</th>
+      <td>{text(before)}</td>
+      <td>{text(after)}</td>
+      <td>{changeText(before, after) ?? "–"}</td>
+    </tr>
+  );
+}
+
+/** A volume [m³] in a unit that leaves few digits. */
+function volumeText(volume: number): string {
+  const [value, unit] = volume >= 1 ? [volume, "m³"] : volume >= 1e-3 ? [volume * 1e3, "l"] : [volume * 1e6, "cm³"];
+  return `${value.toPrecision(3).replace(/e\+.*$/, "")} ${unit}`;
+}
+
+const ICONS = { error: CircleAlert, warning: TriangleAlert, note: Info } as const;
+const NAMES = { error: "Error", warning: "Warning", note: "Note" } as const;
+
+/** What the check of legality says of the edited asset. */
+export function Findings({ edit }: { edit: EditedHeader }) {
+  const verdict = verdictOf(edit);
+  return (
+    <Section title="Legality" aside={edit.findings.length ? countText(edit.findings.length, "finding") : null}>
+      {verdict === "legal" && (
+        <p className={css.legal}>
+          <CircleCheck size={15} aria-hidden /> All hulls are convex, closed and valid.
+        </p>
+      )}
+      <ul className={css.findings}>
+        {edit.findings.map((finding, k) => (
+          <Finding key={k} finding={finding} />
+        ))}
+      </ul>
+    </Section>
+  );
+}
+
+function Finding({ finding: { severity, text, hull } }: { finding: FindingView }) {
+  const Icon = ICONS[severity];
+  const words = (
+    <>
+      <Icon size={15} aria-label={NAMES[severity]} /> <span>{text}</span>
+    </>
+  );
+  return (
+    <li data-severity={severity}>
+      {hull === null ? (
+        <div className={css.finding}>{words}</div>
+      ) : (
+        <button
+          type="button"
+          className={css.finding}
+          title={`Select ${hull}`}
+          onClick={() => select([hull])}
+          onPointerEnter={() => hover(hull)}
+          onPointerLeave={() => hover(null)}
+        >
+          {words}
+        </button>
+      )}
+    </li>
+  );
+}
+
+/** What each rule did to this asset; the hulls are highlighted while one points at a line. */
+export function Trace({ asset, of, edit }: { asset: string; of: ResultKind; edit: EditedHeader }) {
+  const stale = useProject((state) => of === "output" && (state.cards[asset]?.stale.includes("program") ?? false));
+  if (!edit.trace.length) return null;
+  return (
+    <Section title="Rule by rule">
+      {stale && <p className={css.dim}>From the program that wrote this output.</p>}
+      <ol className={css.trace}>
+        {edit.trace.map((line) => (
+          <TraceRow key={line.rule} line={line} asset={asset} texts={!stale} />
+        ))}
+      </ol>
+    </Section>
+  );
+}
+
+function TraceRow({ line, asset, texts }: { line: TraceLine; asset: string; texts: boolean }) {
+  const text = useProject((state) => (texts ? state.program.rules[line.rule - 1]?.text : undefined));
+  const dark = () => setHighlight(null);
+  const light = () => {
+    const own = highlightOfRule(useProject.getState().reach, line.rule).assets[asset];
+    if (own && texts) setHighlight({ what: `rule ${line.rule}`, assets: { [asset]: own } });
+  };
+  return (
+    <li>
+      <button
+        type="button"
+        className={css.traceLine}
+        title={line.selected.length ? `Select the result for ${listText(line.selected, 12)}` : undefined}
+        onClick={() => select(line.made.length ? line.made : line.selected)}
+        onPointerEnter={light}
+        onPointerLeave={dark}
+        onFocus={light}
+        onBlur={dark}
+      >
+        <span className={css.number}>{line.rule}</span>
+        <span className={css.traceText}>
+          {text && <RuleText text={text} />}
+          <span className={css.dim}>{effectText(line)}</span>
+          {line.note && <span className={css.dim}>{line.note}</span>}
+        </span>
+      </button>
+    </li>
+  );
+}
+
+function effectText({ selected, made }: TraceLine): string {
+  if (!selected.length) return "selected nothing here";
+  const taken = countText(selected.length, "hull");
+  return made.length ? `${taken} → ${made.length.toLocaleString("en-GB")}` : taken;
+}
+
+type ResultKind = "program" | "output";
+type Result = { kind: "coming" } | { kind: "there"; of: ResultKind; scene: Scene } | { kind: "problem"; problem: Problem };
+
+/** Which result of an asset is looked at: the one that is shown; else the written one, if there is one. */
+export function useResultKind(asset: string): ResultKind {
+  const showing = useWorkspace((state) => state.showing);
+  const written = useProject((state) => ["edited", "unchanged"].includes(state.cards[asset]?.output ?? "none"));
+  if (showing.kind === "result") return showing.of === "output" && !written ? "program" : showing.of;
+  return written ? "output" : "program";
+}
+
+export function useResult(asset: string, of: ResultKind): Result {
+  const state = useProject((now) =>
+    [now.revisions[asset], now.shapeRevisions[asset], now.program.version, now.cards[asset]?.edited_picture].join(" "),
+  );
+  const empty = useProject((now) => of === "program" && !now.program.text.trim());
+  const key = `${asset} ${of} ${state}`;
+  const [got, setGot] = useState<{ asset: string; key: string; result: Result } | null>(null);
+  useEffect(() => {
+    if (empty) return;
+    let wanted = true;
+    const take = (result: Result) => wanted && setGot({ asset, key, result });
+    sceneOf(asset, { kind: "result", of }).then(
+      (scene) => take({ kind: "there", of, scene }),
+      (error: unknown) => {
+        if (error instanceof ServerProblem) take({ kind: "problem", problem: error.problem });
+        else throw error;
+      },
+    );
+    return () => {
+      wanted = false;
+    };
+  }, [asset, of, key, empty]);
+  // the result before stays while the next of the same asset comes, so that nothing flickers
+  return got?.asset === asset && !empty ? got.result : { kind: "coming" };
+}

@@ -1,0 +1,42 @@
+
+import { expect, test } from "vitest";
+import type { Scene } from "../store/scenes";
+import type { HullView } from "../wire";
+import { CONFIDENCE, confidenceColor, distinctPlaces, hasLowConfidence } from "./hullColors";
+
+const names = Array.from({ length: 40 }, (_, k) => `h${k}`);
+const scene = (hulls: readonly { name: string; parent: string | null }[], contacts: [string, string][]) =>
+  ({
+    view: { hulls: names.map((name) => ({ name })), contacts: names.slice(1).map((name) => ["h0", name] as const) },
+    hulls,
+    contacts,
+  }) as unknown as Scene;
+const own = names.map((name) => ({ name, parent: null }));
+
+test("neighbours differ in colour", () => {
+  const places = distinctPlaces(scene(own, []));
+  for (const name of names.slice(1)) expect(places.get(name)).not.toBe(places.get("h0"));
+});
+
+test("a hull keeps its colour through edits, and what is made of it takes it over", () => {
+  const before = distinctPlaces(scene(own, []));
+  const after = distinctPlaces(scene([...own.slice(3), { name: "made", parent: "h1" }], [["made", "h5"]]));
+  expect(after.get("h5")).toBe(before.get("h5"));
+  expect(after.get("made")).toBe(before.get("h1"));
+});
+
+test("what is made takes another colour where a neighbour has its parent's", () => {
+  const before = distinctPlaces(scene(own, []));
+  const twin = names.find((name) => name !== "h1" && before.get(name) === before.get("h1")) ?? "";
+  const after = distinctPlaces(scene([...own, { name: "made", parent: "h1" }], [["made", twin]]));
+  expect(after.get("made")).not.toBe(before.get("h1"));
+});
+
+test("the scale of confidence ends in its ends", () => {
+  expect([confidenceColor(0), confidenceColor(1), confidenceColor(7)]).toEqual([CONFIDENCE[0], CONFIDENCE.at(-1), CONFIDENCE.at(-1)]);
+});
+
+test("a hull without a label is not unsure, it has none", () => {
+  const hull = { label: null, confidence: 0.1 } as HullView;
+  expect([hasLowConfidence(hull), hasLowConfidence({ ...hull, label: "leg" })]).toEqual([false, true]);
+});

@@ -1,0 +1,104 @@
+// The colour of each hull under the rule that the person chose; distinct ones so that neighbours differ and a hull
+// keeps its colour through edits.
+import type { Scene } from "../store/scenes";
+import type { ColorBy } from "../store/workspace";
+import type { HullView, VocabularyLabel } from "../wire";
+
+/** A colour, null for the grey of what has none; hatched: it is not sure. */
+export interface Tone {
+  readonly color: string | null;
+  readonly hatched: boolean;
+}
+
+const UNSURE = 0.5;
+
+/** The colours of a scene's hulls. */
+export function tonesOf(scene: Scene, by: ColorBy, vocabulary: readonly VocabularyLabel[]): (hull: HullView) => Tone {
+  const places = distinctPlaces(scene);
+  const labels = new Map(vocabulary.map(({ name, color }) => [name, color]));
+  const plain = (color: string | null): Tone => ({ color, hatched: false });
+  switch (by) {
+    case "hull":
+      return ({ name }) => plain(PALETTE[places.get(name) ?? 0] ?? null);
+    case "body":
+      return ({ body }) => plain(PALETTE[scene.view.bodies.indexOf(body) % PALETTE.length] ?? null);
+    case "confidence":
+      return ({ label, confidence }) => plain(label === null ? null : confidenceColor(confidence ?? 1));
+    case "label":
+      return (hull) => ({ color: labels.get(hull.label ?? "") ?? null, hatched: hasLowConfidence(hull) });
+  }
+}
+
+export const hasLowConfidence = ({ label, confidence }: HullView): boolean => label !== null && (confidence ?? 1) < UNSURE;
+
+/** From not sure at all to certain; both ends differ in lightness and hue, also for the colour-blind. */
+export const CONFIDENCE: readonly string[] = ["#b5470b", "#e58b3a", "#f2d9a4", "#86b4d6", "#2a6fad"];
+
+export function confidenceColor(confidence: number): string {
+  const at = Math.min(1, Math.max(0, confidence)) * (CONFIDENCE.length - 1);
+  const low = Math.min(CONFIDENCE.length - 2, Math.floor(at));
+  return mix(CONFIDENCE[low] ?? "", CONFIDENCE[low + 1] ?? "", at - low);
+}
+
+function mix(a: string, b: string, share: number): string {
+  const part = (hex: string, k: number) => parseInt(hex.slice(1 + 2 * k, 3 + 2 * k), 16);
+  const parts = [0, 1, 2].map((k) => Math.round(part(a, k) + (part(b, k) - part(a, k)) * share));
+  return `#${parts.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+}
+
+/** Colours of one lightness each half, evenly around the wheel. */
+export const PALETTE: readonly string[] = [
+  "#80abf3", "#e0995c", "#83bd76", "#db8dc2", "#bcac50", "#42bbdd", "#ea8c8d", "#42c2ad", "#b69ae9",
+  "#a9823c", "#4a91bf", "#819249", "#a475af", "#bd735a", "#219ba1", "#7d82c5", "#4c9c74", "#ba6f87",
+];
+
+type Pairs = readonly (readonly [string, string])[];
+
+/** The place in the palette of each hull by name; hulls that were made come after those of the file. */
+export function distinctPlaces(scene: Colored): ReadonlyMap<string, number> {
+  const places = known.get(scene) ?? placesOf(scene);
+  known.set(scene, places);
+  return places;
+}
+
+type Colored = Pick<Scene, "hulls" | "view" | "contacts">;
+const known = new WeakMap<Colored, ReadonlyMap<string, number>>();
+
+function placesOf(scene: Colored): ReadonlyMap<string, number> {
+  const out = new Map<string, number>();
+  assignColors(scene.view.hulls.map((hull) => hull.name), scene.view.contacts, out);
+  const made = scene.hulls.filter((hull) => !out.has(hull.name));
+  for (const { name, parent } of made) {
+    const inherited = parent === null ? undefined : out.get(parent);
+    if (inherited !== undefined && !placesTaken(neighboursOf(scene.contacts, name), out).has(inherited)) out.set(name, inherited);
+  }
+  assignColors(made.map((hull) => hull.name).filter((name) => !out.has(name)), scene.contacts, out);
+  return out;
+}
+
+/** Gives each name the next colour that no neighbour has; the least used where they have all. */
+function assignColors(names: readonly string[], contacts: Pairs, out: Map<string, number>): void {
+  const beside = byName(contacts);
+  names.forEach((name, k) => {
+    const used = placesTaken(beside.get(name) ?? [], out);
+    const order = PALETTE.map((_, step) => (k + step) % PALETTE.length);
+    out.set(name, order.find((place) => !used.has(place)) ?? k % PALETTE.length);
+  });
+}
+
+function placesTaken(names: Iterable<string>, places: ReadonlyMap<string, number>): Set<number> {
+  return new Set([...names].flatMap((name) => places.get(name) ?? []));
+}
+
+function neighboursOf(contacts: Pairs, name: string): string[] {
+  return contacts.flatMap(([a, b]) => (a === name ? [b] : b === name ? [a] : []));
+}
+
+function byName(contacts: Pairs): Map<string, string[]> {
+  const out = new Map<string, string[]>();
+  for (const [a, b] of contacts) {
+    out.set(a, [...(out.get(a) ?? []), b]);
+    out.set(b, [...(out.get(b) ?? []), a]);
+  }
+  return out;
+}

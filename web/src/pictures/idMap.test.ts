@@ -1,0 +1,37 @@
+// Colouring pictures of the server.
+import { expect, test } from "vitest";
+import { type Paint, paintPixels, readIdMap } from "./idMap";
+
+const map = (pixels: number[][], width = pixels.length) =>
+  readIdMap({ width, height: pixels.length / width, data: new Uint8Array(pixels.flat()) });
+
+const pixel = (data: Uint8ClampedArray, k: number) => [...data.subarray(4 * k, 4 * k + 4)];
+
+const red: Paint = { color: (k) => (k === 0 ? [200, 0, 0] : k < 0 ? [90, 90, 90] : [0, 0, 100]) };
+
+test("red and green together number the hull", () => {
+  expect([...map([[1, 2, 0, 255], [0, 1, 0, 255]]).ids]).toEqual([258, 1]);
+});
+
+test("a pixel takes the colour of its hull, its shade and its coverage", () => {
+  const out = paintPixels(map([[0, 1, 255, 255], [0, 1, 51, 128], [0, 2, 255, 255]]), red);
+  expect(pixel(out, 0)).toEqual([200, 0, 0, 255]);
+  expect(pixel(out, 1)).toEqual([40, 0, 0, 128]);
+  expect(pixel(out, 2)).toEqual([0, 0, 100, 255]);
+});
+
+test("what is covered by no hull is a non-convex piece; where nothing is, nothing is painted", () => {
+  const out = paintPixels(map([[0, 0, 255, 255], [0, 0, 255, 0]]), red);
+  expect(pixel(out, 0)).toEqual([90, 90, 90, 255]);
+  expect(pixel(out, 1)).toEqual([0, 0, 0, 0]);
+});
+
+test("hatched hulls show lighter stripes, others none", () => {
+  const row = Array.from({ length: 20 }, () => [0, 1, 255, 255]);
+  const plain = new Set(Array.from(paintPixels(map(row), red)).filter((_, k) => k % 4 === 1));
+  const hatched = new Set(
+    Array.from(paintPixels(map(row), { ...red, hatched: () => true })).filter((_, k) => k % 4 === 1),
+  );
+  expect(plain.size).toBe(1);
+  expect(hatched.size).toBe(2);
+});

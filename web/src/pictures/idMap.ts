@@ -1,0 +1,60 @@
+// Pictures of the server tell which hull each pixel shows, not its colour; the page colours them.
+import type { Pixels } from "./png";
+
+export interface IdMap {
+  readonly width: number;
+  readonly height: number;
+  /** Position of the hull plus 1; 0 where there is none, or a non-convex piece. */
+  readonly ids: Uint16Array;
+  /** 0 dark to 255 light. */
+  readonly shade: Uint8Array;
+  /** 0 nothing to 255 all. */
+  readonly coverage: Uint8Array;
+}
+
+export type Rgb = readonly [number, number, number];
+
+/** How each hull is coloured; position -1 stands for non-convex pieces. */
+export interface Paint {
+  color(position: number): Rgb;
+  /** Whether it is hatched. */
+  hatched?(position: number): boolean;
+}
+
+export function readIdMap({ width, height, data }: Pixels): IdMap {
+  const count = width * height;
+  const map = { width, height, ids: new Uint16Array(count), shade: new Uint8Array(count), coverage: new Uint8Array(count) };
+  for (let k = 0; k < count; k++) {
+    map.ids[k] = ((data[4 * k] ?? 0) << 8) | (data[4 * k + 1] ?? 0);
+    map.shade[k] = data[4 * k + 2] ?? 0;
+    map.coverage[k] = data[4 * k + 3] ?? 0;
+  }
+  return map;
+}
+
+const STRIPE = 10; // pixels from one stripe of a hatching to the next, along the row
+const BARE = 4; // of which the ground shows
+
+/** The picture in colour, as red, green, blue and alpha of each pixel. */
+export function paintPixels(map: IdMap, paint: Paint): Uint8ClampedArray<ArrayBuffer> {
+  const out = new Uint8ClampedArray(4 * map.ids.length);
+  const colors = new Map<number, { color: Rgb; hatched: boolean }>();
+  for (let k = 0; k < map.ids.length; k++) {
+    const coverage = map.coverage[k] ?? 0;
+    if (coverage === 0) continue;
+    const position = (map.ids[k] ?? 0) - 1;
+    let look = colors.get(position);
+    if (!look) {
+      look = { color: paint.color(position), hatched: paint.hatched?.(position) ?? false };
+      colors.set(position, look);
+    }
+    const stripe = look.hatched && ((k % map.width) + Math.floor(k / map.width)) % STRIPE < BARE;
+    const light = (map.shade[k] ?? 0) / 255;
+    for (let c = 0; c < 3; c++) {
+      const value = (look.color[c as 0 | 1 | 2] ?? 0) * light;
+      out[4 * k + c] = stripe ? value + 0.72 * (255 * light - value) : value;
+    }
+    out[4 * k + 3] = coverage;
+  }
+  return out;
+}

@@ -1,0 +1,72 @@
+// Pictures that were fetched and decoded, by a worker that is begun with the first of them; the latest few hundred are
+// kept.
+import { waitForFirstScene } from "../store/scenes";
+import type { DecodeAnswer, DecodeRequest } from "./decoder.worker";
+import type { IdMap } from "./idMap";
+import { LatestFirstQueue } from "./latestFirstQueue";
+
+const MOST = 400;
+// a browser has six connections to a server: edits must not wait until pictures are drawn
+const line = new LatestFirstQueue<IdMap>(3);
+const kept = new Map<string, IdMap>();
+
+/** A picture that is there already. */
+export function findPicture(url: string): IdMap | null {
+  const map = kept.get(url);
+  if (!map) return null;
+  kept.delete(url);
+  kept.set(url, map);
+  return map;
+}
+
+/** Fetches a picture, once for all that want it; the last that was asked for comes first. */
+export function requestPicture(url: string): { picture: Promise<IdMap>; drop: () => void } {
+  const { result, drop } = line.ask(url, () => fetchPicture(url));
+  return { picture: result, drop };
+}
+
+async function fetchPicture(url: string): Promise<IdMap> {
+  await waitForFirstScene();
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`no picture: ${answer.status}`);
+  const map = await decodePicture(await answer.blob());
+  kept.set(url, map);
+  if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
+  return map;
+}
+
+
+type Settle = (map: IdMap | null) => void;
+
+class Decoder {
+  private readonly worker = new Worker(new URL("./decoder.worker.ts", import.meta.url), { type: "module" });
+  private readonly open = new Map<number, Settle>();
+  private last = 0;
+
+  constructor() {
+    this.worker.onmessage = ({ data }: MessageEvent<DecodeAnswer>) => this.settle(data.number, data.map);
+    this.worker.onerror = () => [...this.open.keys()].forEach((number) => this.settle(number, null));
+  }
+
+  decode(bytes: Uint8Array<ArrayBuffer>): Promise<IdMap> {
+    const asked: DecodeRequest = { number: ++this.last, bytes };
+    const answer = new Promise<IdMap>((good, bad) => {
+      this.open.set(asked.number, (map) => (map ? good(map) : bad(new Error("this picture cannot be read"))));
+    });
+    this.worker.postMessage(asked, [bytes.buffer]);
+    return answer;
+  }
+
+  private settle(number: number, map: IdMap | null): void {
+    this.open.get(number)?.(map);
+    this.open.delete(number);
+  }
+}
+
+let decoder: Decoder | undefined;
+
+/** Hands pictures to the worker that decodes them, which is begun with the first of them. */
+export async function decodePicture(png: Blob): Promise<IdMap> {
+  const bytes = new Uint8Array(await png.arrayBuffer());
+  return (decoder ??= new Decoder()).decode(bytes);
+}

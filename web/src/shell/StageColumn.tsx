@@ -1,0 +1,110 @@
+// The right column: the four stages, what is next, the panel of the stage, the list of hulls.
+import { ArrowRight } from "lucide-react";
+import { Tabs } from "radix-ui";
+import { type ComponentType, useRef } from "react";
+import { DemonstratePanel } from "../panels/demonstrate/DemonstratePanel";
+import { LabelPanel } from "../panels/label/LabelPanel";
+import { LearnPanel } from "../panels/learn/LearnPanel";
+import { ReviewPanel } from "../panels/review/ReviewPanel";
+import { useProject } from "../store/project";
+import { openAsset, openStage, setLayout, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
+import { Button } from "../ui/Button";
+import { HullList } from "../hulls/HullList";
+import { Divider } from "./Divider";
+import css from "./Side.module.css";
+
+const TABS: Readonly<Record<StageName, { title: string; Panel: ComponentType }>> = {
+  label: { title: "Label", Panel: LabelPanel },
+  demonstrate: { title: "Demonstrate", Panel: DemonstratePanel },
+  learn: { title: "Learn", Panel: LearnPanel },
+  review: { title: "Review", Panel: ReviewPanel },
+};
+
+export function StageColumn() {
+  const stage = useWorkspace((workspace) => workspace.stage);
+  const next = useProject((state) => state.project.next.stage);
+  return (
+    <Tabs.Root className={css.side} value={stage} onValueChange={(value) => openStage(value as StageName)}>
+      <Tabs.List className={css.tabs} aria-label="Stages" data-tour="stages">
+        {STAGES.map((name, k) => (
+          <Tabs.Trigger
+            key={name}
+            value={name}
+            className={css.tab}
+            title={`${TABS[name].title} (Alt+${k + 1})${name === next ? "; this is next" : ""}`}
+          >
+            <span className={css.number} data-next={name === next}>
+              {k + 1}
+            </span>
+            {TABS[name].title}
+            {name === next && <span className="visually-hidden">, next</span>}
+          </Tabs.Trigger>
+        ))}
+      </Tabs.List>
+      <NextLine />
+      {STAGES.map((name) => (
+        <Tabs.Content key={name} value={name} className={css.content} tabIndex={-1}>
+          <Panel stage={name} />
+        </Tabs.Content>
+      ))}
+    </Tabs.Root>
+  );
+}
+
+/** The panel of a stage; where hulls are picked, with the list of them below. */
+function Panel({ stage }: { stage: StageName }) {
+  const box = useRef<HTMLDivElement>(null);
+  const split = useLayout((layout) => layout.split);
+  const { Panel: Own } = TABS[stage];
+  if (stage === "learn" || stage === "review") {
+    return (
+      <div className={css.panel}>
+        <Own />
+      </div>
+    );
+  }
+  return (
+    <div className={css.halves} ref={box}>
+      <div className={css.panel} style={{ flex: `${split} 1 0` }}>
+        <Own />
+      </div>
+      <Divider
+        name="Height of the panel"
+        along="y"
+        value={split}
+        range={[0.15, 0.85]}
+        unit={() => 1 / (box.current?.clientHeight || 1)}
+        onChange={(share) => setLayout({ split: share })}
+      />
+      <div className={css.list} style={{ flex: `${1 - split} 1 0` }} data-part data-tour="hulls">
+        <HullList />
+      </div>
+    </div>
+  );
+}
+
+/** What is sensible to do next, in a sentence, and the way there. */
+function NextLine() {
+  const next = useProject((state) => state.project.next);
+  const there = useWorkspace((workspace) => workspace.stage === next.stage && (next.asset === null || workspace.asset === next.asset));
+  if (!next.say) return null;
+  return (
+    <div className={css.nextLine} role="status">
+      <span className={css.next} aria-hidden />
+      <span className={css.say}>{next.say}</span>
+      {!there && (
+        <Button
+          look="quiet"
+          icon={ArrowRight}
+          tip={next.asset === null ? "Go there" : `Go there: ${next.asset}`}
+          keys="Alt+Enter"
+          aria-label="Go to the next step"
+          onClick={() => {
+            openStage(next.stage);
+            if (next.asset !== null) openAsset(next.asset);
+          }}
+        />
+      )}
+    </div>
+  );
+}

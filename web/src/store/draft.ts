@@ -1,0 +1,161 @@
+// The action in hand: begun new or from a step, changed, accepted as a step or as an edit by hand, cancelled.
+import { create } from "zustand";
+import type { AssetView, Problem } from "../wire";
+import { defaultArguments, draftText, missingArgument, parseAction, withArgument } from "./actions";
+import { perform } from "./edits";
+import { formOf, getLanguage } from "./language";
+import { useProject } from "./project";
+import { getDetails, type Scene, useScenes } from "./scenes";
+import { actionOf, placeFor, placeOf, setStep, skipOffer } from "./steps";
+import { reportError, reportProblem } from "./toasts";
+import { type Draft, openStage, select, setDraft, setTool, show, useWorkspace } from "./workspace";
+
+interface DraftStatus {
+  /** While a step is on its way to the server. */
+  sending: boolean;
+  /** Why the action in hand cannot be done. */
+  problem: Problem | null;
+  /** What is shown while an accepted step is not in it yet. */
+  landing: Scene | null;
+}
+
+export const useDraftStatus = create<DraftStatus>()(() => ({ sending: false, problem: null, landing: null }));
+
+export function changeDraft(change: Partial<Draft>): void {
+  const { draft } = useWorkspace.getState();
+  if (draft) setDraft({ ...draft, ...change });
+}
+
+/** Changes an argument of the action in hand, if it still is that one. */
+export function changeArgument(action: string, name: string, value: string | number | boolean): void {
+  const { draft } = useWorkspace.getState();
+  if (draft?.action === action) setDraft({ ...draft, arguments: withArgument(draft.arguments, name, value) });
+}
+
+/** Puts the action down; the asset is shown with all its steps again. */
+export async function dropDraft(): Promise<void> {
+  const { asset, draft, stage } = useWorkspace.getState();
+  if (draft === null) return;
+  if (draft.editing !== null && asset !== null) skipOffer(asset, draft.editing);
+  useWorkspace.setState({ draft: null, selection: new Set() });
+  if (asset === null || stage !== "demonstrate") return;
+  const { view } = await getDetails(asset);
+  if (useWorkspace.getState().asset === asset && useWorkspace.getState().draft === null) showBefore(view.steps.length, view);
+}
+
+/** Makes the action in hand a step of the asset, or, while reviewing, an edit by hand of its output. */
+export async function acceptDraft(): Promise<boolean> {
+  const { asset, draft, stage, selection } = useWorkspace.getState();
+  const names = selectedHulls();
+  if (asset === null || draft === null || useDraftStatus.getState().sending) return false;
+  const lacking = await findMissing(draft, names.length);
+  if (lacking) {
+    reportProblem({ message: lacking, where: null, remedy: null, conflict: false });
+    return false;
+  }
+  const text = await writeDraft(draft);
+  const done = await trackSending(async () => {
+    if (stage === "review") return perform({ kind: "correct", asset, select: names, action: text });
+    const { view } = await getDetails(asset);
+    return setStep(asset, placeOf(draft, useProject.getState().project.rules.length, view.steps.length), names, text);
+  });
+  if (done && useWorkspace.getState().asset === asset) {
+    useDraftStatus.setState({ landing: useScenes.getState().scene });
+    // a result that is corrected stays in view as the program and the edits by hand make it now
+    if (stage !== "review") useWorkspace.setState({ asked: null });
+    // what was taken into the hand or selected meanwhile stays
+    if (useWorkspace.getState().draft === draft) setDraft(null);
+    if (useWorkspace.getState().selection === selection) select([]);
+  }
+  return done;
+}
+
+/** The selected hulls that are in what is shown. */
+export function selectedHulls(): string[] {
+  const { selection } = useWorkspace.getState();
+  const { scene } = useScenes.getState();
+  return scene?.hulls.map((hull) => hull.name).filter((name) => selection.has(name)) ?? [];
+}
+
+export async function writeDraft(draft: Draft): Promise<string> {
+  const form = formOf(draft.action, (await getLanguage()).actions);
+  return draftText(draft, form?.arguments ?? []);
+}
+
+async function findMissing(draft: Draft, hulls: number): Promise<string | null> {
+  if (!hulls) return "Nothing is selected. Select the hulls for this step, or choose “Nothing here”.";
+  const form = formOf(draft.action, (await getLanguage()).actions);
+  const argument = form && missingArgument(draft, form);
+  return argument ? `${draft.action} needs ${argument.wants}.` : null;
+}
+
+async function trackSending(send: () => Promise<boolean>): Promise<boolean> {
+  useDraftStatus.setState({ sending: true });
+  try {
+    return await send();
+  } catch (error) {
+    reportError(error);
+    return false;
+  } finally {
+    useDraftStatus.setState({ sending: false });
+  }
+}
+
+/** Begins an action: as the first open rule of that kind does it elsewhere, or with usual arguments. */
+export async function startDraft(action: string): Promise<void> {
+  const { asset, stage } = useWorkspace.getState();
+  if (asset === null) return;
+  if (stage === "label" || stage === "learn") openStage("demonstrate");
+  try {
+    const [{ actions }, { view }] = await Promise.all([getLanguage(), getDetails(asset)]);
+    if (useWorkspace.getState().asset !== asset) return;
+    const { rules, templates } = useProject.getState().project;
+    const place = stage === "review" ? null : (placeInHand(view) ?? placeFor(action, rules, view, actions));
+    const form = formOf(action, actions);
+    const parts = place === null ? null : parseAction(actionOf(place), actions);
+    const usual = { action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: "" };
+    takeInHand({ ...usual, ...(parts?.action === action ? parts : {}), editing: place });
+    if (stage !== "review") showBefore(place ?? view.steps.length, view);
+  } catch (error) {
+    reportError(error);
+  }
+}
+
+/** The place of the step that is being changed; it stays that one with another action. */
+function placeInHand({ steps }: AssetView): number | null {
+  const place = useWorkspace.getState().draft?.editing ?? null;
+  return place !== null && steps[place]?.select != null ? place : null;
+}
+
+/** Begins to change the step in a place (from 0), with these hulls, or with those that it has. */
+export async function draftStep(place: number, hulls?: readonly string[]): Promise<void> {
+  const { asset } = useWorkspace.getState();
+  if (asset === null) return;
+  try {
+    const [{ actions }, { view }] = await Promise.all([getLanguage(), getDetails(asset)]);
+    if (useWorkspace.getState().asset !== asset) return;
+    const step = view.steps[place];
+    const parts = parseAction(step?.action ?? actionOf(place), actions);
+    if (!parts) return;
+    openStage("demonstrate");
+    takeInHand({ ...parts, editing: place });
+    showBefore(place, view);
+    select(hulls ?? step?.select ?? []);
+  } catch (error) {
+    reportError(error);
+  }
+}
+
+/** Shows the asset with the steps before a place; where there are more, it stays so while they change. */
+function showBefore(place: number, view: AssetView): void {
+  const { showing } = useWorkspace.getState();
+  const steps = Math.min(place, view.steps.length);
+  const before = { kind: "steps", steps } as const;
+  useWorkspace.setState({ asked: steps < view.steps.length ? before : null });
+  if (showing.kind !== "steps" || showing.steps !== steps) show(before);
+}
+
+function takeInHand(draft: Draft): void {
+  setTool("select");
+  setDraft(draft);
+}

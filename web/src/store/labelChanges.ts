@@ -1,0 +1,94 @@
+// What the last edit of all labels changed, as long it was the last one and nobody dismissed it.
+import { useMemo } from "react";
+import { create } from "zustand";
+import type { Relabelled, RelabelledAsset } from "../wire";
+import { neighbour } from "./family";
+import { useProject } from "./project";
+import { openAsset, setHighlight, useWorkspace } from "./workspace";
+
+/** Which of the changed hulls are meant. */
+export type ChangeKind = "new" | "changed";
+
+const WHAT = "relabelled";
+
+/** The one that was dismissed. */
+const useDismissed = create<{ what: Relabelled | null }>()(() => ({ what: null }));
+
+/** What changed; null where the last edit was another one, or this was dismissed. */
+export function currentLabelChanges(): Relabelled | null {
+  const { relabelled } = useProject.getState();
+  return relabelled === useDismissed.getState().what ? null : relabelled;
+}
+
+export function useLabelChanges(): Relabelled | null {
+  const relabelled = useProject((state) => state.relabelled);
+  const aside = useDismissed(({ what }) => what);
+  return relabelled === aside ? null : relabelled;
+}
+
+/** What changed on one asset. */
+export function useLabelChangesOf(asset: string): RelabelledAsset | null {
+  const relabelled = useLabelChanges();
+  return relabelled && (rowsOf(relabelled).get(asset) ?? null);
+}
+
+export const labelChangesOf = (asset: string): RelabelledAsset | null => {
+  const relabelled = currentLabelChanges();
+  return relabelled && (rowsOf(relabelled).get(asset) ?? null);
+};
+
+/** The label that each hull of an original asset had before, by name; hulls whose label stayed are not among them. */
+export function useFormerLabels(asset: string, own: readonly { name: string }[]): ReadonlyMap<string, string> {
+  const found = useLabelChangesOf(asset);
+  return useMemo(() => {
+    const rows = found?.changed.map((place, k) => [own[place]?.name ?? "", found.was[k] ?? ""] as const);
+    return new Map(rows);
+  }, [found, own]);
+}
+
+/** Calls back whenever what is shown of it may be another, until the returned function is called. */
+export function watchLabelChanges(changed: () => void): () => void {
+  const stops = [
+    useProject.subscribe((now, before) => now.relabelled !== before.relabelled && changed()),
+    useDismissed.subscribe(changed),
+  ];
+  return () => stops.forEach((stop) => stop());
+}
+
+/** No longer points out what changed; the labels stay. */
+export function dismissLabelChanges(): void {
+  clearLabelChanges();
+  useDismissed.setState({ what: useProject.getState().relabelled });
+}
+
+/** Hulls of one sort, and on how many assets. */
+export function countChanges({ assets }: Relabelled, sort: ChangeKind): { hulls: number; assets: number } {
+  const counts = assets.map((one) => one[sort].length).filter(Boolean);
+  return { hulls: counts.reduce((sum, count) => sum + count, 0), assets: counts.length };
+}
+
+/** Points out the hulls of one sort in the family. */
+export function highlightLabelChanges({ assets }: Relabelled, sort: ChangeKind): void {
+  const having = assets.filter((one) => one[sort].length);
+  setHighlight({ what: WHAT, assets: Object.fromEntries(having.map((one) => [one.asset, one[sort]])) });
+}
+
+export function clearLabelChanges(): void {
+  if (useWorkspace.getState().highlight?.what === WHAT) setHighlight(null);
+}
+
+/** Opens the next asset with hulls of one sort. */
+export function openNextChange(relabelled: Relabelled, sort: ChangeKind): void {
+  const { order } = useProject.getState();
+  const has = (asset: string) => Boolean(rowsOf(relabelled).get(asset)?.[sort].length);
+  const next = neighbour(order, order, useWorkspace.getState().asset, 1, has);
+  if (next !== null) openAsset(next);
+}
+
+const known = new WeakMap<Relabelled, ReadonlyMap<string, RelabelledAsset>>();
+
+function rowsOf(relabelled: Relabelled): ReadonlyMap<string, RelabelledAsset> {
+  const rows = known.get(relabelled) ?? new Map(relabelled.assets.map((one) => [one.asset, one]));
+  known.set(relabelled, rows);
+  return rows;
+}

@@ -1,0 +1,84 @@
+// Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
+import { perform } from "./edits";
+import { type Scene, useScenes } from "./scenes";
+import { select, useWorkspace } from "./workspace";
+
+/** How long a stroke may pause and still be one edit [ms]. */
+const PAUSE = 150;
+
+/** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
+export async function labelHulls(
+  asset: string,
+  hulls: readonly string[],
+  label: string | null,
+  quiet = false,
+): Promise<boolean> {
+  const before = useScenes.getState().scene;
+  if (before?.asset === asset) useScenes.setState({ scene: withLabel(before, hulls, label) });
+  const shown = useScenes.getState().scene;
+  const done = await perform({ kind: "label", asset, hulls: [...hulls], label }, { quiet });
+  if (!done && useScenes.getState().scene === shown) useScenes.setState({ scene: before });
+  return done;
+}
+
+/** A scene in which some hulls have a label that a person gave. */
+function withLabel(scene: Scene, names: readonly string[], label: string | null): Scene {
+  const given = new Set(names);
+  const sure = label === null ? null : 1;
+  const hulls = scene.hulls.map((hull) =>
+    given.has(hull.name) ? { ...hull, label, confidence: sure, source: label === null ? null : "user" } : hull,
+  );
+  return { ...scene, hulls };
+}
+
+interface Stroke {
+  readonly asset: string;
+  readonly brush: string;
+  readonly hulls: Set<string>;
+}
+let stroke: Stroke | null = null;
+let strokeTimer: ReturnType<typeof setTimeout> | undefined;
+
+/** Paints hulls with the armed label; those of one stroke become one edit. */
+export function paint(names: readonly string[]): void {
+  const { asset, brush } = useWorkspace.getState();
+  const hulls = ownHulls(new Set(names));
+  if (asset === null || brush === null || !hulls.length) return;
+  if (stroke && (stroke.asset !== asset || stroke.brush !== brush)) endStroke();
+  stroke ??= { asset, brush, hulls: new Set() };
+  for (const hull of hulls) stroke.hulls.add(hull);
+  const { scene } = useScenes.getState();
+  if (scene?.asset === asset) useScenes.setState({ scene: withLabel(scene, hulls, brush || null) });
+  clearTimeout(strokeTimer);
+  strokeTimer = setTimeout(endStroke, PAUSE);
+}
+
+function endStroke(): void {
+  if (stroke) void labelHulls(stroke.asset, [...stroke.hulls], stroke.brush || null, true);
+  stroke = null;
+}
+
+/** Selects every hull of the asset with a label, or without one. */
+export function selectLabel(label: string | null): void {
+  const { scene } = useScenes.getState();
+  select(scene?.hulls.filter((hull) => hull.label === label).map((hull) => hull.name) ?? []);
+}
+
+/** Hulls that the asset has as it comes; only those have labels of their own. */
+export function ownHulls(names: ReadonlySet<string>): string[] {
+  const { scene } = useScenes.getState();
+  return scene?.view.hulls.map((hull) => hull.name).filter((name) => names.has(name)) ?? [];
+}
+
+/** The labels with those of a typed list added, which stand between commas; ones already there are left out. */
+export function addLabels(labels: readonly string[], typed: string): string[] {
+  const words = typed.split(",").map((word) => word.trim().replaceAll(/\s+/g, " "));
+  return [...new Set([...labels, ...words.filter(Boolean)])];
+}
+
+/** The list with one of its lines at another place. */
+export function moveItem<T>(list: readonly T[], from: number, to: number): T[] {
+  const rest = list.filter((_, k) => k !== from);
+  const place = Math.min(Math.max(to, 0), rest.length);
+  return [...rest.slice(0, place), ...list.slice(from, from + 1), ...rest.slice(place)];
+}

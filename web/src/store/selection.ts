@@ -1,0 +1,78 @@
+// Which hulls a selection grows to, and which are hidden.
+import type { Scene } from "./scenes";
+import { useWorkspace } from "./workspace";
+
+export type Selection = ReadonlySet<string>;
+/** What of a scene decides it. */
+export type Connected = Pick<Scene, "contacts"> & { readonly hulls: readonly { name: string; label: string | null }[] };
+
+/** The hulls that touch each hull. */
+function neighboursOf({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> {
+  const out = new Map<string, string[]>();
+  const add = (a: string, b: string) => {
+    const known = out.get(a);
+    if (known) known.push(b);
+    else out.set(a, [b]);
+  };
+  for (const [a, b] of contacts) {
+    add(a, b);
+    add(b, a);
+  }
+  return out;
+}
+
+/** The selection with all that touches it. */
+export function withNeighbours(scene: Connected, selection: Selection): Set<string> {
+  const beside = neighboursOf(scene);
+  return new Set([...selection, ...[...selection].flatMap((name) => beside.get(name) ?? [])]);
+}
+
+/** All that hangs together with the selection. */
+export function withConnected(scene: Connected, selection: Selection): Set<string> {
+  const beside = neighboursOf(scene);
+  const out = new Set(selection);
+  for (const name of out) for (const next of beside.get(name) ?? []) out.add(next);
+  return out;
+}
+
+/** All hulls with a label that one of the selected has; without a label counts as alike, too. */
+export function withSameLabel({ hulls }: Connected, selection: Selection): Set<string> {
+  const labels = new Set(hulls.filter((hull) => selection.has(hull.name)).map((hull) => hull.label));
+  return new Set(hulls.filter((hull) => labels.has(hull.label)).map((hull) => hull.name));
+}
+
+/** All hulls but the selected ones. */
+export function invert({ hulls }: Connected, selection: Selection): Set<string> {
+  return new Set(hulls.map((hull) => hull.name).filter((name) => !selection.has(name)));
+}
+
+/** Which hulls are out of sight; what is hidden or gone is not selected. */
+export function hide(names: Iterable<string>): void {
+  const more = new Set(names);
+  useWorkspace.setState(({ hidden, selection }) => ({
+    hidden: new Set([...hidden, ...more]),
+    selection: new Set([...selection].filter((name) => !more.has(name))),
+    hover: null,
+  }));
+}
+
+/** Hides all hulls but some. */
+export function isolate(scene: Scene, names: ReadonlySet<string>): void {
+  const others = scene.hulls.map((hull) => hull.name).filter((name) => !names.has(name));
+  useWorkspace.setState({ hidden: new Set(others), selection: new Set(names) });
+}
+
+export function showAll(): void {
+  useWorkspace.setState({ hidden: new Set() });
+}
+
+/** Hulls that are no more are neither selected nor hidden. */
+export function forgetMissing({ asset, hulls, showing }: Scene): void {
+  const workspace = useWorkspace.getState();
+  // the selection may already be that of a state which is on its way
+  if (workspace.asset !== asset || JSON.stringify(workspace.showing) !== JSON.stringify(showing)) return;
+  const there = new Set(hulls.map((hull) => hull.name));
+  const left = (names: ReadonlySet<string>) => new Set([...names].filter((name) => there.has(name)));
+  const [selection, hidden] = [left(workspace.selection), left(workspace.hidden)];
+  if (selection.size < workspace.selection.size || hidden.size < workspace.hidden.size) useWorkspace.setState({ selection, hidden });
+}

@@ -1,0 +1,233 @@
+// What the person looks at and has in hand: asset, stage, selection, view, and how the window is divided; knows neither
+// DOM nor three.js.
+import { create } from "zustand";
+import type { Next } from "../wire";
+
+export type StageName = Next["stage"];
+export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
+
+/** Which state of the asset is shown: original, after some of its own steps, or edited. */
+export type Showing =
+  | { kind: "source" }
+  | { kind: "steps"; steps: number }
+  | { kind: "result"; of: "program" | "output" };
+
+export type ColorBy = "hull" | "label" | "confidence" | "body";
+export type Tool = "select" | "box" | "lasso" | "cut" | "landmark";
+export type StandardView = "front" | "back" | "right" | "left" | "top" | "bottom" | "iso";
+export type Compare = "off" | "slider" | "side";
+
+/** What the thumbnails point out: positions of the assets' own hulls. */
+export interface Highlight {
+  what: string;
+  assets: Readonly<Record<string, readonly number[]>>;
+}
+
+/** The action that is being put together in the demonstrate stage. */
+export interface Draft {
+  action: string;
+  arguments: Readonly<Record<string, string | number | boolean>>;
+  each: boolean;
+  /** The label of what is made, empty for none. */
+  label: string;
+  /** The place of the step that is being changed, null for a new one. */
+  editing: number | null;
+}
+
+export interface ViewSettings {
+  colorBy: ColorBy;
+  projection: "perspective" | "orthographic";
+  ghost: boolean;
+  wireframe: boolean;
+  contacts: boolean;
+  grid: boolean;
+  opaque: boolean;
+  /** 0 as it is, 1 far apart. */
+  explode: number;
+  compare: Compare;
+  /** Where the before/after line is, a share of the width. */
+  divider: number;
+}
+
+export interface Filters {
+  search: string;
+  only: readonly FilterName[];
+  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed" | "findings";
+}
+export type FilterName =
+  | "unlabelled"
+  | "unsure"
+  | "demonstrated"
+  | "edited"
+  | "accepted"
+  | "flagged"
+  | "failed"
+  | "stale"
+  | "findings";
+
+interface CheckSettings {
+  /** Whether results are measured as they are looked at. */
+  open: boolean;
+  /** The engine whose limits count, empty for none. */
+  engine: string;
+}
+
+export interface WorkspaceState {
+  asset: string | null;
+  stage: StageName;
+  showing: Showing;
+  /** What is to be shown of this asset in place of what its stage usually shows. */
+  asked: Showing | null;
+  /** Names of hulls of what is shown. */
+  selection: ReadonlySet<string>;
+  hover: string | null;
+  hidden: ReadonlySet<string>;
+  tool: Tool;
+  /** The label that clicks paint, empty for taking labels away, null for plain selecting. */
+  brush: string | null;
+  /** Hulls that were clicked as landmarks of the orientation: where the direction starts, then where it ends. */
+  landmarks: readonly string[];
+  draft: Draft | null;
+  highlight: Highlight | null;
+  view: ViewSettings;
+  filters: Filters;
+  checks: CheckSettings;
+  theme: "system" | "light" | "dark";
+  /** Widths of the left and right column [px]. */
+  columns: { family: number; panel: number };
+  overlay: "none" | "help" | "palette";
+  /** Counts up when the camera is asked to move: to a standard view, to fit all, to frame the selection, or to look at it from
+   * where the rest of the asset is seen, too. */
+  cameraOrder: { count: number; to: StandardView | "fit" | "frame" | "near" };
+}
+
+export const initialWorkspace: WorkspaceState = {
+  asset: null,
+  stage: "label",
+  showing: { kind: "source" },
+  asked: null,
+  selection: new Set(),
+  hover: null,
+  hidden: new Set(),
+  tool: "select",
+  brush: null,
+  landmarks: [],
+  draft: null,
+  highlight: null,
+  view: {
+    colorBy: "label",
+    projection: "perspective",
+    ghost: false,
+    wireframe: false,
+    contacts: false,
+    grid: true,
+    opaque: true,
+    explode: 0,
+    compare: "off",
+    divider: 0.5,
+  },
+  filters: { search: "", only: [], sort: "name" },
+  checks: { open: false, engine: "" },
+  theme: "system",
+  columns: { family: 280, panel: 360 },
+  overlay: "none",
+  cameraOrder: { count: 0, to: "iso" },
+};
+
+export const useWorkspace = create<WorkspaceState>()(() => initialWorkspace);
+
+const set = useWorkspace.setState;
+
+/** Goes to an asset; selection, hover and what is hidden belong to one asset and are left behind. */
+export function openAsset(asset: string | null): void {
+  if (useWorkspace.getState().asset === asset) return;
+  set({ asset, asked: null, selection: new Set(), hover: null, hidden: new Set(), draft: null, landmarks: [], tool: "select" });
+}
+
+/** Goes to an asset in a state, and selects hulls there; it stays in that state until another stage or asset is opened. */
+export function visit(asset: string, showing: Showing, names: Iterable<string> = []): void {
+  if (useWorkspace.getState().asset !== asset) openAsset(asset);
+  set({ asked: showing, showing, selection: new Set(names) });
+}
+
+export function openStage(stage: StageName): void {
+  if (useWorkspace.getState().stage === stage) return;
+  set({ stage, asked: null, selection: new Set(), draft: null, brush: null, landmarks: [], tool: "select" });
+}
+
+export function show(showing: Showing): void {
+  set({ showing });
+}
+
+export function select(names: Iterable<string>): void {
+  set({ selection: new Set(names) });
+}
+
+/** Adds, takes away or replaces, as shift- and ctrl-clicks do. */
+export function selectMore(names: Iterable<string>, how: "replace" | "add" | "toggle" | "subtract"): void {
+  const before = useWorkspace.getState().selection;
+  if (how === "replace") return select(names);
+  const after = new Set(before);
+  for (const name of names) {
+    if (how === "subtract" || (how === "toggle" && before.has(name))) after.delete(name);
+    else after.add(name);
+  }
+  select(after);
+}
+
+/** Chooses a tool; landmarks are clicked anew. */
+export function setTool(tool: Tool): void {
+  set({ tool, landmarks: [] });
+}
+
+/** Arms a label, so that clicks paint it; null puts the brush down. */
+export function setBrush(brush: string | null): void {
+  set({ brush });
+}
+
+export function setDraft(draft: Draft | null): void {
+  set({ draft });
+}
+
+export function hover(name: string | null): void {
+  if (useWorkspace.getState().hover !== name) set({ hover: name });
+}
+
+export function setView(change: Partial<ViewSettings>): void {
+  set((state) => ({ view: { ...state.view, ...change } }));
+}
+
+export function setFilters(change: Partial<Filters>): void {
+  set((state) => ({ filters: { ...state.filters, ...change } }));
+}
+
+export function setChecks(change: Partial<CheckSettings>): void {
+  set((state) => ({ checks: { ...state.checks, ...change } }));
+}
+
+export function lookFrom(to: WorkspaceState["cameraOrder"]["to"]): void {
+  set((state) => ({ cameraOrder: { count: state.cameraOrder.count + 1, to } }));
+}
+
+/** The hulls that belong to a highlight's thumbnails, or none. */
+export function setHighlight(highlight: Highlight | null): void {
+  set({ highlight });
+}
+
+export interface LayoutState {
+  /** Whether the family's column is there. */
+  family: boolean;
+  /** Whether the family fills the centre. */
+  gallery: boolean;
+  /** The share of the right column that the panel has above the list of hulls. */
+  split: number;
+}
+
+/** How the window is divided; knows no DOM. (Widths of the columns are on the workspace.) */
+export const initialLayout: LayoutState = { family: true, gallery: false, split: 0.68 };
+
+export const useLayout = create<LayoutState>()(() => initialLayout);
+
+export function setLayout(change: Partial<LayoutState>): void {
+  useLayout.setState(change);
+}

@@ -1,0 +1,129 @@
+// One state of the asset in three.js: its hulls with outlines, non-convex pieces, ghost, contact graph.
+import { Group, Scene as ThreeScene, Vector3 } from "three";
+import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
+import type { Shape } from "../../server/packet";
+import type { Scene } from "../../store/scenes";
+import { type Appearance, hullLooks } from "./hullLooks";
+import { HullSet } from "./hullSet";
+import { type Frame, Strokes, type StrokeStyle } from "./strokes";
+import { Surfaces } from "./surface";
+import type { ThemeColors } from "./themeColors";
+
+const OUTLINES = {
+  lit: { width: 1.6, behind: 0.25 },
+  selected: { width: 2.8, behind: 0.3 },
+  removed: { width: 2.2, dash: 5, behind: 0.4 },
+  hover: { width: 2, behind: 0.2 },
+} satisfies Record<string, StrokeStyle>;
+type Outline = keyof typeof OUTLINES;
+
+export class AssetDrawing {
+  readonly root = new ThreeScene();
+  /** Holds what is in the frame of the file. */
+  readonly turned = new Group();
+  readonly hulls: HullSet;
+  readonly opaque: Surfaces;
+  private readonly outlines: Readonly<Record<Outline, Strokes>>;
+
+  constructor(
+    public scene: Scene,
+    readonly centre: Point,
+    ink: ThemeColors,
+  ) {
+    this.turned.matrixAutoUpdate = false;
+    this.turned.matrix.copy(matrixOf(scene.view.upright));
+    this.hulls = new HullSet(scene.hulls, centre, ink);
+    this.opaque = new Surfaces(scene.opaque, ink.unlabelled, 0.34);
+    this.outlines = mapValues(OUTLINES, (style, name) => new Strokes(inkOf(name, ink), style));
+    const strokes = Object.values(this.outlines).map(({ object }) => object);
+    this.turned.add(this.hulls.object, this.opaque.object, ...strokes);
+    this.root.add(this.turned);
+    this.root.updateMatrixWorld(true);
+  }
+
+  /** Takes over a scene of the same shapes, as after labelling; whether it could. */
+  adopt(scene: Scene): boolean {
+    const { hulls, opaque, view } = this.scene;
+    const same =
+      scene.hulls.length === hulls.length &&
+      scene.hulls.every((hull, k) => hull.shape === hulls[k]?.shape && hull.name === hulls[k].name) &&
+      scene.opaque.every((piece, k) => piece.shape === opaque[k]?.shape) &&
+      String(scene.view.upright) === String(view.upright);
+    if (same) this.scene = scene;
+    return same;
+  }
+
+  paint(now: Appearance): void {
+    const looks = hullLooks(this.scene, now);
+    this.hulls.paint((k) => looks[k] as NonNullable<(typeof looks)[number]>);
+    const { selection, going, hover } = now;
+    const shown = (names: Iterable<string>) => this.hulls.outlines(names);
+    this.outlines.selected.set(shown([...selection].filter((name) => !going.has(name))));
+    this.outlines.lit.set(shown([...now.lit].filter((name) => name !== hover && !selection.has(name))));
+    this.outlines.hover.set(hover === null || selection.has(hover) ? [] : shown([hover]));
+    this.outlines.removed.set(shown(going));
+    this.opaque.point(hover);
+  }
+
+  setInk(ink: ThemeColors): void {
+    this.hulls.setInk(ink);
+    this.opaque.recolor(ink.unlabelled);
+    for (const name of Object.keys(OUTLINES) as Outline[]) this.outlines[name].recolor(inkOf(name, ink));
+  }
+
+  measure(frame: Frame): void {
+    this.hulls.measure(frame.pixel, frame.explode);
+    for (const strokes of Object.values(this.outlines)) strokes.measure(frame);
+  }
+
+  dispose(): void {
+    this.hulls.dispose();
+    this.opaque.dispose();
+    for (const strokes of Object.values(this.outlines)) strokes.dispose();
+  }
+}
+
+const inkOf = (name: Outline, ink: ThemeColors) => (name === "lit" ? ink.hover : ink[name]);
+
+function mapValues<K extends string, A, B>(record: Record<K, A>, made: (value: A, key: K) => B): Record<K, B> {
+  const entries = Object.entries(record) as [K, A][];
+  return Object.fromEntries(entries.map(([key, value]) => [key, made(value, key)])) as Record<K, B>;
+}
+
+/** The box around all hulls and non-convex pieces, in the frame of the file; null where there is nothing. */
+export function extentOf({ hulls, opaque }: Scene): readonly number[] | null {
+  const boxes = new Float32Array([...hulls, ...opaque].flatMap(({ shape }) => boxOf(shape.positions)));
+  return boxAround(boxes, [...hulls, ...opaque].keys());
+}
+
+/** The vertices of hulls and non-convex pieces where they are shown, in the canonical frame; null: of all in sight. */
+export function pointsOf(side: AssetDrawing, only: ReadonlySet<string> | null, explode: number): Point[] {
+  const { hulls, opaque } = side.scene;
+  const out: Point[] = [];
+  const at = new Vector3();
+  const add = ({ positions }: Shape, away: Point): void => {
+    for (let k = 0; k < positions.length; k += 3) {
+      at.fromArray(positions, k).addScaledVector(new Vector3(...away), explode);
+      out.push(at.applyMatrix4(side.turned.matrix).toArray());
+    }
+  };
+  hulls.forEach(({ name, shape }, k) => {
+    const wanted = only ? only.has(name) : side.hulls.visible[k];
+    if (wanted) add(shape, side.hulls.aways[k] ?? [0, 0, 0]);
+  });
+  if (!only) opaque.forEach(({ shape }) => add(shape, [0, 0, 0]));
+  return out;
+}
+
+/** The middle of a hull, and of each of its triangles. */
+export function* spotsOf({ hulls }: AssetDrawing, place: number, explode: number): Generator<Point> {
+  yield hulls.middle(place, explode);
+  const { faces, index, positions } = hulls.shapes;
+  const away = hulls.aways[place] ?? [0, 0, 0];
+  for (let face = faces[place] ?? 0; face < (faces[place + 1] ?? 0); face++) {
+    const mid = (axis: number): number =>
+      [0, 1, 2].reduce((sum, k) => sum + (positions[3 * (index[3 * face + k] ?? 0) + axis] ?? 0) / 3, 0) +
+      explode * (away[axis] ?? 0);
+    yield [mid(0), mid(1), mid(2)];
+  }
+}

@@ -1,0 +1,73 @@
+// A picture of which hull is seen in each pixel, drawn when a region is begun.
+import { type Camera, Color, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
+import type { HullSet } from "./hullSet";
+import { PLACE_VERTEX, placeUniforms } from "./hullShader";
+
+const VERTEX = /* glsl */ `
+  ${PLACE_VERTEX}
+  flat out int number;
+  void main() {
+    vec4 state = texelFetch(states, place(), 0);
+    vec4 at = placed(state);
+    number = int(owner + 0.5) + 1;
+    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  precision highp float;
+  flat in int number;
+  void main() {
+    gl_FragColor = vec4(float(number & 255), float((number >> 8) & 255), float(number >> 16), 255.0) / 255.0;
+  }
+`;
+
+/** For each pixel the place of the hull plus one, nought where there is none; rows from the top. */
+export function drawHullIds(
+  gl: WebGLRenderer,
+  hulls: HullSet,
+  camera: Camera,
+  width: number,
+  height: number,
+): Uint32Array {
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: placeUniforms(hulls.common),
+  });
+  const scene = new Scene();
+  const mesh = new Mesh(hulls.faceGeometry, material);
+  mesh.frustumCulled = false;
+  mesh.matrixAutoUpdate = false;
+  mesh.matrix.copy(hulls.object.matrixWorld);
+  scene.add(mesh);
+  const bytes = renderIds(gl, scene, camera, width, height);
+  material.dispose();
+  return flipRows(bytes, width, height);
+}
+
+function renderIds(gl: WebGLRenderer, scene: Scene, camera: Camera, width: number, height: number): Uint8Array {
+  const target = new WebGLRenderTarget(width, height);
+  const [color, alpha] = [gl.getClearColor(new Color()), gl.getClearAlpha()];
+  gl.setRenderTarget(target);
+  gl.setClearColor(0, 0);
+  gl.clear();
+  gl.render(scene, camera);
+  const bytes = new Uint8Array(4 * width * height);
+  gl.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+  gl.setRenderTarget(null);
+  gl.setClearColor(color, alpha);
+  target.dispose();
+  return bytes;
+}
+
+function flipRows(bytes: Uint8Array, width: number, height: number): Uint32Array {
+  const out = new Uint32Array(width * height);
+  for (let y = 0; y < height; y++) {
+    for (let x = 0; x < width; x++) {
+      const at = 4 * ((height - 1 - y) * width + x);
+      out[y * width + x] = (bytes[at] ?? 0) | ((bytes[at + 1] ?? 0) << 8) | ((bytes[at + 2] ?? 0) << 16);
+    }
+  }
+  return out;
+}

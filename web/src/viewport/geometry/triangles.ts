@@ -1,0 +1,131 @@
+// The triangles of many shapes in one buffer, with flat faces of few vertices, and the boxes around shapes.
+import { Matrix4, Vector3 } from "three";
+import { cornersOf } from "../camera/pose";
+import type { Shape } from "../../server/packet";
+
+export interface MergedShapes {
+  readonly count: number;
+  /** x, y, z of every vertex [m]. */
+  readonly positions: Float32Array;
+  /** The place of the shape that each vertex belongs to. */
+  readonly owner: Float32Array;
+  readonly index: Uint32Array;
+  /** Where the triangles of each shape begin, and where the last ones end. */
+  readonly faces: Uint32Array;
+  /** The lowest and the highest corner of each shape, six numbers. */
+  readonly boxes: Float32Array;
+}
+
+export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
+  const vertices = shapes.reduce((sum, shape) => sum + shape.positions.length / 3, 0);
+  const corners = shapes.reduce((sum, shape) => sum + shape.index.length, 0);
+  const out = {
+    count: shapes.length,
+    positions: new Float32Array(3 * vertices),
+    owner: new Float32Array(vertices),
+    index: new Uint32Array(corners),
+    faces: new Uint32Array(shapes.length + 1),
+    boxes: new Float32Array(6 * shapes.length),
+  };
+  let vertex = 0;
+  let corner = 0;
+  shapes.forEach((shape, k) => {
+    const many = shape.positions.length / 3;
+    out.positions.set(shape.positions, 3 * vertex);
+    out.owner.fill(k, vertex, vertex + many);
+    for (const place of shape.index) out.index[corner++] = place + vertex;
+    out.faces[k + 1] = corner / 3;
+    out.boxes.set(boxOf(shape.positions), 6 * k);
+    vertex += many;
+  });
+  return out;
+}
+
+/** The lowest and the highest corner of some points. */
+export function boxOf(positions: Float32Array): readonly number[] {
+  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < positions.length; k++) {
+    const at = positions[k] ?? 0;
+    const axis = k % 3;
+    if (at < (box[axis] ?? 0)) box[axis] = at;
+    if (at > (box[axis + 3] ?? 0)) box[axis + 3] = at;
+  }
+  return box;
+}
+
+export type Point = readonly [number, number, number];
+
+/** The middle of a shape's box. */
+export function middleOf(boxes: Float32Array, k: number): Point {
+  const mid = (axis: number) => ((boxes[6 * k + axis] ?? 0) + (boxes[6 * k + axis + 3] ?? 0)) / 2;
+  return [mid(0), mid(1), mid(2)];
+}
+
+/** The box around some of the shapes' boxes; null around none. */
+export function boxAround(boxes: Float32Array, places: Iterable<number>): readonly number[] | null {
+  const corners: number[] = [];
+  for (const k of places) corners.push(...boxes.subarray(6 * k, 6 * k + 6));
+  return corners.length ? boxOf(new Float32Array(corners)) : null;
+}
+
+/** x, y, z and normal of each vertex; a normal counts only for the triangle that the vertex is the last corner of. */
+export interface Facets {
+  readonly positions: Float32Array;
+  readonly normals: Float32Array;
+  readonly index: Uint32Array;
+}
+
+/** Flat faces with few vertices: the last corner of each triangle is its own, and tells the face's normal. */
+export function facetsOf(shape: Shape): Facets {
+  const count = shape.positions.length / 3;
+  const faces = faceNormals(shape);
+  const index = new Uint32Array(shape.index.length);
+  const source: number[] = Array.from({ length: count }, (_, k) => k);
+  const owner = new Int32Array(count + shape.index.length / 3).fill(-1);
+  for (let corner = 0; corner < index.length; corner += 3) {
+    const abc = [0, 1, 2].map((k) => shape.index[corner + k] ?? 0) as [number, number, number];
+    const free = abc.findIndex((vertex) => owner[vertex] === -1);
+    const last = free >= 0 ? free : 2;
+    const own = free >= 0 ? abc[last] : source.push(abc[last] ?? 0) - 1;
+    owner[own ?? 0] = corner / 3;
+    index.set([abc[(last + 1) % 3] ?? 0, abc[(last + 2) % 3] ?? 0, own ?? 0], corner);
+  }
+  const positions = new Float32Array(3 * source.length);
+  const normals = new Float32Array(3 * source.length);
+  source.forEach((vertex, k) => {
+    positions.set(shape.positions.subarray(3 * vertex, 3 * vertex + 3), 3 * k);
+    const face = owner[k] ?? -1;
+    if (face >= 0) normals.set(faces.subarray(3 * face, 3 * face + 3), 3 * k);
+  });
+  return { positions, normals, index };
+}
+
+/** The matrix of 16 numbers row by row; the identity for none. */
+export function matrixOf(rows: readonly number[] | null): Matrix4 {
+  return rows ? new Matrix4().fromArray([...rows]).transpose() : new Matrix4();
+}
+
+/** The box around a box after turning it. */
+export function rotateBox(box: readonly number[], upright: readonly number[] | null): number[] {
+  const matrix = matrixOf(upright);
+  const corners = cornersOf(box).map((corner) => new Vector3(...corner).applyMatrix4(matrix).toArray());
+  const along = (axis: number) => corners.map((corner) => corner[axis] ?? 0);
+  return [0, 1, 2].map((axis) => Math.min(...along(axis))).concat([0, 1, 2].map((axis) => Math.max(...along(axis))));
+}
+
+/** The normal of each triangle. */
+export function faceNormals({ positions: p, index }: Shape): Float32Array {
+  const out = new Float32Array(index.length);
+  for (let k = 0; k < index.length; k += 3) {
+    const [a, b, c] = [3 * (index[k] ?? 0), 3 * (index[k + 1] ?? 0), 3 * (index[k + 2] ?? 0)];
+    const [ax, ay, az] = [p[a] ?? 0, p[a + 1] ?? 0, p[a + 2] ?? 0];
+    const [ux, uy, uz] = [(p[b] ?? 0) - ax, (p[b + 1] ?? 0) - ay, (p[b + 2] ?? 0) - az];
+    const [vx, vy, vz] = [(p[c] ?? 0) - ax, (p[c + 1] ?? 0) - ay, (p[c + 2] ?? 0) - az];
+    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    const length = Math.hypot(x, y, z) || 1;
+    out[k] = x / length;
+    out[k + 1] = y / length;
+    out[k + 2] = z / length;
+  }
+  return out;
+}

@@ -1,0 +1,123 @@
+// What is pointed at, and how many hulls there are and are selected.
+import { CONFIDENCE, hasLowConfidence, PALETTE } from "../../pictures/hullColors";
+import { useStage } from "../stage/context";
+import { useFormerLabels } from "../../store/labelChanges";
+import { useProject } from "../../store/project";
+import { type Scene, useScenes } from "../../store/scenes";
+import { lengthText, volumeText } from "../../store/units";
+import { countText } from "../../store/words";
+import { useWorkspace } from "../../store/workspace";
+import { Swatch } from "../../ui/Section";
+import type { HullView } from "../../wire";
+import css from "./overlay.module.css";
+
+export function InfoLines() {
+  return (
+    <div className={css.hud}>
+      <PointedHull />
+      <UnturnedNote />
+      <Counts />
+    </div>
+  );
+}
+
+function UnturnedNote() {
+  const why = useScenes(({ scene }) => (scene?.hulls.length ? scene.view.unturned : null));
+  return why ? <div className={css.unturned}>Not oriented: {why}</div> : null;
+}
+
+function PointedHull() {
+  const name = useWorkspace((workspace) => workspace.hover);
+  const hull = useScenes(({ scene }) => scene?.hulls.find((one) => one.name === name));
+  const piece = useScenes(({ scene }) => scene?.view.opaque.find((one) => one.name === name));
+  if (hull) return <HullLine hull={hull} />;
+  if (!piece) return null;
+  return (
+    <div className={css.pointed}>
+      <b>{piece.name}</b>
+      <span>{piece.reason}</span>
+    </div>
+  );
+}
+
+function HullLine({ hull }: { hull: HullView }) {
+  const scene = useScenes((state) => state.scene);
+  const was = useFormerLabels(scene?.asset ?? "", scene?.view.hulls ?? NONE).get(hull.name);
+  const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
+  const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
+  return (
+    <div className={css.pointed}>
+      <b>{hull.name}</b>
+      {hull.label === null ? (
+        <span>no label</span>
+      ) : (
+        <span>
+          <Swatch color={color ?? "var(--hull-unlabelled)"} hatched={hasLowConfidence(hull)} /> {hull.label}
+          {hasLowConfidence(hull) ? `, unsure${share}` : share}
+          {was !== undefined && `, was ${was}`}
+        </span>
+      )}
+      <span>{volumeText(hull.volume)}</span>
+      <span>{hull.primitive ?? `${hull.vertices} vertices`}</span>
+    </div>
+  );
+}
+
+const NONE: readonly HullView[] = [];
+
+function Counts() {
+  const scene = useScenes((state) => state.scene);
+  const selected = useWorkspace((workspace) => workspace.selection.size);
+  const hidden = useWorkspace((workspace) => workspace.hidden.size);
+  const grid = useWorkspace((workspace) => workspace.view.grid);
+  const stage = useStage();
+  if (!scene) return null;
+  const parts = [hullCountText(scene), selected ? `${selected} selected` : "", hidden ? `${hidden} hidden` : ""];
+  return (
+    <div className={css.counts} data-testid="counts">
+      <span>{parts.filter(Boolean).join(" · ")}</span>
+      {grid && <span className={css.faint}>grid {lengthText(stage.contents.ground.step)}</span>}
+    </div>
+  );
+}
+
+function hullCountText({ view, hulls, edit }: Scene): string {
+  const before = view.hulls.length;
+  return edit ? `${before} → ${countText(hulls.length, "hull")}` : countText(before, "hull");
+}
+
+const MOST = 10;
+
+/** What the colours mean where that is not shown elsewhere. */
+export function Legend() {
+  const colorBy = useWorkspace((workspace) => workspace.view.colorBy);
+  const bodies = useScenes(({ scene }) => scene?.view.bodies);
+  if (colorBy === "confidence") return <Scale />;
+  if (colorBy !== "body" || !bodies) return null;
+  return (
+    <ul className={css.legend} aria-label="Colours of the bodies">
+      {bodies.slice(0, MOST).map((body, k) => (
+        <li key={body}>
+          <Swatch color={PALETTE[k % PALETTE.length] ?? ""} /> {body}
+        </li>
+      ))}
+      {bodies.length > MOST && <li>and {bodies.length - MOST} more</li>}
+    </ul>
+  );
+}
+
+function Scale() {
+  return (
+    <div className={css.legend} aria-label="Colours of confidence">
+      <div className={css.scale} style={{ background: `linear-gradient(to right, ${CONFIDENCE.join(",")})` }} />
+      <div className={css.scaleEnds}>
+        <span>0 %</span>
+        <span>unsure · sure</span>
+        <span>100 %</span>
+      </div>
+      <span>
+        <Swatch color="var(--hull-unlabelled)" /> no label
+      </span>
+    </div>
+  );
+}
