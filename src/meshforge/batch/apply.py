@@ -55,12 +55,10 @@ def _run_task(jobs: tuple[AssetJob, ...], task: ApplyTask, execution: ExecutionO
         results = execute(partial(edit_asset, task), jobs, execution)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
-            worked = _to_failed(job, result) if isinstance(result, WorkerFailure) else result
-            yield ledger.commit(worked) if ledger else worked.outcome
-
-
-def _to_failed(job: AssetJob, lost: WorkerFailure) -> WorkerResult:
-    return WorkerResult(Failed(job.id, f"{job.path}: {lost.why}\n  The other assets are not affected.", lost.seconds))
+            if isinstance(result, WorkerFailure):
+                why = f"{job.path}: {result.why}\n  The other assets are not affected."
+                result = WorkerResult(Failed(job.id, why, result.seconds))
+            yield ledger.commit(result) if ledger else result.outcome
 
 
 def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:

@@ -121,13 +121,14 @@ def find_assets_in(folder: Path) -> list[Path]:
     described = [path for path in files if path.suffix.lower() in DESCRIPTION_SUFFIXES]
     if described:
         return described
-    scenes = [path for path in files if path.suffix.lower() not in MESH_SUFFIXES]
+    found = [path for path in files if path.suffix.lower() not in MESH_SUFFIXES]
     by_folder: dict[Path, list[Path]] = {}
     for path in files:
         if path.suffix.lower() in MESH_SUFFIXES:
             by_folder.setdefault(path.parent, []).append(path)
-    meshes = [asset for parent, own in by_folder.items() for asset in ([parent] if _are_pieces(own) else own)]
-    return sorted([*scenes, *meshes])
+    for parent, own in by_folder.items():
+        found += [parent] if len(own) > 1 and all(map(_is_one_hull, own)) else own
+    return sorted(found)
 
 
 def is_own(path: Path, root: Path) -> bool:
@@ -155,11 +156,6 @@ def _walk_assets(folder: Path, root: Path) -> Iterator[Path]:
 def _is_written(folder: Path, root: Path) -> bool:
     """Whether a folder is an output or a project of its own; one that was named outright is neither."""
     return folder != root and ((folder / STATE).is_dir() or (folder / SETTINGS).is_file())
-
-
-def _are_pieces(members: list[Path]) -> bool:
-    """Whether mesh files of one folder are pieces of one asset: several, each a single hull; stops at the first not."""
-    return len(members) > 1 and all(map(_is_one_hull, members))
 
 
 def _is_one_hull(path: Path) -> bool:

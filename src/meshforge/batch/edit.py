@@ -23,7 +23,6 @@ from meshforge.batch.provenance import (
 )
 from meshforge.common import describe_error, join_names
 from meshforge.formats import read
-from meshforge.language import RunResult
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
 _MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
@@ -87,7 +86,7 @@ def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInp
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
-        rules=_rule_effects(result),
+        rules=tuple(RuleEffect(line.rule, line.selected, line.made, line.note) for line in result.trace),
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
@@ -98,10 +97,6 @@ def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInp
         return WorkerResult(outcome)
     Stamp.of(outcome, inputs, draft).write(draft.root / DRAFT_STAMP)
     return WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
-
-
-def _rule_effects(result: RunResult) -> tuple[RuleEffect, ...]:
-    return tuple(RuleEffect(line.rule, line.selected, line.made, line.note) for line in result.trace)
 
 
 def _opaque_notes(asset: Asset) -> tuple[str, ...]:

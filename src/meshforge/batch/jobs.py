@@ -114,10 +114,11 @@ def read_template(path: Path, name: str) -> Template:
     """The template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
     asset = read(path)
     if asset.opaque:
+        out = path.with_name(f"{path.stem}_hulls{path.suffix}")
         raise ProgramError(
             f'the template "{name}" is no convex hull: {asset.opaque[0].reason}',
             where=str(path),
-            remedy=f"Split it into convex hulls first: meshforge decompose {path} -o {_split_path(path)}",
+            remedy=f"Split it into convex hulls first: meshforge decompose {path} -o {out}",
         )
     if not asset.geoms:
         raise ProgramError(f'the template "{name}" holds no hull', where=str(path))
@@ -131,7 +132,3 @@ def _find_template(name: str, folders: Sequence[Path]) -> Path:
             return place
     looked = ", then ".join(str(place) for place in places) or "no folder"
     raise ProgramError(f'the template "{name}" is not there', remedy=f"Looked for {looked}.")
-
-
-def _split_path(path: Path) -> str:
-    return str(path.with_name(f"{path.stem}_hulls{path.suffix}"))

@@ -46,9 +46,7 @@ class HullFix:
     def description(self) -> str:
         """The change in a sentence."""
         before, after = (f"{self.vertices[k]} vertices on {self.polygons[k]} flat faces" for k in (0, 1))
-        return (
-            f"{self.hull}: {before}; now {self.made}: {after}, which sticks out by {_format_length(self.error)} at most"
-        )
+        return f"{self.hull}: {before}; now {self.made}: {after}, which sticks out by {self.error:.3g} m at most"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -138,10 +136,7 @@ def _find_objection(
     if made is None:
         return "no simpler hull around it was found"
     if made.error > allowed:
-        return (
-            f"a hull within the limits would stick out by {_format_length(made.error)}, more than "
-            f"{_format_length(allowed)}"
-        )
+        return f"a hull within the limits would stick out by {made.error:.3g} m, more than {allowed:.3g} m"
     if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:
@@ -161,10 +156,6 @@ def _free_name(name: str, taken: set[str]) -> str:
     while (found := f"{name}~{number}") in taken:
         number += 1
     return found
-
-
-def _format_length(length: float) -> str:
-    return f"{length:.3g} m"
 
 
 def thicken(hull: Polytope, thickness: float) -> Enclosure:

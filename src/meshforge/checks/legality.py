@@ -43,44 +43,34 @@ class HullRule:
     is_broken: Callable[[Shape], bool]
 
 
-def _is_not_finite(shape: Shape) -> bool:
-    return not (np.isfinite(shape.vertices).all() and np.isfinite(shape.volume))
-
-
-def _has_too_few_vertices(shape: Shape) -> bool:
-    return len(shape.vertices) < 4
-
-
-def _is_open(shape: Shape) -> bool:
-    return isinstance(shape, Polytope) and not is_closed(shape.faces)
-
-
-def _is_flat(shape: Shape) -> bool:
-    return not spans_volume(shape.vertices)
-
-
-def _has_no_volume(shape: Shape) -> bool:
-    return shape.volume <= 0
-
-
-def _is_inward(shape: Shape) -> bool:
-    return isinstance(shape, Polytope) and not is_outward(shape.vertices, shape.faces)
-
-
-def _is_not_convex(shape: Shape) -> bool:
-    return isinstance(shape, Polytope) and not is_convex(shape.vertices, shape.faces, _CONVEXITY)
-
-
 HULL_RULES = (
-    HullRule("finite", "coordinates that are not finite numbers", "Fix the file's vertices.", _is_not_finite),
-    HullRule("solid", "too few vertices for a volume", "Delete the hull.", _has_too_few_vertices),
-    HullRule("flat", "no thickness", "Give it a thickness, replace it by a box, or delete it.", _is_flat),
-    HullRule("closed", "not closed", _REHULL, _is_open),
-    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL, _has_no_volume),
     HullRule(
-        "convex", "not convex", "Decompose it, or merge the hull by itself, which fills its hollows.", _is_not_convex
+        "finite",
+        "coordinates that are not finite numbers",
+        "Fix the file's vertices.",
+        lambda shape: not (np.isfinite(shape.vertices).all() and np.isfinite(shape.volume)),
     ),
-    HullRule("outward", "faces that look inwards", _REHULL, _is_inward),
+    HullRule("solid", "too few vertices for a volume", "Delete the hull.", lambda shape: len(shape.vertices) < 4),
+    HullRule(
+        "flat",
+        "no thickness",
+        "Give it a thickness, replace it by a box, or delete it.",
+        lambda shape: not spans_volume(shape.vertices),
+    ),
+    HullRule("closed", "not closed", _REHULL, lambda shape: isinstance(shape, Polytope) and not is_closed(shape.faces)),
+    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL, lambda shape: shape.volume <= 0),
+    HullRule(
+        "convex",
+        "not convex",
+        "Decompose it, or merge the hull by itself, which fills its hollows.",
+        lambda shape: isinstance(shape, Polytope) and not is_convex(shape.vertices, shape.faces, _CONVEXITY),
+    ),
+    HullRule(
+        "outward",
+        "faces that look inwards",
+        _REHULL,
+        lambda shape: isinstance(shape, Polytope) and not is_outward(shape.vertices, shape.faces),
+    ),
 )
 """In this order: of a hull that breaks several, only the first is reported, since the others follow from it."""
 

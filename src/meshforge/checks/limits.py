@@ -62,21 +62,6 @@ class Engine:
     hulls_source: str = ""
 
 
-def count_vertices(hull: Polytope) -> float:
-    """The number of vertices."""
-    return len(hull.vertices)
-
-
-def count_polygons(hull: Polytope) -> float:
-    """The number of flat faces."""
-    return len(polygon_sizes(hull))
-
-
-def count_largest_polygon(hull: Polytope) -> float:
-    """The number of vertices on the flat face that has most."""
-    return max(polygon_sizes(hull))
-
-
 def count_polygons_at_vertex(hull: Polytope) -> float:
     """The number of flat faces that meet at the vertex where most do."""
     pairs = neighbour_faces(hull.faces)
@@ -94,24 +79,14 @@ def measure_slenderness(hull: Polytope) -> float:
     return float(measure_extents(hull.vertices)[0]) / max(2 * inner, np.finfo(float).tiny)
 
 
-def measure_thickness(hull: Polytope) -> float:
-    """The shortest side of a small box around the hull [m]."""
-    return float(measure_extents(hull.vertices)[2])
-
-
-def measure_volume(hull: Polytope) -> float:
-    """The volume [m^3]."""
-    return hull.volume
-
-
 _RULES: dict[str, tuple[Callable[[Polytope], float], str, Bound, str]] = {
-    "vertices": (count_vertices, "vertices", "most", _SIMPLER),
-    "polygons": (count_polygons, "flat faces", "most", _SIMPLER),
-    "face-vertices": (count_largest_polygon, "vertices on one flat face", "most", _SIMPLER),
+    "vertices": (lambda hull: len(hull.vertices), "vertices", "most", _SIMPLER),
+    "polygons": (lambda hull: len(polygon_sizes(hull)), "flat faces", "most", _SIMPLER),
+    "face-vertices": (lambda hull: max(polygon_sizes(hull)), "vertices on one flat face", "most", _SIMPLER),
     "vertex-faces": (count_polygons_at_vertex, "flat faces at one vertex", "most", _SIMPLER),
     "oblong": (measure_slenderness, "times as long as the sphere inside is wide", "most", _SHORTER),
-    "thin": (measure_thickness, "m thick", "least", _THICKER),
-    "volume": (measure_volume, "m³", "least", _THICKER),
+    "thin": (lambda hull: float(measure_extents(hull.vertices)[2]), "m thick", "least", _THICKER),
+    "volume": (lambda hull: hull.volume, "m³", "least", _THICKER),
 }
 
 

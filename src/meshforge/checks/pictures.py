@@ -53,8 +53,8 @@ def draw_fit(mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 4
         return None
     most = max(2 * LEAST_GAP_SHARE * found.diagonal, 4 * found.cell)
     hulls = [hull.shape.tessellate() for group in found.groups for hull in group.hulls]
-    seen = [_to_surface(group.visual_surface.corners) for group in found.groups]
-
+    corners = [group.visual_surface.corners for group in found.groups]
+    seen = [Surface(c.reshape(-1, 3), np.arange(3 * len(c)).reshape(-1, 3)) for c in corners]
     group_of = np.array([k for k, group in enumerate(found.groups) for _ in group.hulls])
 
     def out(points: Floats, items: Ints) -> Floats:
@@ -78,7 +78,3 @@ def _measure_by_group(
     for k in np.unique(which):
         values[which == k] = measure(groups[k], points[which == k])
     return values
-
-
-def _to_surface(corners: Floats) -> Surface:
-    return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -16,6 +16,7 @@ INK = "#1F2530"
 FAINT = "#6B7482"
 
 _ROWS = 3  # of a legend at most; what does not fit is counted
+_SCALE_WIDTH = 300  # of the scale of confidence in a legend, with the room about it [px]
 Chip = tuple[LegendEntry, float, int]
 """An entry, where it begins in its row [px], and its row."""
 
@@ -93,9 +94,8 @@ def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
     for entry, x, row in _lay_out_entries(coloring, size):
         y = top + row * 24 * u
         if entry.color:
-            draw.rounded_rectangle(
-                (x, y, x + box, y + box), round(3 * u), fill=entry.color, outline=_darken(entry.color)
-            )
+            outline = hexadecimal(rgb(entry.color) * 0.72)
+            draw.rounded_rectangle((x, y, x + box, y + box), round(3 * u), fill=entry.color, outline=outline)
         name = shorten(entry.name, small, size[0] / 3)
         after = x + (box + 6 * u if entry.color else 0)
         middle = y + box / 2
@@ -106,27 +106,21 @@ def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
 
 
 def _lay_out_entries(coloring: HullColors, size: tuple[int, int]) -> list[Chip]:
-    """The entries laid out in rows, as many as fit."""
+    """The entries laid out in rows, as many as fit; where some do not, the last place has the number of the rest."""
     u = text_scale(size)
     edge, right = 16 * u, size[0] - 16 * u
-    x, row = edge + (_scale_width(size) if coloring.gradient else 0), 0
+    x, row = edge + (_SCALE_WIDTH * u if coloring.gradient else 0), 0
     placed: list[Chip] = []
     for k, entry in enumerate(coloring.legend):
         wide = _chip_width(entry, size)
         if x + wide > right and x > edge:
             x, row = edge, row + 1
-        left = len(coloring.legend) - k
         if row == _ROWS:
-            return _count_rest(placed, left)
+            _, last, row = placed[-1]
+            return [*placed[:-1], (LegendEntry("", f"and {len(coloring.legend) - k + 1} more"), last, row)]
         placed.append((entry, x, row))
         x += wide + 18 * u
     return placed
-
-
-def _count_rest(placed: Sequence[Chip], left: int) -> list[Chip]:
-    """The last entry replaced by the number of those left out."""
-    _, x, row = placed[-1]
-    return [*placed[:-1], (LegendEntry("", f"and {left + 1} more"), x, row)]
 
 
 def _chip_width(entry: LegendEntry, size: tuple[int, int]) -> float:
@@ -134,10 +128,6 @@ def _chip_width(entry: LegendEntry, size: tuple[int, int]) -> float:
     small = round(13 * u)
     count = "" if entry.count is None else f" {entry.count}"
     return 18 * u + text_width(shorten(entry.name, small, size[0] / 3) + count, small)
-
-
-def _scale_width(size: tuple[int, int]) -> float:
-    return 300 * text_scale(size)
 
 
 def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
@@ -151,10 +141,6 @@ def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
         color = hexadecimal(confidence_color(k / max(length - 1, 1)))
         draw.line((x + k, top, x + k, top + high), fill=color)
     draw.text((x + length + 8 * u, top + high / 2), "certain", fill=FAINT, font=font(small), anchor="lm")
-
-
-def _darken(color: str) -> str:
-    return hexadecimal(rgb(color) * 0.72)
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,12 +200,8 @@ def draw_marks(
         for height in (round(14 * text_scale(size)), round(10 * text_scale(size))):
             at, height = (corner[0] + middle.column, corner[1] + middle.row), max(8, height)
             halo = max(1, height // 5)
-            box = draw.textbbox(at, marks[item], font(height), "mm", stroke_width=halo)
-            if not any(_is_overlapping(box, other) for other in taken):
+            left, top, right, bottom = box = draw.textbbox(at, marks[item], font(height), "mm", stroke_width=halo)
+            if not any(a < right and left < c and b < bottom and top < d for a, b, c, d in taken):
                 draw.text(at, marks[item], INK, font(height), "mm", stroke_width=halo, stroke_fill="white")
                 taken.append(box)
                 break
-
-
-def _is_overlapping(a: PixelBox, b: PixelBox) -> bool:
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]

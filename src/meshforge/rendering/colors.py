@@ -25,23 +25,19 @@ DIFFERENCE_COLORS = {"removed": REMOVED, "made": MADE, "kept": KEPT}
 """Of the hulls in a picture of differences."""
 SELECTED, PALE = "#E8760A", "#D9DDE3"
 CONFIDENCE = ("#C4472B", "#EFA94A", "#EFE3A0", "#7FB7C9", "#2B6CA3")
-"""From no confidence to full: red to blue, light in the middle, told apart by every eye."""
+"""From no confidence to full: red to blue, light in the middle, which every eye can tell apart."""
 
 # Björn Ottosson, "A perceptual color space for image processing", 2020
-_TO_CONES = np.array(
-    [
-        [0.4122214708, 0.5363325363, 0.0514459929],
-        [0.2119034982, 0.6806995451, 0.1073969566],
-        [0.0883024619, 0.2817188376, 0.6299787005],
-    ]
-)
-_TO_LAB = np.array(
-    [
-        [0.2104542553, 0.7936177850, -0.0040720468],
-        [1.9779984951, -2.4285922050, 0.4505937099],
-        [0.0259040371, 0.7827717662, -0.8086757660],
-    ]
-)
+_TO_CONES = np.array([
+    [0.4122214708, 0.5363325363, 0.0514459929],
+    [0.2119034982, 0.6806995451, 0.1073969566],
+    [0.0883024619, 0.2817188376, 0.6299787005],
+])  # fmt: skip
+_TO_LAB = np.array([
+    [0.2104542553, 0.7936177850, -0.0040720468],
+    [1.9779984951, -2.4285922050, 0.4505937099],
+    [0.0259040371, 0.7827717662, -0.8086757660],
+])  # fmt: skip
 # Machado, Oliveira and Fernandes, "A physiologically-based model for simulation of color vision deficiency", 2009
 _DEUTERANOPIA = np.array(
     [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
@@ -83,7 +79,7 @@ def confidence_color(confidence: float) -> Floats:
 
 def perceive_colors(colors: Floats) -> Floats:
     """Colours (n, 3) as seen by three kinds of eyes (3, n, 3) in Oklab, where distance is difference."""
-    linear = _to_linear(colors)
+    linear = to_linear(colors)
     seen = [np.clip(linear @ eye.T, 0, 1) for eye in (np.eye(3), _DEUTERANOPIA, _PROTANOPIA)]
     return np.array([np.cbrt(s @ _TO_CONES.T) @ _TO_LAB.T for s in seen])
 
@@ -108,7 +104,8 @@ def candidate_colors() -> tuple[Floats, Floats]:
     return colors, perceive_colors(colors)
 
 
-def _to_linear(colors: Floats) -> Floats:
+def to_linear(colors: Floats) -> Floats:
+    """Colours in sRGB as linear light, both in 0..1."""
     linear: Floats = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
     return linear
 
@@ -136,10 +133,7 @@ class HullColors:
 
 
 def color_hulls(
-    mesh: SymbolicMesh,
-    color_by: ColorBy,
-    vocabulary: Sequence[str] = (),
-    known: Mapping[str, Floats] | None = None,
+    mesh: SymbolicMesh, color_by: ColorBy, vocabulary: Sequence[str] = (), known: Mapping[str, Floats] | None = None
 ) -> HullColors:
     """The colours of a mesh's hulls.
 

@@ -13,7 +13,7 @@ from meshforge.geometry import Aabb
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.canvas import Canvas, make_contact_sheet
 from meshforge.rendering.colors import KEPT, MADE, REMOVED, ColorBy, HullColors, LegendEntry, color_hulls, rgb
-from meshforge.rendering.picture import Subject, build_subject, draw_subject, render_meshes_of
+from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, render_meshes_of
 from meshforge.rendering.raycast import DrawLayer
 from meshforge.symbolic import Hull, SymbolicMesh
 
@@ -80,9 +80,7 @@ def draw_difference(
     canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else HullColors(colors))
     fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
     what = _with_removed(build_subject(after, coloring, up=up), gone, fresh)
-    left, top, right, bottom = canvas.room
-    painted = draw_subject(what, joint_bounds(before, after), view, (right - left, bottom - top))
-    canvas.paste_drawing(painted.pixels, (left, top))
+    draw_on_canvas(canvas, what, joint_bounds(before, after), view)
     if not before.hulls and not after.hulls:
         canvas.write_message("no hulls", canvas.room)
     return canvas.image
@@ -104,7 +102,7 @@ def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) ->
 
 def _draw_bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int], background: str | None) -> Image:
     canvas = Canvas(size, background, None, None, HullColors(what.layers[0].colors))
-    canvas.paste_drawing(draw_subject(what, bounds, view, size).pixels, (0, 0))
+    draw_on_canvas(canvas, what, bounds, view)
     if not what.layers[0].render_meshes:
         canvas.write_message("no hulls", canvas.room)
     return canvas.image

@@ -11,7 +11,7 @@ import numpy as np
 from meshforge.geometry import Floats, Ints, Shape
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import UNLABELLED, HullColors, LegendEntry, rgb
-from meshforge.rendering.picture import Subject, draw_subject, points_to_frame, render_meshes_of, up_axis
+from meshforge.rendering.picture import Subject, draw_on_canvas, points_to_frame, render_meshes_of, up_axis
 from meshforge.rendering.raycast import DrawLayer
 from meshforge.rendering.scene import to_render_mesh
 from meshforge.symbolic import Surface, SymbolicMesh
@@ -40,7 +40,7 @@ def draw_heat_map(
 
     most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up.
     """
-    edges = band_edges(most)
+    edges: Floats = np.maximum(most, 1e-9) * np.array([0.25, 0.4, 0.6, 0.8, 1.0])  # after the first band
     colors = np.array([rgb(color) for color in BANDS])
 
     def tint(points: Floats, items: Ints) -> Floats:
@@ -50,13 +50,9 @@ def draw_heat_map(
     render_meshes = [to_render_mesh(thing) for thing in things]
     layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)
     subject = Subject((layer,), points_to_frame(render_meshes, ()), up_axis(mesh))
-    return _draw_on_canvas(subject, Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges))))
-
-
-def band_edges(most: float) -> Floats:
-    """Where the bands (5,) begin after the first [m]."""
-    edges: Floats = np.maximum(most, 1e-9) * np.array([0.25, 0.4, 0.6, 0.8, 1.0])
-    return edges
+    canvas = Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges)))
+    draw_on_canvas(canvas, subject)
+    return canvas.image
 
 
 def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
@@ -68,17 +64,13 @@ def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
 
 
 def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tuple[int, int], title: str) -> Image:
-    """The marked parts of space, solid, within the hulls of a mesh as grey shells; of one size with every view."""
+    """The marked parts of space, solid, within the hulls of a mesh as grey shells."""
     parts, shells = [to_render_mesh(surface) for _, _, surface in marked], render_meshes_of(mesh.hulls)
     colors = np.array([rgb(color) for _, color, _ in marked]).reshape(-1, 3)
     names = dict.fromkeys((color, name) for name, color, _ in marked)
     legend = tuple(LegendEntry(color, name) for color, name in names)
     pale = DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
     subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), up_axis(mesh))
-    return _draw_on_canvas(subject, Canvas(size, "light", title, None, HullColors(colors, legend)))
-
-
-def _draw_on_canvas(subject: Subject, canvas: Canvas) -> Image:
-    left, top, right, bottom = canvas.room
-    canvas.paste_drawing(draw_subject(subject, None, "iso", (right - left, bottom - top)).pixels, (left, top))
+    canvas = Canvas(size, "light", title, None, HullColors(colors, legend))
+    draw_on_canvas(canvas, subject)
     return canvas.image

@@ -112,16 +112,14 @@ def _fine_pixels(pixels: npt.NDArray[Number], fine: int) -> npt.NDArray[Number]:
 
 
 def _encode(seen: Ints, light: Floats32, hulls: int) -> ThumbnailPixels:
-    """The pixels of what their fine ones (k, h, w) show, and how bright that is."""
+    """The pixels of what their fine ones (k, h, w) show, and how bright that is.
+
+    A pixel stands for the hull that its middle shows, else for any that it shows.
+    """
     count = (seen >= 0).sum(axis=0)
-    item = _pick_hull(seen, hulls) + 1
+    middle = seen[len(seen) // 2]
+    picked = np.where(middle >= 0, middle, seen.max(axis=0))
+    item = np.where(picked < hulls, picked, -1) + 1
     shade = np.rint(255 * light.sum(axis=0) / np.maximum(count, 1))
     coverage = np.rint(255 * count / len(seen))
     return np.stack([item // 256, item % 256, shade, coverage], axis=2).astype(np.uint8)
-
-
-def _pick_hull(seen: Ints, hulls: int) -> Ints:
-    """Which hull each pixel stands for: what its middle shows, else any of what it shows; -1 where that is none."""
-    middle = seen[len(seen) // 2]
-    picked = np.where(middle >= 0, middle, seen.max(axis=0))
-    return np.where(picked < hulls, picked, -1)

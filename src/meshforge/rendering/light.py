@@ -8,6 +8,7 @@ import numpy as np
 
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering.camera import Camera, Floats32
+from meshforge.rendering.colors import to_linear
 from meshforge.rendering.raycast import RayHits, ViewFrame, neighbour_slices
 from meshforge.rendering.scene import RayScene
 
@@ -34,8 +35,7 @@ def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> F
     key, fill = (np.clip(normals @ (d @ camera.axes / np.linalg.norm(d)), 0, None) for d in (_KEY, _FILL))
     sky = 0.5 + 0.5 * normals @ upright
     strength = 0.52 + 0.28 * sky + 0.44 * key + 0.14 * fill
-    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
-    bright = _compress_highlights(linear * strength[:, None])
+    bright = _compress_highlights(to_linear(colors) * strength[:, None])
     return np.where(bright <= 0.0031308, bright * 12.92, 1.055 * bright ** (1 / 2.4) - 0.055).astype(np.float32)
 
 

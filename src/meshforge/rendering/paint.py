@@ -157,12 +157,7 @@ def _shade_surface(
 
 
 def _shade_tint(
-    tint: Callable[[Floats, Ints], Floats],
-    hits: RayHits,
-    frame: ViewFrame,
-    camera: Camera,
-    rows: Ints,
-    columns: Ints,
+    tint: Callable[[Floats, Ints], Floats], hits: RayHits, frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints
 ) -> Floats32:
     """The lit colours (n, 3) of pixels whose colours depend on the place that they show."""
     triangle = hits.triangle[rows, columns]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from meshforge.common import UsageError, pluralize
-from meshforge.geometry import Aabb, Floats
+from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.camera import VIEWS, Up, View, aim_camera
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import COLOR_BY, UNLABELLED, ColorBy, HullColors, color_hulls, highlight_hulls, rgb
@@ -81,14 +81,30 @@ def _draw_view(
     marks: Mapping[int, str],
     named: bool,
 ) -> None:
-    left, top, right, bottom = box
+    items = draw_on_canvas(canvas, what, bounds, view, box)
+    if not what.layers[0].render_meshes:
+        canvas.write_message("no hulls", box)
+    canvas.write_marks(items, marks, box[:2])
+    if named:
+        canvas.write_view_name(view, box[:2])
+
+
+def draw_on_canvas(
+    canvas: Canvas,
+    what: Subject,
+    bounds: Aabb | None = None,
+    view: View = "iso",
+    box: tuple[int, int, int, int] | None = None,
+) -> Ints:
+    """Lay the drawing of a subject on a canvas; what each of its pixels (h, w) shows.
+
+    bounds: the box that the camera is framed on, None for all of the subject; box: left, top, right and bottom [px]
+    of the drawing, None for all the room that there is.
+    """
+    left, top, right, bottom = box or canvas.room
     painted = draw_subject(what, bounds, view, (right - left, bottom - top))
     canvas.paste_drawing(painted.pixels, (left, top))
-    if len(what.layers[0].render_meshes) == 0:
-        canvas.write_message("no hulls", box)
-    canvas.write_marks(painted.items, marks, (left, top))
-    if named:
-        canvas.write_view_name(view, (left, top))
+    return painted.items
 
 
 def _check_arguments(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:

@@ -177,15 +177,11 @@ def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) ->
     parts = [pluralize(len(hulls), "hull")]
     volume, own = volume_of_union(hulls), volume_inside(surface.vertices, surface.faces) if solid else None
     if own and own > _SKIN * volume:
-        excess = volume / own - 1
-        parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {_more_or_less(excess)} volume")
+        excess, more = volume / own - 1, "more" if volume > own else "less"
+        parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {more} volume")
     bare = measure_uncovered(surface, hulls)
     parts += [f"{bare:.0%} of the surface outside"] if bare >= _LEAST else []
     return ", ".join(parts)
-
-
-def _more_or_less(excess: float) -> str:
-    return "more" if excess > 0 else "less"
 
 
 def measure_uncovered(surface: Surface, hulls: Sequence[Polytope]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from meshforge.batch.preparation.record import Preparation, Replacement, find_sources, surface_digest
@@ -92,7 +91,7 @@ def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, a
         old = next(geom for geom in asset.geoms if geom.name == entry.what)
         parent = old.parent or (old.name if old.name in authored else None)
         parts = [Geom(name, old.body, shape, parent, mentions=old.mentions) for name, shape in shapes.items()]
-        return asset.with_geoms(_splice(asset.geoms, old, parts))
+        return asset.with_geoms(part for geom in asset.geoms for part in (parts if geom is old else [geom]))
     gone = next((piece for piece in asset.opaque if piece.name == entry.what), None) if entry.kind == "opaque" else None
     body, parent = (gone.body, gone.name) if gone else (entry.what, None)
     mentions = gone.mentions if gone else ()
@@ -100,8 +99,3 @@ def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, a
     return replace(
         asset, geoms=(*asset.geoms, *made), opaque=tuple(piece for piece in asset.opaque if piece is not gone)
     )
-
-
-def _splice(geoms: Iterable[Geom], old: Geom, parts: list[Geom]) -> Iterable[Geom]:
-    for geom in geoms:
-        yield from parts if geom is old else [geom]

@@ -21,13 +21,7 @@ from meshforge.batch.report.contents import (
     format_change,
     format_duration,
 )
-from meshforge.batch.report.pictures import (
-    CHECK_PICTURE_SIZE,
-    PICTURE_SIZE,
-    AssetPictures,
-    PictureOptions,
-    draw_asset,
-)
+from meshforge.batch.report.pictures import CHECK_PICTURE_SIZE, PICTURE_SIZE, AssetPictures, PictureOptions, draw_asset
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label

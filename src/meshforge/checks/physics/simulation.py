@@ -107,7 +107,8 @@ def simulate(mesh: SymbolicMesh) -> Physics:
         overlaps = find_body_overlaps(sound, tree)
         rest = _simulate_rest(sound, tree)
     except ValueError as error:  # MuJoCo's compiler
-        return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {_first_line(error)}", doubts)
+        reason = str(error).splitlines()[0].removeprefix("Error: ")
+        return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {reason}", doubts)
     return Physics(sound.diagonal, rest, overlaps, None if rest else "the simulation blew up", doubts)
 
 
@@ -142,7 +143,8 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     turned = [np.clip((upright[k] @ ends[k].T)[2, 2], -1, 1) for k in roots]
     moved = max(float(np.linalg.norm((data.xipos[moving][k] - start[k])[:2])) for k in roots)
     tilt, mass = float(np.degrees(np.arccos(min(turned)))), float(model.body_subtreemass[0])
-    return Rest(jitter, fastest, moved, tilt, _depth_in_floor(data), mass)
+    sunk = max((-float(c.dist) for c in data.contact[: data.ncon] if 0 in c.geom), default=0.0)
+    return Rest(jitter, fastest, moved, tilt, sunk, mass)
 
 
 def _speeds(velocities: Floats, size: Floats) -> Floats:
@@ -155,14 +157,6 @@ def _body_size(model: Any, body: int) -> float:
     """About how large a body is [m]."""
     geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body]
     return 2 * max((float(model.geom_rbound[g]) for g in geoms), default=0.0)
-
-
-def _depth_in_floor(data: Any) -> float:
-    return max((-float(c.dist) for c in data.contact[: data.ncon] if 0 in c.geom), default=0.0)
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).splitlines()[0].removeprefix("Error: ")
 
 
 def _report_refusal(refused: str | None) -> Iterator[Finding]:

@@ -35,12 +35,7 @@ def hull_numbers(mesh: SymbolicMesh) -> Mapping[str, int]:
 
 
 def draw_labeling_pictures(
-    mesh: SymbolicMesh,
-    *,
-    hulls: Collection[str] | None = None,
-    most: int = 6,
-    size: int = 1024,
-    up: Up | None = None,
+    mesh: SymbolicMesh, *, hulls: Collection[str] | None = None, most: int = 6, size: int = 1024, up: Up | None = None
 ) -> tuple[LabelingPicture, ...]:
     """Views chosen so that each of `hulls`, by default all, is seen and numbered in at least one.
 
