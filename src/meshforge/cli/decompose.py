@@ -13,7 +13,7 @@ from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Seconds, 
 from meshforge.cli.terminal import remark
 from meshforge.common import pluralize
 from meshforge.formats import read_triangles, save
-from meshforge.geometry import Polytope, Pose, cache_folder
+from meshforge.geometry import EngineControl, Polytope, Pose, cache_folder
 from meshforge.geometry import decompose as run_engine
 from meshforge.symbolic import Asset, Body, Document, Geom
 
@@ -40,9 +40,10 @@ def decompose(
             settings,
             close=not hollow,
             cache=cache_folder() if cache else None,
-            progress=lambda text: status.update(f"{method.value} on {mesh.name}: {text}"),
-            timeout=timeout,
             note=lambda text: remark(f"note: {text}"),
+            control=EngineControl(
+                lambda text: status.update(f"{method.value} on {mesh.name}: {text}"), timeout=timeout
+            ),
         )
     saved = save(_to_asset(mesh, hulls), out, overwrite=overwrite)
     for note in saved.notes:

@@ -4,6 +4,7 @@ from meshforge.geometry.aabb import Aabb, bounds
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints, nearest_on_triangles
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
 from meshforge.geometry.cut import cut, intersect, partition
+from meshforge.geometry.decomposition.process import EngineControl
 from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
@@ -47,6 +48,7 @@ __all__ = [
     "DecomposeSettings",
     "Ellipsoid",
     "Enclosure",
+    "EngineControl",
     "Floats",
     "HullBudget",
     "Ints",
