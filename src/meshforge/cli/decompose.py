@@ -42,9 +42,7 @@ def decompose(
             close=not hollow,
             cache=cache_folder() if cache else None,
             note=lambda text: remark(f"note: {text}"),
-            control=EngineControl(
-                lambda text: status.update(f"{title}: {text}"), timeout=timeout
-            ),
+            control=EngineControl(lambda text: status.update(f"{title}: {text}"), timeout=timeout),
         )
     saved = save(_to_asset(mesh, hulls), out, overwrite=overwrite)
     for note in saved.notes:
