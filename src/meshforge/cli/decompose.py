@@ -33,7 +33,8 @@ def decompose(
     surfaces = read_triangles(mesh)
     starts = np.cumsum([0, *(len(s.vertices) for s in surfaces)])
     console = Console(stderr=True)
-    with console.status(f"{method.value} on {mesh.name}") as status:
+    title = f"{method.value} on {mesh.name}"
+    with console.status(title) as status:
         hulls = run_engine(
             np.concatenate([s.vertices for s in surfaces]),
             np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)]),
@@ -41,9 +42,7 @@ def decompose(
             close=not hollow,
             cache=cache_folder() if cache else None,
             note=lambda text: remark(f"note: {text}"),
-            control=EngineControl(
-                lambda text: status.update(f"{method.value} on {mesh.name}: {text}"), timeout=timeout
-            ),
+            control=EngineControl(lambda text: status.update(f"{title}: {text}"), timeout=timeout),
         )
     saved = save(_to_asset(mesh, hulls), out, overwrite=overwrite)
     for note in saved.notes:
