@@ -23,7 +23,7 @@ _POSITION = re.compile(r".*:(\d+):(\d+)")
 
 ArgumentKind = Literal["words", "flag", "file", "shape", "factor"]
 
-_KINDS: Mapping[type[language.Argument], tuple[ArgumentKind, Any]] = {
+_KINDS: Mapping[type[language.ArgumentType], tuple[ArgumentKind, Any]] = {
     language.WordArgument: ("words", None),
     language.FlagArgument: ("flag", False),
     language.FileArgument: ("file", "part.obj"),
@@ -112,12 +112,12 @@ def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
     )
 
 
-def _argument_field(name: str, argument: language.Argument, required: bool) -> wire.Argument:
+def _argument_field(name: str, argument: language.ArgumentType, required: bool) -> wire.Argument:
     kind, _ = _KINDS[type(argument)]
     return wire.Argument(name=name, kind=kind, wants=argument.wants, choices=argument.choices, required=required)
 
 
-def _example_value(argument: language.Argument) -> Any:
+def _example_value(argument: language.ArgumentType) -> Any:
     return argument.choices[0] if isinstance(argument, language.WordArgument) else _KINDS[type(argument)][1]
 
 
