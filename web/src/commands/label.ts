@@ -7,8 +7,6 @@ import { applyLabel, confirmLabels, goToUnsure, isUnsure } from "../store/unsure
 import { setBrush, useWorkspace } from "../store/workspace";
 import type { Command } from "./command";
 
-export { paint } from "../store/labels";
-
 const isLabelling = (): boolean => useWorkspace.getState().stage === "label";
 const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
 
@@ -24,7 +22,7 @@ const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit
 const isUnsureAny = (): boolean =>
   isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0);
 
-/** Carries labels over, or says why not. */
+/** Propagates labels, or says why not. */
 function tryPropagate(): unknown {
   const why = whyNotPropagate();
   return why === null ? propagateLabels() : notify(why);

@@ -1,9 +1,9 @@
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { labelCommands, paint } from "../commands/label";
+import { labelCommands } from "../commands/label";
 import { api } from "../server/api";
 import type { AnyEdit } from "../wire";
-import { addLabels, labelHulls, moveItem } from "./labels";
+import { addLabels, labelHulls, moveItem, paint } from "./labels";
 import { emptyProject, useProject } from "./project";
 import { applyLabel } from "./unsureHulls";
 import { useScenes } from "./scenes";

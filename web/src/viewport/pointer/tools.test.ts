@@ -1,7 +1,7 @@
 // What each tool does with clicks and drags on a stage of boxes.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import * as label from "../../commands/label";
 import { initialCut, useCut } from "../../store/cut";
+import * as labels from "../../store/labels";
 import { useScenes } from "../../store/scenes";
 import { initialWorkspace, select, useWorkspace } from "../../store/workspace";
 import { box, boxScene, stageOf, stubBrowser } from "../stage/boxes.test-help";
@@ -43,7 +43,7 @@ beforeEach(() => {
   useScenes.setState({ scene });
   useRegion.setState({ drawn: [], region: new Set() });
   useCut.setState(initialCut);
-  vi.spyOn(label, "paint").mockImplementation(() => undefined);
+  vi.spyOn(labels, "paint").mockImplementation(() => undefined);
   stage = stageOf(scene);
 });
 
@@ -80,7 +80,7 @@ describe("a click", () => {
     useWorkspace.setState({ brush: "leg" });
     click(spotOf("left"));
     click(EMPTY);
-    expect(vi.mocked(label.paint).mock.calls).toEqual([[["left"]]]);
+    expect(vi.mocked(labels.paint).mock.calls).toEqual([[["left"]]]);
     expect(selected()).toEqual([]);
   });
 
@@ -170,13 +170,13 @@ describe("a drag with the brush", () => {
     useWorkspace.setState({ brush: "leg" });
     const [left, right] = [spotOf("left"), spotOf("right")];
     drag(left, [left, right, left, right]);
-    expect(vi.mocked(label.paint).mock.calls).toEqual([[["left"]], [["right"]]]);
+    expect(vi.mocked(labels.paint).mock.calls).toEqual([[["left"]], [["right"]]]);
   });
 
   it("that begins on nothing moves the camera", () => {
     useWorkspace.setState({ brush: "leg" });
     expect(drag(EMPTY, [spotOf("left")])).toBe(false);
-    expect(label.paint).not.toHaveBeenCalled();
+    expect(labels.paint).not.toHaveBeenCalled();
   });
 
   it("without the brush moves the camera, also from a hull", () => {

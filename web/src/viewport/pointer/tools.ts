@@ -1,7 +1,6 @@
 // What each tool does with the left button: clicks select, paint or mark; drags draw a box or lasso, move the cutting
 // plane, or paint.
 import { Vector3 } from "three";
-import { paint } from "../../commands/label";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { drawHullIds } from "../drawing/hullIds";
 import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
@@ -10,6 +9,7 @@ import type { Pane } from "../stage/panes";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
 import { hullToCut, planeOf, setCut, shareAt, type Triple, useCut } from "../../store/cut";
+import { paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
 import { hover, select, selectMore, setTool, useWorkspace } from "../../store/workspace";
 import type { Drag, PointerTool } from "./gestures";
