@@ -1,8 +1,8 @@
 """The pytest plugin that tells quick tests from slow ones, and sees to it that the quick ones stay quick.
 
-A plain run (`script/test`) leaves out the tests marked `slow`, the browser's and the benchmark's, and tries a fifth of
-the examples of each law. `--all` runs all of them; so does naming a path, `-k` or `-m`, for what is named. Laws are
-tried on the same examples every time; `--explore` draws new ones.
+A plain run (`script/test`) leaves out what is marked `slow`, the loops on real families, the browser and the benchmark,
+and tries a fifth of the examples of each law. `--all` runs all of them; so does naming a path, `-k` or `-m`, for what
+is named. Laws are tried on the same examples every time; `--explore` draws new ones.
 
 In an `--all` run a test that is not marked and takes more than `LIMIT` seconds of CPU time fails the run. CPU time
 counts rather than the clock, so that a busy machine does not matter; it is that of the test and its fixtures of scope
@@ -25,7 +25,7 @@ from tests.corpus_path import ABSENT
 LIMIT = 2.0
 WARNING = 1.0
 """Seconds of CPU time; a test that takes more than the lower one today may be over the upper one elsewhere."""
-SLOW_FOLDERS = ("tests/e2e/", "tests/unit/benchmark/")
+SLOW_FOLDERS = ("tests/e2e/", "tests/loop/", "tests/unit/benchmark/")
 QUICK_EXAMPLES = 20
 ALL_EXAMPLES = 100
 """How many examples a law tries that does not say; the others scale likewise, see `tests/examples.py`."""

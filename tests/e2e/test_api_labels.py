@@ -1,4 +1,4 @@
-"""Labels carried over in the studio: a job that blocks nothing, is one step of the history, and loses no label."""
+"""Labels propagated in the studio: a job that blocks nothing, is one step of the history, and loses no label."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def labels(studio: Studio) -> dict[str, bytes]:
 
 
 def carry(studio: Studio, page: Page) -> dict[str, Any]:
-    """Carry labels over; the job when it is over."""
+    """Propagate labels; the job when it is over."""
     return page.job(ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"])
 
 

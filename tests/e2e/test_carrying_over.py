@@ -17,7 +17,7 @@ from tests.e2e.walk import PAGE, address, click_row, go_to
 from tests.unit.batch.families import tree
 
 FIRST, SECOND = "t0.obj", "t1.obj"
-CARRIED = "Labels carried over"
+CARRIED = "Labels propagated"
 
 
 def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path) -> None:
@@ -36,7 +36,7 @@ def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path) -> None:
         carried = tree(labels)
         assert set(carried) == {f"t{k}.obj.json" for k in range(4)}
         person.press("n")
-        person.sees("sure, carried over")
+        person.sees("sure, propagated")
         _outcome(person).wait_for()
         _look_through(person, studio, project)
         said = tree(labels)
@@ -57,13 +57,13 @@ def _mark(person: Hand, asset: str, text: str) -> Locator:
 
 def _is_told_why_not(person: Hand) -> None:
     """There is nothing to carry over yet, and the page says what is missing."""
-    assert person.button("Carry labels over").is_disabled()
-    person.sees("Say first what the parts are called.")
+    assert person.button("Propagate labels").is_disabled()
+    person.sees("Type the names of the labels first.")
     person.click(person.page.get_by_label("New labels, separated by commas"))
     person.page.keyboard.type(", ".join(WORDS))
     person.press("Enter", "Escape")
     person.sees("Label the hulls of one asset first.")
-    assert person.button("Carry labels over").is_disabled()
+    assert person.button("Propagate labels").is_disabled()
 
 
 def _label_one(person: Hand, studio: Studio) -> None:
@@ -98,7 +98,7 @@ def _look_through(person: Hand, studio: Studio, project: Project) -> None:
     person.press("Shift+N")
     assert _in_hand(person) not in seen, "what was said is sure"
     studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 2)
-    person.sees("2 labels not used yet")
+    person.sees("2 labels not propagated yet")
 
 
 def _in_hand(person: Hand) -> tuple[str, str]:
@@ -114,9 +114,9 @@ def _in_hand(person: Hand) -> tuple[str, str]:
 
 
 def _carry_again(person: Hand, project: Project) -> None:
-    person.click("Carry labels over again")
+    person.click("Propagate labels again")
     _outcome(person).wait_for()
-    person.sees("All you labelled is used")
+    person.sees("All your labels are propagated")
     assert {name: label.name for name, label in project.labels(FIRST).labels.items()} == LABELS
 
 
@@ -130,6 +130,6 @@ def _taken_back_and_done_again(person: Hand, labels: Path, said: dict[str, bytes
     person.press("Control+Shift+Z")
     _outcome(person).wait_for()
     assert tree(labels) == again
-    person.click(_outcome(person).get_by_role("button", name="Put this aside"))
+    person.click(_outcome(person).get_by_role("button", name="Dismiss; the labels stay"))
     _outcome(person).wait_for(state="hidden")
     assert tree(labels) == again

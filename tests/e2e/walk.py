@@ -29,7 +29,7 @@ def go_to(person: Hand, asset: str) -> None:
 
 def orient_by_clicking(person: Hand) -> None:
     """Up is from a leg to the panel."""
-    person.click("Tell it by clicking")
+    person.click("Set by clicking")
     person.hull("convex_10")
     person.hull("convex_00")
     person.sees("+Z points from the leg hulls to the panel hulls")

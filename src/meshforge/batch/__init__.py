@@ -78,7 +78,7 @@ from meshforge.batch.report.contents import (
     read_again,
     read_job,
 )
-from meshforge.batch.report.page import MOST_PICTURED, ReportHeader, ReportOptions, write_report
+from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
 from meshforge.batch.workers import (
     EXECUTION_DEFAULTS,
     IN_PROCESS,
@@ -102,6 +102,7 @@ __all__ = [
     "OWN_FOLDERS",
     "READ_TIMEOUT",
     "RECORD_FILE",
+    "REPORT_DEFAULTS",
     "SETTINGS",
     "STATE",
     "TIMEOUT",

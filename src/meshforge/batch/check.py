@@ -18,6 +18,7 @@ from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
 from meshforge.formats import labels_beside, load, output_path_of, save
+from meshforge.rendering import write_png
 from meshforge.symbolic import SymbolicMesh, write_labels
 
 
@@ -25,7 +26,8 @@ from meshforge.symbolic import SymbolicMesh, write_labels
 class CheckTask:
     """What is to be done with each asset.
 
-    out: the folder for mended assets, None where nothing is to be mended; tolerance: as of `fix` [m].
+    out: the folder for fixed assets, None where nothing is to be fixed; tolerance: how far a fixed hull may stick out
+    [m], None for the default of `fix`.
     against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
     """
 
@@ -41,7 +43,7 @@ class CheckTask:
 class CheckOutcome:
     """What was found of one asset; error: the whole message where it could not be read, or not be written.
 
-    written: the file of the mended asset; pictures: the files of pictures; seen: what all this depends on.
+    output: the file of the fixed asset; pictures: the files of pictures; inputs: what all this depends on.
     """
 
     path: Path
@@ -74,7 +76,7 @@ class CheckOutcome:
 
 
 def check_asset(path: Path, base: Path, labels: Path | None, wanted: CheckTask) -> CheckOutcome:
-    """The examination of an asset, which never raises for what is wrong with it; findings are those after mending.
+    """The examination of an asset, which never raises for what is wrong with it; findings are those after fixes.
 
     base: the common folder of the assets. Raises UsageError for an engine that is not known.
     """
@@ -147,8 +149,6 @@ def _draw_pictures(mesh: SymbolicMesh, found: Examination, name: str, folder: Pa
     """The pictures of an asset, written below a folder."""
     if folder is None:
         return ()
-    from meshforge.rendering import write_png
-
     paths = []
     for kind, _, image in draw_examination(mesh, found):
         path = folder / f"{name}.{kind}.png"

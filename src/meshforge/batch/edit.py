@@ -113,12 +113,12 @@ def _opaque_notes(asset: Asset) -> tuple[str, ...]:
 def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
     """What a person should know about labels that were given to another state of the asset."""
     renamed = [f"{old} to {new}" for old, new in followed.renamed]
-    told = (
+    kinds = (
         ("labels followed renamed hulls", renamed),
         ("hulls changed since they were labelled", followed.changed),
         ("labels of hulls that are gone were left out", followed.gone),
     )
-    return tuple(f"{what}: {join_names(names)}" for what, names in told if names)
+    return tuple(f"{what}: {join_names(names)}" for what, names in kinds if names)
 
 
 def _has_same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:

@@ -91,7 +91,7 @@ def run_on_cluster(
 def _connect() -> tuple[Any, bool]:
     """Ray, connected to a cluster, and whether this connection was made here."""
     try:
-        import ray
+        import ray  # lazy: an extra, which takes a second
     except ImportError as error:
         remedy = "Install it: pip install 'meshforge[ray]'."
         raise MeshForgeError("the backend ray needs Ray, which is not installed", remedy=remedy) from error

@@ -79,7 +79,7 @@ def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ..
 
 
 def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None:
-    """The labels file of one asset, None where it has none; arguments as of `make_jobs`."""
+    """The labels file of one asset, None where it has none; the arguments are those of `make_jobs`."""
     if labels is None:
         beside = labels_beside(path)
         return beside if beside.is_file() else None
@@ -106,7 +106,7 @@ def load_templates(program: Program, folders: Sequence[Path]) -> dict[str, Templ
 
 
 def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, Template]:
-    """The templates of these names; all else as of `load_templates`."""
+    """The templates of these names; from the first folder that has each."""
     return {name: read_template(_find_template(name, folders), name) for name in names}
 
 

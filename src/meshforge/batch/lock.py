@@ -64,11 +64,11 @@ def _acquire(path: Path, what: str, wait: float) -> Iterator[None]:
 def _try_lock(handle: int) -> bool:
     try:
         if os.name == "nt":
-            import msvcrt
+            import msvcrt  # lazy: only Windows has it
 
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]  # Windows only
         else:
-            import fcntl
+            import fcntl  # lazy: Windows does not have it
 
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

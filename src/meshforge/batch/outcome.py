@@ -138,9 +138,9 @@ class RunSummary:
 
     def __str__(self) -> str:
         counts = ", ".join(f"{n:,} {word}" for word, n in self.counts.items()) or "nothing to do"
-        told = f"{pluralize(self.total, 'asset')}: {counts}; hulls {self.before:,} -> {self.after:,}"
+        text = f"{pluralize(self.total, 'asset')}: {counts}; hulls {self.before:,} -> {self.after:,}"
         more = self.counts["failed"] - len(self.failed[:_MOST_NAMED])
         names = [outcome.asset for outcome in self.failed[:_MOST_NAMED]]
         if self.total <= _MOST_NAMED or not names:  # they are on the screen
-            return told
-        return f"{told}\nfailed: {', '.join(names)}{f' and {more:,} more' if more else ''}"
+            return text
+        return f"{text}\nfailed: {', '.join(names)}{f' and {more:,} more' if more else ''}"

@@ -148,7 +148,7 @@ class OutputFolder:
         return MeshForgeError(
             f"nothing can be written here any more: {why}",
             where=str(self._out),
-            remedy="What is in place stays. Mend that, then run the same command again: it goes on where it was.",
+            remedy="What is in place stays. Fix that, then run the same command again: it goes on where it was.",
         )
 
     def _commit_draft(self, worked: WorkerResult) -> AssetOutcome:

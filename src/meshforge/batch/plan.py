@@ -50,10 +50,10 @@ class RunPlan:
         known = (
             f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
         )
-        told = [self.assets, f"into {self.out}{known}; {format_size(self.free)} free"]
+        lines = [self.assets, f"into {self.out}{known}; {format_size(self.free)} free"]
         if self.is_tight:
-            told.append("the disk may be too small for all of it; a run that this stops goes on when there is room")
-        return "\n".join(told)
+            lines.append("the disk may be too small for all of it; a run that this stops goes on when there is room")
+        return "\n".join(lines)
 
 
 def plan_run(jobs: Iterable[AssetJob], out: Path | None) -> RunPlan:

@@ -23,8 +23,8 @@ from meshforge.geometry import Aabb, Floats
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
 
 LEAST_REGION_SHARE = 0.005
-"""Regions of a smaller share of the bounding box are told, but are no findings."""
-_REGIONS = 12  # that are told one by one; the rest is summed up
+"""Regions of a smaller share of the bounding box are reported, but are no findings."""
+_REGIONS = 12  # that are reported one by one; the rest is summed up
 
 RegionKind = Literal["closed", "opened"]
 

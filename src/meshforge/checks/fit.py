@@ -117,8 +117,8 @@ class MeshFit:
             remedy = "Split the hull, or replace it by one that fits."
             found.append(Finding("fit-out", "warning", tuple(h.hull for h in out), message, remedy))
         if bare:
-            told = join_names([f"{h.hull} ({h.bare:.3g} m)" for h in bare])
-            message = f"{told}: the visual mesh beside it is covered by no hull"
+            names = join_names([f"{h.hull} ({h.bare:.3g} m)" for h in bare])
+            message = f"{names}: the visual mesh beside it is covered by no hull"
             found.append(Finding("fit-bare", "warning", tuple(h.hull for h in bare), message, "Add a hull there."))
         return tuple(found)
 

@@ -22,7 +22,7 @@ from meshforge.geometry import (
 from meshforge.symbolic import Hull, SymbolicMesh
 
 TOLERANCE = 0.01
-"""How far a mended hull may stick out of the old one by default, as a share of the mesh's diagonal."""
+"""How far a fixed hull may stick out of the old one by default, as a share of the mesh's diagonal."""
 _COUNTS = {"vertices": "vertices", "polygons": "polygons", "face-vertices": "polygon_vertices"}
 
 _MARGIN = 1e-6  # beyond the thickness that is asked for, against rounding
@@ -53,7 +53,7 @@ class HullFix:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FixResult:
-    """A mended mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left."""
+    """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left."""
 
     mesh: SymbolicMesh
     changes: tuple[HullFix, ...]
@@ -110,12 +110,12 @@ def _describe_fix(old: Hull, new: Hull, broken: list[Limit], error: float) -> Hu
 
 
 def _find_broken_limits(engine: Engine, hull: Hull) -> list[Limit]:
-    """The limits that a hull keeps not to and that could be mended; `volume` asks for more than a new shape."""
+    """The limits that a hull keeps not to and that could be fixed; `volume` asks for more than a new shape."""
     shape = hull.shape
     if not isinstance(shape, Polytope):
         return []
-    mendable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
-    return [limit for limit in mendable if limit.is_broken(limit.measure(shape))]
+    fixable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
+    return [limit for limit in fixable if limit.is_broken(limit.measure(shape))]
 
 
 def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> Enclosure | None:
@@ -134,7 +134,7 @@ def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> E
 def _find_objection(
     made: Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]
 ) -> str | None:
-    """Why a mended hull must not take the place of another; None where it may."""
+    """Why a fixed hull must not take the place of another; None where it may."""
     if made is None:
         return "no simpler hull around it was found"
     if made.error > allowed:

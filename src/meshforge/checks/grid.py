@@ -114,7 +114,7 @@ def _interval(flat: Floats, normals: Floats, offsets: Floats) -> tuple[Floats, F
 
 def flood_from_outside(taken: Mask) -> Mask:
     """The free cells that a path through faces of free cells joins to the border of the grid, which is free."""
-    from scipy.ndimage import label
+    from scipy.ndimage import label  # lazy: 0.3 s, only clearance needs it
 
     parts, _ = label(~taken)
     return np.asarray(parts == parts[0, 0, 0])
@@ -125,7 +125,7 @@ def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
 
     Layers of one or two cells, in which rounding to cells shows, belong to none; nor do groups of fewer than `least`.
     """
-    from scipy.ndimage import binary_dilation, binary_opening, generate_binary_structure, label
+    from scipy.ndimage import binary_dilation, binary_opening, generate_binary_structure, label  # lazy: 0.3 s
 
     cross = generate_binary_structure(3, 1)
     deep = binary_dilation(binary_opening(mask, cross), cross) & mask

@@ -72,7 +72,7 @@ def _is_not_convex(shape: Shape) -> bool:
 
 
 HULL_RULES = (
-    HullRule("finite", "coordinates that are not finite numbers", "Mend the file's vertices.", _is_not_finite),
+    HullRule("finite", "coordinates that are not finite numbers", "Fix the file's vertices.", _is_not_finite),
     HullRule("solid", "too few vertices for a volume", "Delete the hull.", _has_too_few_vertices),
     HullRule("flat", "no thickness", "Give it a thickness, replace it by a box, or delete it.", _is_flat),
     HullRule("closed", "not closed", _REHULL, _is_open),
@@ -82,7 +82,7 @@ HULL_RULES = (
     ),
     HullRule("outward", "faces that look inwards", _REHULL, _is_inward),
 )
-"""In this order: of a hull that breaks several, the first is told, since the others follow from it."""
+"""In this order: of a hull that breaks several, only the first is reported, since the others follow from it."""
 
 
 def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:

@@ -138,9 +138,9 @@ def _check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | N
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
     if not over:
         return None
-    told = join_names([f"{name} ({value:.4g})" for name, value in over.items()])
+    names = join_names([f"{name} ({value:.4g})" for name, value in over.items()])
     less = "more" if limit.bound == "most" else "less"
-    message = f"{told}: {less} than {limit.number:g} {limit.what}; {limit.problem}"
+    message = f"{names}: {less} than {limit.number:g} {limit.what}; {limit.problem}"
     return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
 
 
@@ -192,7 +192,7 @@ def measure_extents(points: Floats) -> Floats:
 
 def _measure_box(local: Floats, axis: int) -> Floats:
     """The sides (3,) of the smallest box that is square to one axis: it lies along an edge of the outline."""
-    from scipy.spatial import ConvexHull, QhullError
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.3 s, only checks need it
 
     flat = np.delete(local, axis, axis=1)
     size = np.maximum(np.ptp(flat, axis=0), np.finfo(float).tiny)

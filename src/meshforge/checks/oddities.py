@@ -20,7 +20,7 @@ INNER = 1e-3
 """A hull that rises above another by no more than this share of its own size is inside of it."""
 OVERLAP = 0.25
 """Hulls of one body that share more than this of the smaller one's volume overlap."""
-_PAIRS = 20_000  # that are measured; the nearest come first, and what was left out is told
+_PAIRS = 20_000  # that are measured; the nearest come first, and how many were left out is reported
 
 
 def find_oddities(mesh: SymbolicMesh, faulty: frozenset[str] = frozenset()) -> tuple[Finding, ...]:
@@ -39,13 +39,13 @@ def _find_thin(hulls: Sequence[Hull]) -> Iterator[Finding]:
     slivers = {name: e[2] / e[1] for name, e in sizes.items() if e[2] < SLIVER * e[1]}
     oblong = {name: e[0] / e[1] for name, e in sizes.items() if e[0] > OBLONG * e[1]}
     if slivers:
-        told = join_names([f"{name} ({1 / max(share, 1e-12):.3g} to 1)" for name, share in slivers.items()])
-        message = f"{told}: a sliver, much thinner than wide"
+        listed = join_names([f"{name} ({1 / max(share, 1e-12):.3g} to 1)" for name, share in slivers.items()])
+        message = f"{listed}: a sliver, much thinner than wide"
         remedy = "Delete it, merge it with a neighbour, or give it a thickness."
         yield Finding("shape-sliver", "warning", tuple(slivers), message, remedy)
     if oblong:
-        told = join_names([f"{name} ({ratio:.3g} to 1)" for name, ratio in oblong.items()])
-        message = f"{told}: oblong, much longer than wide"
+        listed = join_names([f"{name} ({ratio:.3g} to 1)" for name, ratio in oblong.items()])
+        message = f"{listed}: oblong, much longer than wide"
         yield Finding("shape-oblong", "warning", tuple(oblong), message, "Split it along its length.")
 
 
@@ -62,13 +62,13 @@ def _find_overlaps(mesh: SymbolicMesh) -> Iterator[Finding]:
         elif (share := overlap_volume(small.shape, large.shape) / small.volume) > OVERLAP:
             overlaps.append((share, small.name, large.name))
     if inner:
-        told = join_names([f"{name} (in {other})" for name, other in inner.items()])
-        yield Finding("shape-inner", "warning", tuple(inner), f"{told}: inside of another hull", "Delete it.")
+        listed = join_names([f"{name} (in {other})" for name, other in inner.items()])
+        yield Finding("shape-inner", "warning", tuple(inner), f"{listed}: inside of another hull", "Delete it.")
     if overlaps:
         overlaps.sort(key=lambda row: (-row[0], row[1], row[2]))
-        told = join_names([f"{a} and {b} ({100 * share:.0f}%)" for share, a, b in overlaps])
+        listed = join_names([f"{a} and {b} ({100 * share:.0f}%)" for share, a, b in overlaps])
         names = tuple(dict.fromkeys(name for _, a, b in overlaps for name in (a, b)))
-        message = f"{pluralize(len(overlaps), 'pair')} that share much of the smaller one's volume: {told}"
+        message = f"{pluralize(len(overlaps), 'pair')} that share much of the smaller one's volume: {listed}"
         yield Finding("shape-overlap", "warning", names, message, "Merge them, or shrink one.")
     if len(same) > _PAIRS:
         message = f"only {_PAIRS:,} of {len(same):,} pairs of hulls were measured for overlaps"
@@ -87,7 +87,7 @@ def _find_gaps(mesh: SymbolicMesh) -> Iterator[Finding]:
     rows = [row for row in mesh.near_misses if mesh.hulls[row[0]].body == mesh.hulls[row[1]].body]
     if rows:
         pairs = [(mesh.hulls[i].name, mesh.hulls[j].name, gap) for i, j, gap in rows]
-        told = join_names([f"{a} and {b} ({gap:.3g} m)" for a, b, gap in pairs])
+        listed = join_names([f"{a} and {b} ({gap:.3g} m)" for a, b, gap in pairs])
         names = tuple(dict.fromkeys(name for a, b, _ in pairs for name in (a, b)))
-        message = f"{pluralize(len(rows), 'narrow gap')}: {told}"
+        message = f"{pluralize(len(rows), 'narrow gap')}: {listed}"
         yield Finding("shape-gap", "warning", names, message, "Things catch in it: scale one until they touch.")

@@ -11,7 +11,7 @@ from meshforge.checks.clearance import Clearance
 from meshforge.checks.examination import Examination
 from meshforge.checks.fit import LEAST_GAP_SHARE, FitGroup, MeshFit
 from meshforge.geometry import Floats, Ints
-from meshforge.rendering import View, draw_heat_map, draw_volumes
+from meshforge.rendering import draw_heat_map, draw_volumes
 from meshforge.symbolic import Surface, SymbolicMesh
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def draw_examination(
     mesh: SymbolicMesh, found: Examination, size: tuple[int, int] = (640, 480)
 ) -> Iterator[tuple[str, str, Image]]:
     """A name for a file, a line of text and a picture each: heat maps of the fit, and what was closed and opened."""
-    maps = draw_fit(mesh, found.fit, size=size) if found.fit else None
+    maps = draw_fit(mesh, found.fit, size) if found.fit else None
     if maps and found.fit:
         yield "fit-out", f"hulls stick out by {found.fit.out:.3g} m at most", maps[0]
         yield "fit-bare", f"visual mesh, {found.fit.bare:.3g} m off all hulls at most", maps[1]
@@ -43,13 +43,11 @@ def _draw_clearance(mesh: SymbolicMesh, found: Clearance, size: tuple[int, int])
     return draw_volumes(mesh, marked, size=size, title=f"space about the {found.reference}")
 
 
-def draw_fit(
-    mesh: SymbolicMesh, found: MeshFit, *, view: View = "iso", size: tuple[int, int] = (640, 480)
-) -> tuple[Image, Image] | None:
+def draw_fit(mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480)) -> tuple[Image, Image] | None:
     """Two pictures: the hulls by how far they stick out, and the visual mesh by how far it lies off all hulls.
 
-    None where nothing is shown. The strongest colour is for twice the length that matters; what
-    is below a cell has none.
+    None where nothing is shown. The strongest colour is for twice the length that matters; what is below a cell has
+    none.
     """
     if not found.groups:
         return None
@@ -67,8 +65,8 @@ def draw_fit(
 
     titles = "hulls: how far they stick out", "visual mesh: how far off all hulls"
     return (
-        draw_heat_map(mesh, hulls, out, most, view=view, size=size, title=titles[0]),
-        draw_heat_map(mesh, seen, bare, most, view=view, size=size, title=titles[1]),
+        draw_heat_map(mesh, hulls, out, most, size=size, title=titles[0]),
+        draw_heat_map(mesh, seen, bare, most, size=size, title=titles[1]),
     )
 
 

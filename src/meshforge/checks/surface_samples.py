@@ -92,7 +92,7 @@ class SurfaceIndex:
 
     @cached_property
     def _tree(self) -> Any:
-        from scipy.spatial import cKDTree
+        from scipy.spatial import cKDTree  # lazy: 0.3 s, only checks need it
 
         return cKDTree(self.points)
 

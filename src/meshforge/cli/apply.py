@@ -17,6 +17,7 @@ from meshforge.batch import (
     AssetOutcome,
     Failed,
     MeshReader,
+    ReportHeader,
     RunFigures,
     RunSummary,
     expand,
@@ -180,9 +181,7 @@ def _write_report(
     readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
     write_report_page(
         path,
+        ReportHeader(work.out.resolve().name, seconds=seconds, figures=RunFigures.of_run(summary)),
         list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
-        title=work.out.resolve().name,
-        program=work.program,
-        figures=RunFigures.of_run(summary),
-        seconds=seconds,
+        work.program,
     )

@@ -15,6 +15,7 @@ from meshforge.batch import (
     EarlierExamination,
     MeshReader,
     ReportAsset,
+    ReportHeader,
     ReportStatus,
     RunFigures,
     TopItems,
@@ -56,14 +57,8 @@ class CheckReport:
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
         figures = RunFigures(self._counts, {}, "those that failed or have errors")
-        write_report_page(
-            path,
-            _to_report_assets(list(self._lines)),
-            title=title,
-            about=_describe_measures(measures),
-            figures=figures,
-            seconds=seconds,
-        )
+        header = ReportHeader(title, _describe_measures(measures), seconds, figures)
+        write_report_page(path, header, _to_report_assets(list(self._lines)))
 
 
 def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:

@@ -12,7 +12,6 @@ from typing import Any
 
 from rich import box
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -28,11 +27,6 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right:
     console.print(table)
 
 
-class _RateColumn(TextColumn):
-    def render(self, task: Task) -> Text:
-        return Text(f"{task.speed:.1f}/s" if task.speed else "")
-
-
 @contextmanager
 def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
     """A bar on stderr for work on several assets, with its rate and the time that is left; silent where piped.
@@ -40,13 +34,19 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
     Gives the function that counts one more. What is printed to stdout meanwhile goes there, also where that is no
     terminal.
     """
+    from rich import progress as bars  # lazy: 10 modules that a table does not need
+
+    class RateColumn(bars.TextColumn):
+        def render(self, task: bars.Task) -> Text:
+            return Text(f"{task.speed:.1f}/s" if task.speed else "")
+
     console = Console(stderr=True)
-    with Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        _RateColumn(""),
-        TimeRemainingColumn(),
+    with bars.Progress(
+        bars.TextColumn("{task.description}"),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        RateColumn(""),
+        bars.TimeRemainingColumn(),
         console=console,
         transient=True,
         redirect_stdout=sys.stdout.isatty(),

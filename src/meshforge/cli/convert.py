@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from meshforge.batch import ApplyOptions
 from meshforge.cli.options import (
     NOTHING_TO_SHOW,
     Backend,
@@ -83,7 +84,6 @@ def convert(given: ConvertArguments) -> None:
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     suffix = _parse_suffix(given.to)
-    from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
     options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)

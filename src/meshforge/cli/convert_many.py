@@ -16,6 +16,8 @@ from meshforge.batch import (
     AssetOutcome,
     ExecutionOptions,
     Failed,
+    ReportHeader,
+    ReportOptions,
     RunFigures,
     RunSummary,
     Skipped,
@@ -75,10 +77,12 @@ def _write_report(path: Path, title: str, jobs: Sequence[AssetJob], summary: Run
     shown = compare_outcomes(summary.outcomes_to_show, Program(), readers)
     write_report_page(
         path,
+        ReportHeader(
+            title,
+            "Each asset as it was read, and as what was written of it reads.",
+            seconds,
+            RunFigures.of_run(summary, {"unchanged": "written"}),
+        ),
         [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown],
-        title=title,
-        about="Each asset as it was read, and as what was written of it reads.",
-        figures=RunFigures.of_run(summary, {"unchanged": "written"}),
-        seconds=seconds,
-        changes=False,  # the target may have other names
+        options=ReportOptions(changes=False),  # the target may have other names
     )

@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.batch import ExecutionOptions, ReportAsset, write_report
+from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, write_report
 from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
@@ -77,9 +77,8 @@ def _run_all(out: Path, workers: int | None) -> None:
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        write_report(
-            report, title="Tables", program=program, assets=assets, seconds=seconds, about=about, progress=advance
-        )
+        header = ReportHeader("Tables", about, seconds)
+        write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
     _print_result(assets, seconds, project, report)
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 

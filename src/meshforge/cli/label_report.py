@@ -12,7 +12,7 @@ from typing import Any
 
 import typer
 
-from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, RunFigures, read_again
+from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, ReportHeader, ReportOptions, RunFigures, read_again
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json
@@ -71,26 +71,25 @@ class LabelReport:
         doubtful = dict(tally.doubtful)
         status = {asset: self._status(asset, doubtful) for asset in project.assets()}
         order = sorted(status, key=lambda asset: (_RANKS.index(status[asset]), -doubtful.get(asset, 0)))[:MOST_PICTURED]
-        write_report_page(
-            self._path,
-            [
-                ReportAsset(
-                    asset,
-                    mesh,
-                    mesh,
-                    (),
-                    status[asset],
-                    self._error(asset),
-                    notes=self._notes_on(asset, doubtful) if mesh else (),
-                )
-                for asset, mesh in zip(order, read_again(project.readers(order)), strict=True)
-            ],
-            title=f"Labels of {project.settings.name}",
-            about=" ".join([*self._about, *([_DOUBTFUL] if doubtful else [])]),
-            vocabulary=project.vocabulary,
-            figures=self._figures(status, tally),
-            seconds=perf_counter() - self._started,
+        assets = [
+            ReportAsset(
+                asset,
+                mesh,
+                mesh,
+                (),
+                status[asset],
+                self._error(asset),
+                notes=self._notes_on(asset, doubtful) if mesh else (),
+            )
+            for asset, mesh in zip(order, read_again(project.readers(order)), strict=True)
+        ]
+        header = ReportHeader(
+            f"Labels of {project.settings.name}",
+            " ".join([*self._about, *([_DOUBTFUL] if doubtful else [])]),
+            perf_counter() - self._started,
+            self._figures(status, tally),
         )
+        write_report_page(self._path, header, assets, options=ReportOptions(vocabulary=project.vocabulary))
 
     def _status(self, asset: str, doubtful: Mapping[str, int]) -> LabelStatus:
         if self._problems.get(asset):

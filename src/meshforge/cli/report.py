@@ -6,15 +6,17 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from meshforge.batch import (
     READ_TIMEOUT,
+    REPORT_DEFAULTS,
     AssetOutcome,
     ExecutionOptions,
     Failed,
     MeshReader,
     ReportAsset,
+    ReportHeader,
+    ReportOptions,
     WorkerFailure,
     execute,
     read_again,
@@ -31,10 +33,16 @@ from meshforge.symbolic import SymbolicMesh
 NOTHING_WRITTEN = " (nothing was written)"
 
 
-def write_report_page(path: Path, assets: Sequence[ReportAsset], **more: Any) -> None:
-    """Write the page with a bar on stderr, and say where it is; more: the other arguments of `write_report`."""
+def write_report_page(
+    path: Path,
+    header: ReportHeader,
+    assets: Sequence[ReportAsset],
+    program: Program | None = None,
+    options: ReportOptions = REPORT_DEFAULTS,
+) -> None:
+    """Write a report with a progress bar on stderr, and say where it is."""
     with progress(len(assets), "drawing") as advance:
-        write_report(path, assets=assets, progress=advance, **more)
+        write_report(path, header, assets, program=program, options=replace(options, progress=advance))
     remark(f"report: {path}")
 
 

@@ -30,7 +30,7 @@ _LEAST = 10  # pixels of a hull that must be seen for it to be marked
 @cache
 def font(size: int) -> Any:
     """The scalable default font at a size in pixels."""
-    from PIL import ImageFont
+    from PIL import ImageFont  # lazy: 0.03 s, only words on pictures need it
 
     return ImageFont.load_default(size)
 
@@ -168,7 +168,7 @@ class LabelAnchor:
 
 def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least: int = 1) -> dict[int, LabelAnchor]:
     """The middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room first."""
-    from scipy.ndimage import find_objects
+    from scipy.ndimage import find_objects  # lazy: 0.3 s, only pictures need it
 
     counts = count_pixels(items)
     boxes: Any = find_objects((items + 1).astype(np.int32))
@@ -188,7 +188,7 @@ def count_pixels(items: Ints, count: int = 0) -> Ints:
 
 def _find_anchor(part: Ints, item: int, where: tuple[slice, slice]) -> LabelAnchor:
     """The middle of an item that a part of a picture shows, which lies at `where`."""
-    from scipy.ndimage import distance_transform_edt
+    from scipy.ndimage import distance_transform_edt  # lazy: 0.3 s, only pictures need it
 
     steps = [max(1, -(-n // _CELLS)) for n in part.shape]
     cells = part[:: steps[0], :: steps[1]] == item

@@ -49,7 +49,7 @@ class Canvas:
         caption: str | None,
         coloring: HullColors,
     ) -> None:
-        from PIL import ImageDraw
+        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
         self.size = size
         self.image: Image = _make_background(size, background)
@@ -63,7 +63,7 @@ class Canvas:
 
     def paste_drawing(self, pixels: Floats32, at: tuple[int, int]) -> None:
         """Lays a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
-        from PIL import Image
+        from PIL import Image  # lazy: 0.01 s, only pictures need it
 
         part = self.image.crop((*at, at[0] + pixels.shape[1], at[1] + pixels.shape[0]))
         below = np.asarray(part, dtype=np.float32) / 255
@@ -93,7 +93,7 @@ class Canvas:
 
 
 def _make_background(size: tuple[int, int], background: str | None) -> Any:
-    from PIL import Image
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
 
     if background is None:
         return Image.new("RGBA", size, (0, 0, 0, 0))
@@ -119,7 +119,7 @@ def make_contact_sheet(
     titles: a line below each picture; none, or one each. colors: what the legend at the bottom says, a colour
     `#rrggbb` by its meaning. Raises UsageError where there is no picture.
     """
-    from PIL import Image, ImageDraw
+    from PIL import Image, ImageDraw  # lazy: 0.01 s, only pictures need it
 
     if not images or (titles and len(titles) != len(images)):
         raise UsageError(f"a sheet of {len(images)} pictures with {len(titles)} titles cannot be made")

@@ -105,6 +105,6 @@ def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) ->
 def _draw_bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int], background: str | None) -> Image:
     canvas = Canvas(size, background, None, None, HullColors(what.layers[0].colors))
     canvas.paste_drawing(draw_subject(what, bounds, view, size).pixels, (0, 0))
-    if not what.layers[0].skins:
+    if not what.layers[0].render_meshes:
         canvas.write_message("no hulls", canvas.room)
     return canvas.image

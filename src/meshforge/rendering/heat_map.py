@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from meshforge.geometry import Floats, Ints, Shape
-from meshforge.rendering.camera import Up, View
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import UNLABELLED, HullColors, LegendEntry, rgb
 from meshforge.rendering.picture import Subject, draw_subject, points_to_frame, render_meshes_of, up_axis
@@ -34,18 +33,12 @@ def draw_heat_map(
     measure: Callable[[Floats, Ints], Floats],
     most: float,
     *,
-    ghost: Sequence[Shape | Surface] = (),
-    view: View = "iso",
-    size: tuple[int, int] = (800, 600),
-    title: str | None = None,
-    caption: str | None = None,
-    background: str | None = "light",
-    up: Up | None = None,
+    size: tuple[int, int],
+    title: str,
 ) -> Image:
     """Things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
-    most: where the last band begins [m], the first is a quarter of it wide; ghost: what is shown as a grey shell
-    around; mesh: tells what is up.
+    most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up.
     """
     edges = band_edges(most)
     colors = np.array([rgb(color) for color in BANDS])
@@ -54,16 +47,10 @@ def draw_heat_map(
         tinted: Floats = colors[np.searchsorted(edges, measure(points, items))]
         return tinted
 
-    skins = [to_render_mesh(thing) for thing in things]
-    shells = [to_render_mesh(thing) for thing in ghost]
-    layers = [DrawLayer(skins, np.tile(colors[0], (len(skins), 1)), tint=tint)]
-    if shells:
-        layers.append(DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.2))
-    what = Subject(tuple(layers), points_to_frame(skins, shells), up_axis(mesh, up))
-    canvas = Canvas(size, background, title, caption, HullColors(colors, _band_legend(edges)))
-    left, top, right, bottom = canvas.room
-    canvas.paste_drawing(draw_subject(what, None, view, (right - left, bottom - top)).pixels, (left, top))
-    return canvas.image
+    render_meshes = [to_render_mesh(thing) for thing in things]
+    layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)
+    subject = Subject((layer,), points_to_frame(render_meshes, ()), up_axis(mesh))
+    return _draw_on_canvas(subject, Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges))))
 
 
 def band_edges(most: float) -> Floats:
@@ -74,31 +61,24 @@ def band_edges(most: float) -> Floats:
 
 def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
     unit, name = (1e3, "mm") if edges[-1] < 0.1 else (1.0, "m")
-    told = [f"{edge * unit:.3g}" for edge in edges]
-    between = [f"{a} to {b}" for a, b in itertools.pairwise(told)]
-    words = [f"below {told[0]} {name}", *between, f"above {told[-1]}"]
+    texts = [f"{edge * unit:.3g}" for edge in edges]
+    between = [f"{a} to {b}" for a, b in itertools.pairwise(texts)]
+    words = [f"below {texts[0]} {name}", *between, f"above {texts[-1]}"]
     return tuple(LegendEntry(color, word) for color, word in zip(BANDS, words, strict=True))
 
 
-def draw_volumes(
-    mesh: SymbolicMesh,
-    marked: Sequence[VolumeMark],
-    *,
-    view: View = "iso",
-    size: tuple[int, int] = (800, 600),
-    title: str | None = None,
-    caption: str | None = None,
-    background: str | None = "light",
-    up: Up | None = None,
-) -> Image:
+def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tuple[int, int], title: str) -> Image:
     """The marked parts of space, solid, within the hulls of a mesh as grey shells; of one size with every view."""
     parts, shells = [to_render_mesh(surface) for _, _, surface in marked], render_meshes_of(mesh.hulls)
     colors = np.array([rgb(color) for _, color, _ in marked]).reshape(-1, 3)
     names = dict.fromkeys((color, name) for name, color, _ in marked)
     legend = tuple(LegendEntry(color, name) for color, name in names)
     pale = DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
-    what = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), up_axis(mesh, up))
-    canvas = Canvas(size, background, title, caption, HullColors(colors, legend))
+    subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), up_axis(mesh))
+    return _draw_on_canvas(subject, Canvas(size, "light", title, None, HullColors(colors, legend)))
+
+
+def _draw_on_canvas(subject: Subject, canvas: Canvas) -> Image:
     left, top, right, bottom = canvas.room
-    canvas.paste_drawing(draw_subject(what, None, view, (right - left, bottom - top)).pixels, (left, top))
+    canvas.paste_drawing(draw_subject(subject, None, "iso", (right - left, bottom - top)).pixels, (left, top))
     return canvas.image

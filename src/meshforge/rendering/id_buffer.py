@@ -42,9 +42,9 @@ def render_id_buffer(
         return np.full((size[1], size[0]), -1, dtype=np.int64)
     layer = DrawLayer(render_meshes_of(mesh.hulls), np.zeros((len(mesh.hulls), 3)))
     axis = up_axis(mesh, up)
-    stage = ViewFrame(held, up_vector(axis))
-    points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.skins])
-    return cast_layer(layer, stage, aim_camera(view, axis, size, stage.to_unit(points))).item
+    frame = ViewFrame(held, up_vector(axis))
+    points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.render_meshes])
+    return cast_layer(layer, frame, aim_camera(view, axis, size, frame.to_unit(points))).item
 
 
 def count_visible_pixels(
@@ -71,11 +71,11 @@ def render_thumbnail(
     points = points_to_frame(hulls, others)
     if not len(points):
         return np.zeros((size[1], size[0], 4), np.uint8)
-    stage = ViewFrame(Aabb.of_points(points), up_vector("Z"))
+    frame = ViewFrame(Aabb.of_points(points), up_vector("Z"))
     fine = 2 if size[0] * size[1] > _LARGE else 3
-    close = aim_camera(view, "Z", size, stage.to_unit(points)).supersample(fine)
-    hits = cast_layer(DrawLayer([*hulls, *others], np.zeros((0, 3))), stage, close)
-    return _encode(_fine_pixels(hits.item, fine), _fine_pixels(_measure_light(hits, stage, close), fine), len(hulls))
+    close = aim_camera(view, "Z", size, frame.to_unit(points)).supersample(fine)
+    hits = cast_layer(DrawLayer([*hulls, *others], np.zeros((0, 3))), frame, close)
+    return _encode(_fine_pixels(hits.item, fine), _fine_pixels(_measure_light(hits, frame, close), fine), len(hulls))
 
 
 def _turn(one: RenderMesh, pose: Pose) -> RenderMesh:
@@ -83,25 +83,25 @@ def _turn(one: RenderMesh, pose: Pose) -> RenderMesh:
     return RenderMesh(pose.apply(one.vertices), one.faces, normals)
 
 
-def _measure_light(hits: RayHits, stage: ViewFrame, camera: Camera) -> Floats32:
+def _measure_light(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats32:
     """How bright each pixel (h, w) is, in 0..1, lines drawn in."""
     scene = hits.scene
     light = np.zeros(hits.item.shape, np.float32)
     rows, columns = np.nonzero(hits.item >= 0)
     triangle = hits.triangle[rows, columns]
-    light[rows, columns] = _brightness_of(scene.normals, stage, camera)[triangle]
+    light[rows, columns] = _brightness_of(scene.normals, frame, camera)[triangle]
     bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
         points = hits.points(camera, rows[bent], columns[bent])
-        light[rows[bent], columns[bent]] = _brightness_of(scene.smooth_normals(triangle[bent], points), stage, camera)
+        light[rows[bent], columns[bent]] = _brightness_of(scene.smooth_normals(triangle[bent], points), frame, camera)
     keep = np.ones(max(_DARKER) + 1, np.float32)
     for strength, share in _DARKER.items():
         keep[strength] = 1 - share
     return light * keep[trace_lines(hits, 2)]
 
 
-def _brightness_of(normals: Floats, stage: ViewFrame, camera: Camera) -> Floats32:
-    grey = shade(np.full((len(normals), 3), _GREY), normals, camera, stage.upright)[:, 0]
+def _brightness_of(normals: Floats, frame: ViewFrame, camera: Camera) -> Floats32:
+    grey = shade(np.full((len(normals), 3), _GREY), normals, camera, frame.upright)[:, 0]
     light: Floats32 = np.minimum(grey / np.float32(_FULL), np.float32(1))
     return light
 
@@ -123,5 +123,5 @@ def _encode(seen: Ints, light: Floats32, hulls: int) -> ThumbnailPixels:
 def _pick_hull(seen: Ints, hulls: int) -> Ints:
     """Which hull each pixel stands for: what its middle shows, else any of what it shows; -1 where that is none."""
     middle = seen[len(seen) // 2]
-    told = np.where(middle >= 0, middle, seen.max(axis=0))
-    return np.where(told < hulls, told, -1)
+    picked = np.where(middle >= 0, middle, seen.max(axis=0))
+    return np.where(picked < hulls, picked, -1)

@@ -55,7 +55,7 @@ def measure_open_sky(scene: RayScene, points: Floats, normals: Floats, turn: Flo
 
 
 def measure_ground_sky(scene: RayScene, points: Floats, upright: Floats, turn: Floats) -> Floats32:
-    """The same for points of the ground, with a wider reach."""
+    """The share (n,) of the sky above points (n, 3) of the ground that nothing blocks, with a wider reach."""
     return _measure_free_share(scene, points, np.broadcast_to(upright, points.shape), turn, _GROUND_RAYS, GROUND_REACH)
 
 
@@ -148,19 +148,19 @@ def _interpolation_taps(places: Ints, count: int) -> list[tuple[Ints, Floats32]]
     ]
 
 
-def compute_ground_shadow(scene: RayScene, stage: ViewFrame, camera: Camera) -> Floats32:
+def compute_ground_shadow(scene: RayScene, frame: ViewFrame, camera: Camera) -> Floats32:
     """How much of the sky is hidden from the ground behind each pixel (h, w), in 0..1; 0 where there is no ground."""
-    from PIL import Image
-    from scipy.ndimage import map_coordinates
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
+    from scipy.ndimage import map_coordinates  # lazy: 0.3 s, only pictures need it
 
     width, height = camera.size
-    if camera.axes[2] @ stage.upright < 0.05 or len(scene.corners) == 0:
+    if camera.axes[2] @ frame.upright < 0.05 or len(scene.corners) == 0:
         return np.zeros((height, width), np.float32)
-    shadow, low, cell = _shadow_from_above(scene, stage)
+    shadow, low, cell = _shadow_from_above(scene, frame)
     rows, columns = (
         np.mgrid[0 : -(-height // _SHADOW_STEP), 0 : -(-width // _SHADOW_STEP)] * _SHADOW_STEP + (_SHADOW_STEP - 1) / 2
     )
-    places = (_ground_points(stage, camera, rows.ravel(), columns.ravel())[:, stage.ground_axes] - low) / cell - 0.5
+    places = (_ground_points(frame, camera, rows.ravel(), columns.ravel())[:, frame.ground_axes] - low) / cell - 0.5
     seen = map_coordinates(shadow, places.T, order=1).reshape(rows.shape)
     box = (0, 0, width / _SHADOW_STEP, height / _SHADOW_STEP)
     large = np.asarray(Image.fromarray(seen).resize(camera.size, Image.Resampling.BICUBIC, box=box))
@@ -174,26 +174,26 @@ def _fade(count: int) -> Floats32:
     return share * share * (3 - 2 * share)
 
 
-def _ground_points(stage: ViewFrame, camera: Camera, rows: Floats, columns: Floats) -> Floats:
+def _ground_points(frame: ViewFrame, camera: Camera, rows: Floats, columns: Floats) -> Floats:
     """Where the rays through pixels meet the ground (n, 3); those that never do, far away."""
     origins, directions = camera.pixel_rays(columns, rows)
-    fall = directions @ stage.upright
-    depth = (stage.ground_height - origins @ stage.upright) / np.where(fall < -1e-3, fall, 1e-3)
+    fall = directions @ frame.upright
+    depth = (frame.ground_height - origins @ frame.upright) / np.where(fall < -1e-3, fall, 1e-3)
     points: Floats = origins + directions * depth[:, None]
     return points
 
 
-def _shadow_from_above(scene: RayScene, stage: ViewFrame) -> tuple[Floats32, Floats, float]:
+def _shadow_from_above(scene: RayScene, frame: ViewFrame) -> tuple[Floats32, Floats, float]:
     """The shadow as seen from above (a, b), the lower corner (2,) of that picture, and the side of a cell."""
-    from scipy.ndimage import gaussian_filter
+    from scipy.ndimage import gaussian_filter  # lazy: 0.3 s, only pictures need it
 
-    corners = scene.corners.reshape(-1, 3)[:, stage.ground_axes]
+    corners = scene.corners.reshape(-1, 3)[:, frame.ground_axes]
     low, high = corners.min(axis=0) - GROUND_REACH, corners.max(axis=0) + GROUND_REACH
     cell = float((high - low).max()) / _SHADOW_CELLS
     count = np.ceil((high - low) / cell).astype(int)
     first, second = np.mgrid[0 : count[0], 0 : count[1]]
-    points = np.zeros((first.size, 3)) + stage.upright * stage.ground_height
-    points[:, stage.ground_axes] = low + (np.column_stack([first.ravel(), second.ravel()]) + 0.5) * cell
-    free = measure_ground_sky(scene, points, stage.upright, dither_turns(first.ravel(), second.ravel()))
+    points = np.zeros((first.size, 3)) + frame.upright * frame.ground_height
+    points[:, frame.ground_axes] = low + (np.column_stack([first.ravel(), second.ravel()]) + 0.5) * cell
+    free = measure_ground_sky(scene, points, frame.upright, dither_turns(first.ravel(), second.ravel()))
     softened: Any = gaussian_filter((1 - free).reshape(first.shape), _SOFTNESS)
     return softened, low, cell

@@ -108,59 +108,66 @@ def _widen(found: LineStrengths, by: int) -> LineStrengths:
     return found
 
 
-def paint(layers: Sequence[DrawLayer], stage: ViewFrame, camera: Camera, fine: int) -> Raster:
+def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: int) -> Raster:
     """The drawing, of the camera's size, from `fine` times as many rays along each side.
 
     layers: a solid one, then shells.
     """
     close = camera.supersample(fine)
-    solid = cast_layer(layers[0], stage, close)
-    film = Framebuffer(compute_ground_shadow(solid.scene, stage, close) * np.float32(_SHADOW))
+    solid = cast_layer(layers[0], frame, close)
+    buffer = Framebuffer(compute_ground_shadow(solid.scene, frame, close) * np.float32(_SHADOW))
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
-    _draw_solid(film, layers[0], solid, stage, close)
-    _draw_lines(film, trace_lines(solid, width))
+    _draw_solid(buffer, layers[0], solid, frame, close)
+    _draw_lines(buffer, trace_lines(solid, width))
     for layer in layers[1:]:
-        hits = cast_layer(layer, stage, close)
+        hits = cast_layer(layer, frame, close)
         share = _shell_shares(layer, hits, solid, close)
-        _draw_shell(film, layer, hits, share, stage, close)
-        _draw_shell_lines(film, layer, hits, np.where(_is_lines_only(layer, solid), 0.7, 1.6 * share).clip(0, 1), width)
-    return Raster(film.downsample(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
+        _draw_shell(buffer, layer, hits, share, frame, close)
+        _draw_shell_lines(
+            buffer, layer, hits, np.where(_is_lines_only(layer, solid), 0.7, 1.6 * share).clip(0, 1), width
+        )
+    return Raster(buffer.downsample(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
 
 
-def _draw_solid(film: Framebuffer, layer: DrawLayer, hits: RayHits, stage: ViewFrame, camera: Camera) -> None:
+def _draw_solid(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera) -> None:
     rows, columns = pixels_where(hits.item >= 0)
-    color = _shade_surface(layer, hits, stage, camera, rows, columns)
+    color = _shade_surface(layer, hits, frame, camera, rows, columns)
     openness = compute_openness(hits, camera, rows, columns)
     color *= (1 - _CORNER * (1 - openness))[:, None]
     color += (1 - color) * (0.55 * _is_between_stripes(layer, hits)[rows, columns])[:, None]
-    film.blend(rows, columns, color)
+    buffer.blend(rows, columns, color)
 
 
 def _shade_surface(
-    layer: DrawLayer, hits: RayHits, stage: ViewFrame, camera: Camera, rows: Ints, columns: Ints
+    layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints
 ) -> Floats32:
     """The lit colours (n, 3) of what some pixels show; flat triangles are lit once, round ones at every pixel."""
     scene = hits.scene
     if layer.tint is not None:
-        return _shade_tint(layer.tint, hits, stage, camera, rows, columns)
+        return _shade_tint(layer.tint, hits, frame, camera, rows, columns)
     base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     triangle = hits.triangle[rows, columns]
-    color = shade(base, scene.normals, camera, stage.upright)[triangle]
+    color = shade(base, scene.normals, camera, frame.upright)[triangle]
     bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
         points = hits.points(camera, rows[bent], columns[bent])
         normals = scene.smooth_normals(triangle[bent], points)
-        color[bent] = shade(base[triangle[bent]], normals, camera, stage.upright)
+        color[bent] = shade(base[triangle[bent]], normals, camera, frame.upright)
     return color
 
 
 def _shade_tint(
-    tint: Callable[[Floats, Ints], Floats], hits: RayHits, stage: ViewFrame, camera: Camera, rows: Ints, columns: Ints
+    tint: Callable[[Floats, Ints], Floats],
+    hits: RayHits,
+    frame: ViewFrame,
+    camera: Camera,
+    rows: Ints,
+    columns: Ints,
 ) -> Floats32:
     """The lit colours (n, 3) of pixels whose colours depend on the place that they show."""
     triangle = hits.triangle[rows, columns]
-    points = stage.from_unit(hits.points(camera, rows, columns))
-    return shade(tint(points, hits.scene.item[triangle]), hits.scene.normals[triangle], camera, stage.upright)
+    points = frame.from_unit(hits.points(camera, rows, columns))
+    return shade(tint(points, hits.scene.item[triangle]), hits.scene.normals[triangle], camera, frame.upright)
 
 
 def _shell_shares(layer: DrawLayer, hits: RayHits, solid: RayHits, camera: Camera) -> Floats32:
@@ -191,22 +198,22 @@ def _is_between_stripes(layer: DrawLayer, hits: RayHits) -> Any:
 
 
 def _draw_shell(
-    film: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, stage: ViewFrame, camera: Camera
+    buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, frame: ViewFrame, camera: Camera
 ) -> None:
     rows, columns = pixels_where(share > 0)
-    color = _shade_surface(layer, hits, stage, camera, rows, columns)
-    film.blend(rows, columns, color, share[rows, columns])
+    color = _shade_surface(layer, hits, frame, camera, rows, columns)
+    buffer.blend(rows, columns, color, share[rows, columns])
 
 
-def _draw_lines(film: Framebuffer, drawn: LineStrengths) -> None:
+def _draw_lines(buffer: Framebuffer, drawn: LineStrengths) -> None:
     """Lays dark lines over the picture."""
     rows, columns = pixels_where(drawn)
-    film.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
+    buffer.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
 
 
-def _draw_shell_lines(film: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, width: int) -> None:
+def _draw_shell_lines(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, width: int) -> None:
     """Lays the lines of a shell over the picture, in its own darkened colours, as strong as `share` (h, w)."""
     drawn = trace_lines(hits, width)
     rows, columns = pixels_where((drawn > 0) & (hits.item >= 0))
     color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
-    film.blend(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])
+    buffer.blend(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])

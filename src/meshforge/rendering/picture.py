@@ -84,7 +84,7 @@ def _draw_view(
     left, top, right, bottom = box
     painted = draw_subject(what, bounds, view, (right - left, bottom - top))
     canvas.paste_drawing(painted.pixels, (left, top))
-    if len(what.layers[0].skins) == 0:
+    if len(what.layers[0].render_meshes) == 0:
         canvas.write_message("no hulls", box)
     canvas.write_marks(painted.items, marks, (left, top))
     if named:
@@ -158,20 +158,20 @@ def build_subject(
 ) -> Subject:
     """A mesh in its colours; ghost: grey shells around it; lifted: hulls that shine through what hides them.
 
-    up: as of `up_axis`.
+    up: the axis that points up, None for that of the mesh.
     """
-    skins = render_meshes_of(mesh.hulls)
-    solid = DrawLayer(skins, coloring.colors, hatched=coloring.hatched)
+    render_meshes = render_meshes_of(mesh.hulls)
+    solid = DrawLayer(render_meshes, coloring.colors, hatched=coloring.hatched)
     layers, shells = [solid], [s for s in map(to_render_mesh, ghost) if len(s.faces)]
     if shells:
         layers.append(DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.3))
     picked = [k for k, h in enumerate(mesh.hulls) if h.name in lifted]
     if picked:
-        layers.append(DrawLayer([skins[k] for k in picked], coloring.colors[picked], before=0.0, behind=0.38))
-    return Subject(tuple(layers), points_to_frame(skins, shells), up_axis(mesh, up))
+        layers.append(DrawLayer([render_meshes[k] for k in picked], coloring.colors[picked], before=0.0, behind=0.38))
+    return Subject(tuple(layers), points_to_frame(render_meshes, shells), up_axis(mesh, up))
 
 
-def up_axis(mesh: SymbolicMesh, up: Up | None) -> Up:
+def up_axis(mesh: SymbolicMesh, up: Up | None = None) -> Up:
     """The axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
     return up or ("Y" if mesh.asset and mesh.asset.up == "y" else "Z")
 
@@ -182,9 +182,9 @@ def render_meshes_of(hulls: Sequence[Hull]) -> list[RenderMesh]:
     return [to_render_mesh(h.shape, 96 if count <= _MANY else 32) for h in hulls]
 
 
-def points_to_frame(skins: Sequence[RenderMesh], shells: Sequence[RenderMesh]) -> Floats:
+def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[RenderMesh]) -> Floats:
     """The points (n, 3) [m] that a picture of hulls must hold, and of what lies around them unless it is far larger."""
-    points = [s.vertices for s in skins]
+    points = [s.vertices for s in render_meshes]
     size = Aabb.of_points(np.concatenate(points)).diagonal if points else np.inf
     points += [s.vertices for s in shells if Aabb.of_points(s.vertices).diagonal <= _FAR_OUT * size]
     return np.concatenate(points) if points else np.zeros((0, 3))
@@ -196,7 +196,7 @@ def draw_subject(what: Subject, bounds: Aabb | None, view: View, size: tuple[int
     if held is None:
         width, height = size
         return Raster(np.zeros((height, width, 4), np.float32), np.full((height, width), -1))
-    stage = ViewFrame(held, up_vector(what.up))
-    points = stage.to_unit(what.points if bounds is None else bounds.corners)
+    frame = ViewFrame(held, up_vector(what.up))
+    points = frame.to_unit(what.points if bounds is None else bounds.corners)
     fine = 2 if size[0] * size[1] > 250_000 else 3
-    return paint(what.layers, stage, aim_camera(view, what.up, size, points), fine)
+    return paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)

@@ -21,14 +21,14 @@ _STEP, _LOW = 0.012, 0.005  # how far behind another a surface is at a step, som
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DrawLayer:
-    """Things drawn together. colors: (k, 3), sRGB in 0..1, one for each skin.
+    """Things drawn together. colors: (k, 3), sRGB in 0..1, one for each render_mesh.
 
     solid things hide what is behind them. Shells do not: `before` and `behind` are how much of them shows before and
-    behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched: which skins
-    are striped. tint: colours (n, 3) of points (n, 3) [m] that some skins (n,) show, instead of `colors`.
+    behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched: which of them
+    are striped. tint: colours (n, 3) of points (n, 3) [m] that some of them (n,) show, instead of `colors`.
     """
 
-    skins: Sequence[RenderMesh]
+    render_meshes: Sequence[RenderMesh]
     colors: Floats
     solid: bool = True
     before: float = 1.0
@@ -91,9 +91,9 @@ class RayHits:
         return self.scene.depth(self.triangle[rows, columns], *camera.pixel_rays(columns, rows))
 
 
-def cast_layer(layer: DrawLayer, stage: ViewFrame, camera: Camera) -> RayHits:
+def cast_layer(layer: DrawLayer, frame: ViewFrame, camera: Camera) -> RayHits:
     """The first thing of a layer behind each pixel."""
-    return cast_rays(build_scene(layer.skins, stage.bounds.center, stage.unit), camera)
+    return cast_rays(build_scene(layer.render_meshes, frame.bounds.center, frame.unit), camera)
 
 
 def cast_rays(whole: RayScene, camera: Camera, window: tuple[slice, slice] | None = None) -> RayHits:
@@ -133,7 +133,7 @@ def cast_rays_adaptively(scene: RayScene, camera: Camera) -> RayHits:
 
 
 def cast_rays_with_steps(scene: RayScene, camera: Camera) -> tuple[RayHits, Any]:
-    """The same, and at which pixels (h, w) one part of a thing steps back behind another part of it."""
+    """The hits as `cast_rays_adaptively` finds them, and at which pixels (h, w) a thing steps back behind itself."""
     return _cast_adaptively(scene, camera, stepping=True)
 
 
@@ -203,7 +203,7 @@ def _find_depths(scene: RayScene, camera: Camera, seen: Ints, x: slice, y: slice
 
 def _find_steps(seen: Ints, item: Ints, depth: Floats) -> Any:
     """Which rays (h, w) go much farther or less far than the one before them, and not as part of a slope."""
-    from scipy.ndimage import label
+    from scipy.ndimage import label  # lazy: 0.3 s, only pictures need it
 
     low, high = np.zeros(seen.shape, bool), np.zeros(seen.shape, bool)
     for axis in (0, 1):

@@ -145,12 +145,12 @@ class RayScene:
         return depth
 
 
-def build_scene(skins: Sequence[RenderMesh], center: Floats, unit: float) -> RayScene:
-    """The triangles of some skins, moved so that `center` becomes the origin and `unit` [m] becomes one.
+def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float) -> RayScene:
+    """The triangles of some render_meshes, moved so that `center` becomes the origin and `unit` [m] becomes one.
 
     No rays can meet them before `prepare_for_rays`.
     """
-    parts = [_corners_of(s, center, unit) for s in skins]
+    parts = [_corners_of(s, center, unit) for s in render_meshes]
     item = np.repeat(np.arange(len(parts)), [len(p[0]) for p in parts])
     corners = np.concatenate([p[0] for p in parts]) if parts else np.zeros((0, 3, 3))
     bent = np.concatenate([p[1] for p in parts]) if parts else np.zeros((0, 3, 3))
@@ -164,8 +164,8 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
 
     None makes it ready for all sides: things in one place then differ a little in size, not in depth.
     """
-    from embreex.mesh_construction import TriangleMesh
-    from embreex.rtcore_scene import EmbreeScene
+    from embreex.mesh_construction import TriangleMesh  # lazy: only pictures need it
+    from embreex.rtcore_scene import EmbreeScene  # lazy: only pictures need it
 
     order = (scene.item % _BIAS_STEPS)[:, None, None]
     away = _SWELL * (scene.corners - _item_centers(scene)[:, None]) if towards is None else _BIAS * towards
@@ -184,9 +184,9 @@ def _item_centers(scene: RayScene) -> Floats:
     return middles
 
 
-def _corners_of(skin: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:
-    corners = ((skin.vertices - center) / unit)[skin.faces]
-    bent = np.full(corners.shape, np.nan) if skin.normals is None else skin.normals[skin.faces]
+def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:
+    corners = ((render_mesh.vertices - center) / unit)[render_mesh.faces]
+    bent = np.full(corners.shape, np.nan) if render_mesh.normals is None else render_mesh.normals[render_mesh.faces]
     return corners, bent
 
 

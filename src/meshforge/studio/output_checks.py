@@ -18,7 +18,7 @@ from meshforge.rendering import encode_png
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
 from meshforge.studio.wire.asset import Checked, CheckPart, CheckPicture, Fault
-from meshforge.studio.workers import WORK_TIMEOUT, Workers, finished_future, project_of_one
+from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
 
 PICTURE_SIZE = (800, 600)
 
@@ -40,13 +40,13 @@ class OutputChecks:
         """One part of what is measured of an asset's output. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read(work.key, part)
-        return finished_future(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
+        return future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
 
     def draw_pictures(self, project: Project, asset: str, part: CheckPart) -> Future[tuple[CheckPicture, ...]]:
         """The pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read_pictures(work.key, part)
-        return finished_future(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
+        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
 
     def read_picture(self, asset: str, key: str, name: str) -> bytes:
         """A picture that was drawn. Raises NotHereError for any other."""

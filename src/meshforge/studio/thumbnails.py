@@ -17,7 +17,7 @@ from meshforge.project import Project, output_digest
 from meshforge.store import geometry_digest
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.queries.assets import compute_upright, draw_thumbnail, output_picture_digest, picture_digest
-from meshforge.studio.workers import Workers, finished_future, project_of_one, wait_for
+from meshforge.studio.workers import Workers, future_of, project_of_one, wait_for
 
 ThumbnailOf = Literal["source", "output"]
 
@@ -53,7 +53,7 @@ class Thumbnails:
         """
         kept = self._folder / f"{digest}.png"
         if kept.is_file():
-            return finished_future(kept.read_bytes())
+            return future_of(kept.read_bytes())
         wanted = _DrawTask(project_of_one(project, asset), asset, of, digest, kept)
         with self._lock:
             if digest in self._drawing:

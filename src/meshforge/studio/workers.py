@@ -63,7 +63,7 @@ class Workers:
             pool.join()
 
 
-def finished_future(result: Result) -> Future[Result]:
+def future_of(result: Result) -> Future[Result]:
     """A future that has its result already."""
     future: Future[Result] = Future()
     future.set_result(result)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import ReportAsset, write_report
+from meshforge.batch import ReportAsset, ReportHeader, write_report
 from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.geometry import Box
 from meshforge.language import Program
@@ -110,7 +110,7 @@ def test_the_report_shows_what_was_found_failures_first(tmp_path: Path) -> None:
         ReportAsset("filled", bad, bad, checked=examine_mesh(bad, ALL)),
         ReportAsset("gone", None, status="failed", error="it cannot be read"),
     ]
-    write_report(tmp_path / "report.html", title="Cups", program=Program(), assets=assets)
+    write_report(tmp_path / "report.html", ReportHeader("Cups"), assets, program=Program())
     page = (tmp_path / "report.html").read_text("utf-8")
     places = [page.index(f'data-name="{name}"') for name in ("gone", "filled", "unmeasured", "fine")]
     assert places == sorted(places)

@@ -142,22 +142,22 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
 @pytest.mark.parametrize("seed", range(3))
 def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
     mesh = scattered(12, seed)
-    sitter = LabelingSubject(mesh, tuple(range(12)), "Z")
-    easel, whole = LabelingCanvas(sitter, 256), Arrangement.in_place(sitter)
+    subject = LabelingSubject(mesh, tuple(range(12)), "Z")
+    canvas, whole = LabelingCanvas(subject, 256), Arrangement.in_place(subject)
     for view in VIEW_PREFERENCES:
-        camera = whole.camera(view, easel.drawing_size)
+        camera = whole.camera(view, canvas.drawing_size)
         told = slabs(mesh, camera, whole.view_frame.bounds.center, whole.view_frame.unit)
         counts = np.bincount(told[told >= 0], minlength=12)
-        seen = np.array(list(easel.draw(whole, view).visible_pixels.values()))
+        seen = np.array(list(canvas.draw(whole, view).visible_pixels.values()))
         assert np.abs(seen - counts).max() <= 2, f"{view}: rays along an edge may go either way"
 
 
 def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
-    easel = LabelingCanvas(
+    canvas = LabelingCanvas(
         LabelingSubject(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512
     )
-    shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
-    side = 0.88 * min(easel.drawing_size)
+    shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
+    side = 0.88 * min(canvas.drawing_size)
     assert shot.visible_pixels["h0"] == pytest.approx(side**2, abs=4 * side)
     assert shot.visible_pixels["h1"] == 0
 
@@ -194,10 +194,10 @@ def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
 
 def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
-    easel = LabelingCanvas(LabelingSubject(mesh, (0, 1), "Z"), 512)
-    (near, _), *_ = propose_arrangements(easel.sitter, [1])
-    shot = easel.draw(near, "top")
-    width, height = easel.drawing_size
+    canvas = LabelingCanvas(LabelingSubject(mesh, (0, 1), "Z"), 512)
+    (near, _), *_ = propose_arrangements(canvas.subject, [1])
+    shot = canvas.draw(near, "top")
+    width, height = canvas.drawing_size
     side = round(0.24 * 512)
     assert sum(shot.visible_pixels.values()) == width * height - side**2, "the large cube is everywhere behind"
     assert shot.numbered == {"h0", "h1"}
@@ -284,8 +284,8 @@ def test_up_may_be_y() -> None:
 
 def test_many_round_hulls_are_round_enough() -> None:
     mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
-    easel = LabelingCanvas(LabelingSubject(mesh, tuple(range(12)), "Z"), 1024)
-    shot = easel.draw(Arrangement.in_place(easel.sitter), "front")
+    canvas = LabelingCanvas(LabelingSubject(mesh, tuple(range(12)), "Z"), 1024)
+    shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
     radius = 0.88 * 1024 / 35
     assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())
 

@@ -127,10 +127,10 @@ def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("meshforge.project.family.MOST_ASSETS", 4)
-    bell = CancelFlag()
-    rows = process.compute_reach(project.folder, bell.make_token("reach"), BUNDLED)
-    found = process.generalise(project.folder, bell.make_token("generalise"), "Is(leg)", 1, None)
-    bell.close()
+    flag = CancelFlag()
+    rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
+    found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)
+    flag.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
     assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
@@ -236,18 +236,18 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
         workers.close()
 
 
-def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
-    bell = CancelFlag()
+def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before() -> None:
+    flag = CancelFlag()
     try:
-        lesson, reach = bell.make_token("learn"), bell.make_token("reach")
+        lesson, reach = flag.make_token("learn"), flag.make_token("reach")
         assert not lesson.stop()
-        bell.cancel("learn")
+        flag.cancel("learn")
         assert lesson.stop()
         assert not reach.stop()
-        assert not bell.make_token("learn").stop()
+        assert not flag.make_token("learn").stop()
     finally:
-        bell.close()
-    assert not bell.path.exists()
+        flag.close()
+    assert not flag.path.exists()
 
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:

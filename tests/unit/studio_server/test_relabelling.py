@@ -1,4 +1,4 @@
-"""What the history tells of labels that were carried over: what changed, what was said since, and taking it back."""
+"""What the history says about propagated labels: what changed, which labels came since, and undo."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def labelled(folder: Path) -> tuple[Project, History]:
 
 
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
-    """Carry labels over, as the job does."""
+    """Propagate labels, as the job does."""
     with history.record(project, Propagate(used=history.view.undoable, next=best)):
         project.propagate_labels()
 
@@ -138,7 +138,7 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(label("t1.obj", "crumb", "misc")) == 1
     assert unused_after(label("t1.obj", "top", "top")) == 2, "a label that was right is news, now that a person says it"
     assert unused_after(label("t0.obj", "top", "misc")) == 3
-    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were carried over"
+    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were propagated"
     assert unused_after(RenameLabel(old="leg", new="foot")) == 2
     assert unused_after(label("t1.obj", "crumb", None)) == 1
     history.undo(project)

@@ -1,4 +1,4 @@
-// Commands that demonstrate: actions are begun, accepted and put down; steps are taken away; hulls are cut.
+// Commands that demonstrate: actions are begun, accepted and cancelled; steps are removed; hulls are cut.
 import { acceptDraft, changeDraft, dropDraft, selectedHulls, startDraft } from "../store/draft";
 import { acceptGuess, guessFor } from "../store/guesses";
 import { useScenes } from "../store/scenes";
@@ -81,7 +81,7 @@ export const demonstrateCommands: readonly Command[] = [
   },
   {
     id: "draft-drop",
-    title: "Put the action down",
+    title: "Cancel the action",
     group: "Demonstrate",
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().draft !== null,
@@ -89,7 +89,7 @@ export const demonstrateCommands: readonly Command[] = [
   },
   {
     id: "step-delete",
-    title: "Take the shown step away",
+    title: "Remove the shown step",
     group: "Demonstrate",
     keys: ["Backspace", "Delete"],
     enabled: () => isHere() && useWorkspace.getState().draft === null && shownStep() !== null,
@@ -113,13 +113,13 @@ export const demonstrateCommands: readonly Command[] = [
   },
 ];
 
-/** Cuts are made in the asset as it comes. */
+/** Cuts are made in the original asset. */
 export function startCut(): void {
   show({ kind: "source" });
   setTool("cut");
 }
 
-/** Landmarks are hulls of the asset as it comes. */
+/** Landmarks are hulls of the original asset. */
 export function startLandmarks(): void {
   show({ kind: "source" });
   setTool("landmark");

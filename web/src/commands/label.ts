@@ -1,4 +1,4 @@
-// Commands that label: the digits, the brush, labels carried over, and the queue of hulls whose label is not sure.
+// Commands that label: the digits, the brush, propagated labels, and the queue of hulls whose label is not sure.
 import { propagateLabels, whyNotPropagate } from "../store/jobs";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
@@ -14,7 +14,7 @@ const labelAt = (place: number): string | undefined => useProject.getState().pro
 
 const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit) => ({
   id: `label-${digit}`,
-  title: `Label ${digit}: give it to the selection, or paint with it`,
+  title: `Label ${digit}: label the selection, or paint`,
   group: "Label",
   keys: [String(digit)],
   enabled: () => isLabelling() && labelAt(digit - 1) !== undefined,
@@ -43,7 +43,7 @@ export const labelCommands: readonly Command[] = [
   ...digitCommands,
   {
     id: "label-none",
-    title: "No label: take it from the selection, or paint it away",
+    title: "No label: remove it from the selection, or by painting",
     group: "Label",
     keys: ["0"],
     enabled: isLabelling,
@@ -51,7 +51,7 @@ export const labelCommands: readonly Command[] = [
   },
   {
     id: "label-right",
-    title: "The labels of the selection are right; next unsure hull",
+    title: "Confirm the labels of the selection; next unsure hull",
     group: "Label",
     keys: ["Enter"],
     enabled: () => isLabelling() && isDoubtful(),
@@ -75,7 +75,7 @@ export const labelCommands: readonly Command[] = [
   },
   {
     id: "label-carry-over",
-    title: "Carry labels over to all assets",
+    title: "Propagate labels to all assets",
     group: "Label",
     keys: ["P"],
     enabled: isLabelling,
@@ -83,7 +83,7 @@ export const labelCommands: readonly Command[] = [
   },
   {
     id: "label-brush-down",
-    title: "Put the brush down",
+    title: "Stop painting",
     group: "Label",
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().brush !== null,

@@ -72,7 +72,7 @@ describe("showing", () => {
     expect(useWorkspace.getState().asked).toEqual({ kind: "steps", steps: 2 });
   });
 
-  it("selects the hull of a repair in the asset as it comes", () => {
+  it("selects the hull of a repair in the original asset", () => {
     showRepair({ id: "", rule: 1, asset: "x", hull: "p", was: null, to: "a", belief: 0.5, why: "" });
     expect([...useWorkspace.getState().selection]).toEqual(["p"]);
   });

@@ -1,4 +1,4 @@
-// What a person does while a program is learned: learn, answer, mend labels, write the program.
+// What a person does while a program is learned: learn, answer, repair labels, write the program.
 import { api } from "../server/api";
 import { perform } from "../store/edits";
 import { useProject } from "../store/project";
@@ -21,7 +21,7 @@ export function answer(question: QuestionView, choice: number | null): Promise<b
   return perform({ kind: "answer", rule, asset, select, refused });
 }
 
-/** Says that a rule means another reading: what it selects where that tells it from the others of the rule. */
+/** Answers that a rule means another reading: what it selects where that distinguishes it from the others of the rule. */
 export async function chooseReading(reading: ReadingView): Promise<void> {
   setHighlight(null);
   const question = useProject.getState().lesson?.question;

@@ -70,7 +70,7 @@ export const goCommands: readonly Command[] = [
     run: () => openAsset(nextDoubtful()),
   },
   ...stageCommands,
-  { id: "go-on", title: "Go to what is next", group: "Go", keys: ["Alt+Enter"], run: goToNext },
+  { id: "go-on", title: "Go to the next step", group: "Go", keys: ["Alt+Enter"], run: goToNext },
   {
     id: "undo",
     title: "Undo",
@@ -89,7 +89,7 @@ export const goCommands: readonly Command[] = [
   },
   {
     id: "gallery",
-    title: "Family fills the centre",
+    title: "Show the family in the centre",
     group: "View",
     keys: ["Q"],
     run: () => setLayout({ gallery: !useLayout.getState().gallery }),
@@ -103,7 +103,7 @@ export const goCommands: readonly Command[] = [
   },
   {
     id: "theme",
-    title: "Light, dark, or as the system",
+    title: "Theme: light, dark, or like the system",
     group: "View",
     keys: [],
     run: () => useWorkspace.setState(({ theme }) => ({ theme: nextTheme(theme) })),

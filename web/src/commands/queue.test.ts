@@ -52,7 +52,7 @@ test("what never ends does not hold up the keys for ever", async () => {
   expect([ran, isBusy()]).toEqual([["after"], false]);
 });
 
-test("what fails is told, and does not keep what comes after it from its turn", async () => {
+test("what fails is reported, and does not keep what comes after it from its turn", async () => {
   const ran: string[] = [];
   runInTurn(() => Promise.reject(new Error("no")));
   runInTurn(() => ran.push("after"));

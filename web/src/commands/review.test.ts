@@ -47,7 +47,7 @@ describe("accepting", () => {
     expect(useWorkspace.getState().asset).toBe("a");
   });
 
-  it("takes all at once that are legal, and tells of those that are not", async () => {
+  it("takes all at once that are legal, and reports those that are not", async () => {
     family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "flagged" }));
     vi.spyOn(api, "result").mockImplementation((asset) => {
       const findings = asset === "b" ? [{ severity: "error", text: "not convex", hull: null }] : [];
@@ -85,17 +85,17 @@ describe("keys of the review stage", () => {
     return vi.waitFor(() => expect(edits.map((edit) => "verdict" in edit && edit.verdict)).toEqual([null, "flagged"]));
   });
 
-  it("say so when nothing wants a look any more", () => {
+  it("say so when nothing is left to review", () => {
     family(card("a", { review: "accepted" }));
     nextToReview();
-    expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing wants a look/);
+    expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing is left to review/);
   });
 
   it("do not call a failed asset reviewed that is the only one left", () => {
     family(card("a", { review: "accepted" }), card("b", { output: "failed" }));
     useWorkspace.setState({ asset: "b" });
     nextToReview();
-    expect(useToasts.getState().toasts[0]?.text).toBe("No other result wants a look.");
+    expect(useToasts.getState().toasts[0]?.text).toBe("No other result needs review.");
   });
 });
 
@@ -113,6 +113,6 @@ describe("why the program cannot be applied", () => {
     family(card("a"));
     const job = { id: "1", kind: "apply", title: "", done: 0, total: 1, state: "running", message: "", lines: [], out: null } as const;
     useProject.setState({ jobs: [{ ...job, lines: [] }] });
-    expect(whyNotApply()).toBe("It is being applied now.");
+    expect(whyNotApply()).toBe("The program is being applied now.");
   });
 });

@@ -33,7 +33,7 @@ export const noteFlag = (asset: string, note: string | null): Promise<boolean> =
 export const withdrawReview = (asset: string): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: null });
 
-/** Accepts all outputs that nobody reviewed, that are up to date, without flags, and legal; tells how many are not. */
+/** Accepts all outputs that nobody reviewed, that are up to date, without flags, and legal; reports how many are not. */
 export async function acceptLegal(progress: (done: number, total: number) => void): Promise<void> {
   const { cards } = useProject.getState();
   const open = listAcceptable(cardsInOrder()).flatMap((asset) => cards[asset] ?? []);
@@ -48,7 +48,7 @@ export async function acceptLegal(progress: (done: number, total: number) => voi
     const ids = (await Promise.all(verdicts)).flat();
     const left = open.length - ids.length;
     if (ids.length) await perform({ kind: "review", ids, verdict: "accepted" });
-    if (left) notify(`${left} not accepted: the check of legality has something against ${left === 1 ? "it" : "them"}`);
+    if (left) notify(`${left} not accepted: ${left === 1 ? "it is" : "they are"} not legal`);
   } catch (error) {
     reportError(error);
   }
@@ -60,7 +60,7 @@ export function showPresent(asset: string): void {
   visit(asset, { kind: "result", of: "program" }, showing.kind === "result" ? selection : []);
 }
 
-/** Takes an action into the hand to mend the result of an asset. */
+/** Begins an action that fixes the result of an asset. */
 export function startCorrection(asset: string): void {
   showPresent(asset);
   runInTurn(() => startDraft("Delete"));
@@ -80,7 +80,7 @@ export function nextToReview(): void {
   const next = nextOf(asset);
   if (next) return openAsset(next);
   const last = asset !== null && queue().includes(asset);
-  notify(last ? "No other result wants a look." : "Nothing wants a look: every output is reviewed.");
+  notify(last ? "No other result needs review." : "Nothing is left to review.");
 }
 
 /** The card of the open asset, if it has an output that can be reviewed. */
@@ -104,7 +104,7 @@ export const reviewCommands: readonly Command[] = [
   },
   {
     id: "flag",
-    title: "Flag the result, or take the flag back",
+    title: "Flag the result, or remove the flag",
     group: "Review",
     keys: ["F"],
     enabled: () => reviewable() !== null,
@@ -145,7 +145,7 @@ export const reviewCommands: readonly Command[] = [
   },
   {
     id: "next-to-review",
-    title: "Next result that wants a look",
+    title: "Next result to review",
     group: "Review",
     keys: ["N"],
     enabled: () => useWorkspace.getState().stage === "review",

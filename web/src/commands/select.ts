@@ -62,7 +62,7 @@ export const selectCommands: readonly Command[] = [
   },
   {
     id: "select-grow",
-    title: "Grow to all that touches the selection",
+    title: "Grow the selection to touching hulls",
     group: "Select",
     keys: ["G"],
     enabled: hasSelection,
@@ -70,7 +70,7 @@ export const selectCommands: readonly Command[] = [
   },
   {
     id: "select-connected",
-    title: "Select all that hangs together with the selection",
+    title: "Select all connected hulls",
     group: "Select",
     keys: ["Shift+G"],
     enabled: hasSelection,
@@ -102,7 +102,7 @@ export const selectCommands: readonly Command[] = [
   },
   {
     id: "show-all",
-    title: "Show all hulls again",
+    title: "Show all hulls",
     group: "Select",
     keys: ["Alt+H"],
     enabled: () => useWorkspace.getState().hidden.size > 0,

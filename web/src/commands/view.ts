@@ -43,7 +43,7 @@ function toolCommand(name: Tool, title: string, keys: readonly string[]): Comman
   return { id: `tool-${name}`, title, group: "Select", keys, enabled: isHere, run };
 }
 
-/** Whether there is an edited asset in sight to compare with the asset as it comes. */
+/** Whether there is an edited asset in sight to compare with the original asset. */
 const canCompare = (): boolean => useScenes.getState().scene?.edit != null;
 
 function compareCommand(how: "slider" | "side", title: string): Command {
@@ -61,7 +61,7 @@ export const viewCommands: readonly Command[] = [
   toolCommand("lasso", "Select by a lasso", ["L"]),
   {
     id: "tool-leave",
-    title: "Put the tool down",
+    title: "Leave the tool",
     group: "Select",
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().tool !== "select",
@@ -75,8 +75,8 @@ export const viewCommands: readonly Command[] = [
   toggleCommand("wireframe", "Wireframe", ["Z"]),
   toggleCommand("ghost", "Visual mesh as a ghost", ["V"]),
   toggleCommand("contacts", "Contact graph", ["C"]),
-  toggleCommand("opaque", "Opaque pieces", []),
+  toggleCommand("opaque", "Non-convex pieces", []),
   toggleCommand("grid", "Grid and axes", []),
-  compareCommand("slider", "Compare before and after by a line"),
+  compareCommand("slider", "Compare before and after with a line"),
   compareCommand("side", "Compare before and after side by side"),
 ];

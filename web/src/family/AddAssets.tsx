@@ -65,7 +65,7 @@ export function DropZone() {
           <div className={css.frame}>
             <CloudUpload size={32} />
             <b>Drop to add to the family</b>
-            <span>Files or folders: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they name</span>
+            <span>Files or folders: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they refer to</span>
           </div>
         </div>
       )}

@@ -72,7 +72,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   );
 });
 
-/** Why an asset cannot be read; the folder, which all assets share, is told by the tooltip only. */
+/** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
 function Broken({ error }: { error: string }) {
   return (
     <p className={css.error} title={error}>
@@ -152,7 +152,7 @@ function MakeHulls({ asset }: { asset: string }) {
   return (
     <Button
       icon={Boxes}
-      tip="Cut its geometry into convex hulls (CoACD)"
+      tip="Decompose its geometry into convex hulls (CoACD)"
       disabled={making}
       onClick={(event) => {
         event.stopPropagation();

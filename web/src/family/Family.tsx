@@ -59,7 +59,7 @@ function FamilyHead() {
       <AddMenu />
       <IconButton
         icon={LayoutGrid}
-        name={gallery ? "Back to the view of one asset" : "Fill the centre with the family"}
+        name={gallery ? "Back to the view of one asset" : "Show the family in the centre"}
         keys="Q"
         on={gallery}
         onClick={() => setLayout({ gallery: !gallery })}

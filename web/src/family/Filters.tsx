@@ -70,7 +70,7 @@ function Chips() {
             className={css.chip}
             aria-pressed={on}
             data-badge={name}
-            title={on ? `No longer only ${name}` : `Show only ${name}`}
+            title={on ? `Do not show only ${name}` : `Show only ${name}`}
             onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
           >
             <Icon size={12} aria-hidden />

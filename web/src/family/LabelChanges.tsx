@@ -20,7 +20,7 @@ import { Button, IconButton } from "../ui/Button";
 import type { Relabelled } from "../wire";
 
 const TITLES: Readonly<Record<Relabelled["way"], string>> = {
-  propagate: "Labels carried over",
+  propagate: "Labels propagated",
   "label-files": "Labels taken from files",
   "label-names": "Labels taken from names",
   "label-vlm": "Labels from a model",
@@ -45,10 +45,10 @@ function ChangeBar({ relabelled }: { relabelled: Relabelled }) {
       {settled > 0 && <span className={css.count}>{settled.toLocaleString("en-GB")} now sure</span>}
       <span className={css.count}>{unsure ? `${unsure.toLocaleString("en-GB")} unsure` : "all sure"}</span>
       <span className={css.buttons}>
-        <Button look="quiet" icon={Undo2} onClick={() => void undo()} tip="Take all of it back" keys="Ctrl+Z">
+        <Button look="quiet" icon={Undo2} onClick={() => void undo()} tip="Undo all changes" keys="Ctrl+Z">
           Undo
         </Button>
-        <IconButton icon={X} name="Put this aside; the labels stay" onClick={dismissLabelChanges} />
+        <IconButton icon={X} name="Dismiss; the labels stay" onClick={dismissLabelChanges} />
       </span>
     </div>
   );
@@ -61,7 +61,7 @@ function ChangeButton({ relabelled, sort }: { relabelled: Relabelled; sort: Chan
     <button
       type="button"
       className={css.changed}
-      title="Points them out in the family; a click goes to the next asset that has some"
+      title="Highlights them in the family; click to open the next asset with some"
       onPointerEnter={() => highlightLabelChanges(relabelled, sort)}
       onPointerLeave={clearLabelChanges}
       onFocus={() => highlightLabelChanges(relabelled, sort)}

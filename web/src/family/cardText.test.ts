@@ -45,7 +45,7 @@ test("every way an asset stands has a badge of its own", () => {
   ]);
 });
 
-test("why an asset is flagged is told", () => {
+test("why an asset is flagged is said", () => {
   const [first] = badgesOf({ ...card, review: "flagged", note: "leg too short", flags: ["open mesh"] });
   expect(first?.text).toBe("Flagged: leg too short; open mesh");
 });
@@ -64,8 +64,8 @@ test("signs that do not fit are counted; what matters most stays", () => {
   expect(fitBadges(all, 0)).toEqual({ shown: [], rest: all });
 });
 
-test("what became of labels is told in words", () => {
+test("what became of labels is said in words", () => {
   const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
-  expect(relabelledText(found)).toBe("2 labels are new, 1 label is another");
-  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels are others");
+  expect(relabelledText(found)).toBe("2 labels are new, 1 label changed");
+  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels changed");
 });

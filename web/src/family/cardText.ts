@@ -69,7 +69,7 @@ function flaggedText(card: Card): string {
 export function relabelledText({ new: fresh, changed }: RelabelledAsset): string {
   const parts = [
     fresh.length && (fresh.length === 1 ? "1 label is new" : `${fresh.length} labels are new`),
-    changed.length && (changed.length === 1 ? "1 label is another" : `${changed.length} labels are others`),
+    changed.length && (changed.length === 1 ? "1 label changed" : `${changed.length} labels changed`),
   ];
   return parts.filter(Boolean).join(", ");
 }

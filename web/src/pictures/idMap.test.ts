@@ -20,7 +20,7 @@ test("a pixel takes the colour of its hull, its shade and its coverage", () => {
   expect(pixel(out, 2)).toEqual([0, 0, 100, 255]);
 });
 
-test("what is covered by no hull is an opaque piece; where nothing is, nothing is painted", () => {
+test("what is covered by no hull is a non-convex piece; where nothing is, nothing is painted", () => {
   const out = paintPixels(map([[0, 0, 255, 255], [0, 0, 255, 0]]), red);
   expect(pixel(out, 0)).toEqual([90, 90, 90, 255]);
   expect(pixel(out, 1)).toEqual([0, 0, 0, 0]);

@@ -4,7 +4,7 @@ import type { Pixels } from "./png";
 export interface IdMap {
   readonly width: number;
   readonly height: number;
-  /** Position of the hull plus 1; 0 where there is none, or an opaque piece. */
+  /** Position of the hull plus 1; 0 where there is none, or a non-convex piece. */
   readonly ids: Uint16Array;
   /** 0 dark to 255 light. */
   readonly shade: Uint8Array;
@@ -14,7 +14,7 @@ export interface IdMap {
 
 export type Rgb = readonly [number, number, number];
 
-/** How each hull is coloured; position -1 stands for opaque pieces. */
+/** How each hull is coloured; position -1 stands for non-convex pieces. */
 export interface Paint {
   color(position: number): Rgb;
   /** Whether it is hatched. */

@@ -1,4 +1,4 @@
-// The WebSocket on which the server tells what changed; it connects again by itself.
+// The WebSocket on which the server sends what changed; it connects again by itself.
 import type { Event } from "../wire";
 import { address } from "./http";
 

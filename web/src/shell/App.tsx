@@ -116,9 +116,9 @@ function EmptyProject() {
     <main className={empty.nothing} data-part>
       <FolderPlus size={40} strokeWidth={1.2} aria-hidden />
       <h2>{broken ? "No asset can be read" : "No assets yet"}</h2>
-      {broken > 0 && <p>On the left each card says what is wrong with its file, and what mends it.</p>}
+      {broken > 0 && <p>Each card on the left says what is wrong with its file and how to fix it.</p>}
       <p>
-        Drop files or a folder onto this window: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they name.
+        Drop files or a folder onto this window: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they refer to.
         They are copied into the project.
       </p>
       <AddMenu words="Add assets" />

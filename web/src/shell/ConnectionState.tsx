@@ -4,8 +4,8 @@ import { Wordmark } from "../ui/Wordmark";
 import { useConnection } from "./connection";
 import css from "./connection.module.css";
 
-const REFUSED = "This page belongs to a studio that no longer runs. Open the address that the terminal shows.";
-const LOST = "Connection lost; trying again. What was acknowledged is on disk.";
+const REFUSED = "The studio of this page has stopped. Open the address that the terminal shows.";
+const LOST = "Connection lost; trying again. Your confirmed edits are saved.";
 
 export function ConnectionBar() {
   const state = useConnection((connection) => connection.state);
@@ -28,7 +28,7 @@ export function Welcome() {
         <p role="alert">{REFUSED}</p>
       ) : state === "lost" ? (
         <p role="alert">
-          The studio does not answer; trying again. It is started in a terminal: <code>meshforge studio PROJECT</code>
+          The studio does not answer; trying again. Start it in a terminal: <code>meshforge studio PROJECT</code>
         </p>
       ) : (
         <p role="status" className={css.opening}>

@@ -12,10 +12,10 @@ import css from "./overlay.module.css";
 const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "Demonstrate", "Learn", "Review", "Edit"];
 
 const HOW = [
-  ["Label", "Give hulls labels: pick them and press a digit, on a few assets or on all."],
-  ["Demonstrate", "On one or two assets, pick hulls and choose what becomes of them, step by step."],
-  ["Learn", "The program that does the same is found at once; answer what it asks, until it is settled."],
-  ["Review", "Apply it to the family, look at each, accept or flag, and export."],
+  ["Label", "Label hulls: select them and press a digit, on a few assets or on all."],
+  ["Demonstrate", "On one or two assets, select hulls and choose an action, step by step."],
+  ["Learn", "MeshForge finds the program that does the same. Answer its questions until it is unambiguous."],
+  ["Review", "Apply the program to the family, accept or flag each result, and export."],
 ] as const;
 
 const close = () => useWorkspace.setState({ overlay: "none" });
@@ -65,7 +65,7 @@ function Content() {
       </header>
       <div className={css.scroll} tabIndex={0}>
         {!word && <How />}
-        {none && <p className={css.none}>No command fits.</p>}
+        {none && <p className={css.none}>No command matches.</p>}
         <div className={css.groups}>
           {groups
             .filter(({ commands }) => commands.length > 0)
@@ -80,7 +80,7 @@ function Content() {
 
 function How() {
   return (
-    <ol className={css.how} aria-label="How it goes">
+    <ol className={css.how} aria-label="How it works">
       {HOW.map(([name, text], k) => (
         <li key={name}>
           <span className={css.number}>{k + 1}</span>

@@ -60,7 +60,7 @@ function List() {
         }}
         onKeyDown={key}
       />
-      <ul id={id} role="listbox" aria-label="What fits" className={css.list}>
+      <ul id={id} role="listbox" aria-label="Matches" className={css.list}>
         {shown.map((choice, place) => (
           <Row
             key={choice.id}
@@ -71,7 +71,7 @@ function List() {
             onPoint={() => setAt(place)}
           />
         ))}
-        {shown.length === 0 && <li className={css.none}>Nothing fits.</li>}
+        {shown.length === 0 && <li className={css.none}>No match.</li>}
       </ul>
     </>
   );

@@ -98,7 +98,7 @@ function NextLine() {
           icon={ArrowRight}
           tip={next.asset === null ? "Go there" : `Go there: ${next.asset}`}
           keys="Alt+Enter"
-          aria-label="Go to what is next"
+          aria-label="Go to the next step"
           onClick={() => {
             openStage(next.stage);
             if (next.asset !== null) openAsset(next.asset);

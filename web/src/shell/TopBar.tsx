@@ -149,7 +149,7 @@ function JobRow({ job }: { job: Job }) {
       )}
       {job.message && <p className={css.message}>{job.message}</p>}
       {job.lines.length > 0 && (
-        <ul className={css.lines} tabIndex={0} aria-label="What became of the assets">
+        <ul className={css.lines} tabIndex={0} aria-label="Results by asset">
           {job.lines.map((line) => (
             <li key={line.asset} data-status={line.status}>
               <b>{line.asset}</b> {line.status}
@@ -163,10 +163,10 @@ function JobRow({ job }: { job: Job }) {
 }
 
 type Theme = WorkspaceState["theme"];
-const THEME_NAMES: Readonly<Record<Theme, string>> = { light: "Light", dark: "Dark", system: "As the system" };
+const THEME_NAMES: Readonly<Record<Theme, string>> = { light: "Light", dark: "Dark", system: "Like the system" };
 const ICONS = { light: Sun, dark: Moon, system: Monitor } as const;
 
-/** Light, dark, or as the system has it. */
+/** Theme: light, dark, or like the system has it. */
 function ThemeMenu() {
   const theme = useWorkspace((workspace) => workspace.theme);
   return (

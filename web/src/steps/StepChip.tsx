@@ -50,7 +50,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         aria-label={`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}
         data-chip
         tabIndex={-1}
-        title={step?.error ?? (isOpen ? `${text}: nothing is said here, so that the program decides` : text)}
+        title={step?.error ?? (isOpen ? `${text}: not demonstrated here, so the program decides` : text)}
         onClick={() => showStep(view, place)}
         onKeyDown={(event) => handleKey(event, view, place, count)}
       >
@@ -78,7 +78,7 @@ function MadeLabel({ label }: { label: string }) {
   );
 }
 
-/** Shows the asset after a step, with what is left or made of its hulls selected; an open one is taken into the hand. */
+/** Shows the asset after a step, with what is left or made of its hulls selected; an open one becomes the action in hand. */
 function showStep(view: AssetView, place: number): void {
   const step = view.steps[place];
   if (step?.select == null || step.error) return runInTurn(() => draftStep(place));

@@ -1,4 +1,4 @@
-// The bottom of the window: the steps of the asset in hand, in order after the asset as it comes, or, while reviewing,
+// The bottom of the window: the steps of the asset in hand, in order after the original asset, or, while reviewing,
 // its edits by hand.
 import { Undo2 } from "lucide-react";
 import { type KeyboardEvent, useEffect, useRef } from "react";
@@ -34,7 +34,7 @@ export function StepStrip() {
   return <Steps view={view} count={Math.max(rules, view.steps.length)} />;
 }
 
-/** The steps in order, after a first place that stands for the asset as it comes; arrow keys move between them. */
+/** The steps in order, after a first place that stands for the original asset; arrow keys move between them. */
 function Steps({ view, count }: { view: AssetView; count: number }) {
   const list = useRef<HTMLOListElement>(null);
   const reorder = useReorder("x", moveRule);
@@ -62,14 +62,14 @@ function Steps({ view, count }: { view: AssetView; count: number }) {
           data-chip
           onClick={() => show({ kind: "source" })}
         >
-          As it comes
+          Original
         </button>
       </li>
       {Array.from({ length: count }, (_, place) => (
         <StepChip key={place} view={view} place={place} count={count} drag={reorder(place, place === count - 1)} />
       ))}
       {count === 0 && (
-        <li className={css.empty}>Select hulls, then choose what happens to them: that is the first step.</li>
+        <li className={css.empty}>Select hulls, then choose an action: this is the first step.</li>
       )}
     </ol>
   );
@@ -88,17 +88,17 @@ function moveFocus(event: KeyboardEvent, list: HTMLElement | null): void {
 /** The edits by hand of an asset, which are done again after the program. */
 function Corrections({ view }: { view: AssetView }) {
   if (!view.corrections.length) {
-    return <div className={css.line}>No edits by hand: this asset is what the program makes of it</div>;
+    return <div className={css.line}>No edits by hand: this is the program's result</div>;
   }
   return (
     <ol className={css.strip} aria-label="Edits by hand of this asset">
-      <li className={css.title}>By hand, after the program:</li>
+      <li className={css.title}>Edits by hand, after the program:</li>
       {view.corrections.map((correction, k) => (
         <Correction key={k} view={view} correction={correction} place={k} />
       ))}
       <li>
         <Button look="quiet" icon={Undo2} onClick={() => void perform({ kind: "drop-corrections", asset: view.asset })}>
-          Back to what the program makes of it
+          Revert to the program's result
         </Button>
       </li>
     </ol>

@@ -13,32 +13,32 @@ export function stepMenu(view: AssetView, place: number, rules: number): (MenuLi
   const { asset } = view;
   const select = view.steps[place]?.select;
   return [
-    { label: "Change it…", keys: "Enter", onSelect: () => runInTurn(() => draftStep(place)) },
+    { label: "Change…", keys: "Enter", onSelect: () => runInTurn(() => draftStep(place)) },
     { label: "Nothing here", disabled: select?.length === 0, onSelect: () => void setStepHere(asset, place, []) },
     { label: "Leave open", disabled: select == null, onSelect: () => void setStepHere(asset, place, null) },
     "line",
     {
-      label: "Earlier, on all assets",
+      label: "Move earlier on all assets",
       keys: "Alt+←",
       disabled: place === 0,
       onSelect: () => moveRule(place, place - 1),
     },
     {
-      label: "Later, on all assets",
+      label: "Move later on all assets",
       keys: "Alt+→",
       disabled: place >= rules - 1,
       onSelect: () => moveRule(place, place + 1),
     },
     "line",
-    { label: "Take it away here", keys: "Del", disabled: select == null, onSelect: () => removeStepHere(asset, place) },
+    { label: "Remove it here", keys: "Del", disabled: select == null, onSelect: () => removeStepHere(asset, place) },
     {
-      label: "Take the rule away, on all assets",
+      label: "Remove the rule on all assets",
       onSelect: () => void perform({ kind: "delete-rule", rule: place + 1 }),
     },
   ];
 }
 
-/** Says what a rule does here in place of what is in the hand for it. */
+/** Sets what a rule selects here, in place of the action in hand for it. */
 export async function setStepHere(asset: string, place: number, hulls: string[] | null): Promise<void> {
   try {
     const done = await setStep(asset, place, hulls);

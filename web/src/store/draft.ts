@@ -1,4 +1,4 @@
-// The action in hand: begun new or from a step, changed, accepted as a step or as an edit by hand, put down.
+// The action in hand: begun new or from a step, changed, accepted as a step or as an edit by hand, cancelled.
 import { create } from "zustand";
 import type { AssetView, Problem } from "../wire";
 import { defaultArguments, draftText, missingArgument, parseAction, withArgument } from "./actions";
@@ -83,10 +83,10 @@ export async function writeDraft(draft: Draft): Promise<string> {
 }
 
 async function findMissing(draft: Draft, hulls: number): Promise<string | null> {
-  if (!hulls) return "Nothing is selected. Select the hulls that the step is about, or say “Nothing here”.";
+  if (!hulls) return "Nothing is selected. Select the hulls for this step, or choose “Nothing here”.";
   const form = formOf(draft.action, (await getLanguage()).actions);
   const argument = form && missingArgument(draft, form);
-  return argument ? `${draft.action} still needs ${argument.wants}.` : null;
+  return argument ? `${draft.action} needs ${argument.wants}.` : null;
 }
 
 async function trackSending(send: () => Promise<boolean>): Promise<boolean> {
@@ -121,13 +121,13 @@ export async function startDraft(action: string): Promise<void> {
   }
 }
 
-/** The place of a step that is in the hand to be changed; it stays that one with another action. */
+/** The place of the step that is being changed; it stays that one with another action. */
 function placeInHand({ steps }: AssetView): number | null {
   const place = useWorkspace.getState().draft?.editing ?? null;
   return place !== null && steps[place]?.select != null ? place : null;
 }
 
-/** Takes the step in a place (from 0) into the hand, with these hulls, or with those that it has. */
+/** Begins to change the step in a place (from 0), with these hulls, or with those that it has. */
 export async function draftStep(place: number, hulls?: readonly string[]): Promise<void> {
   const { asset } = useWorkspace.getState();
   if (asset === null) return;

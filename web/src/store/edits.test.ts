@@ -18,13 +18,13 @@ beforeEach(() => {
   useProject.setState(emptyProject, true);
 });
 
-test("what was done is told, and can be undone", async () => {
+test("what was done is notified, and can be undone", async () => {
   edit.mockResolvedValue({ said: "labelled 3 hulls" });
   expect(await perform(labels)).toBe(true);
   expect(toasts()[0]).toMatchObject({ text: "Labelled 3 hulls", undo: true });
 });
 
-test("what changed nothing offers no undo; what is quiet is not told", async () => {
+test("what changed nothing offers no undo; what is quiet is not notified", async () => {
   edit.mockResolvedValue({ said: "nothing to label", nothing: true });
   await perform(labels);
   expect(toasts()[0]?.undo).toBe(false);
@@ -51,7 +51,7 @@ test("an edit waits for those before it, also where one is refused", async () =>
   expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
 });
 
-test("an edit is over when the page was told what it changed, or is not connected any more", async () => {
+test("an edit is over when the page knows what it changed, or is not connected any more", async () => {
   useProject.setState({ connected: true });
   edit.mockResolvedValue({ said: "done" });
   const over = vi.fn();

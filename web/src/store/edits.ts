@@ -13,7 +13,7 @@ let queue: Promise<unknown> | null = null;
 /** Fulfilled when all edits that are on their way now are done; null where there is none. */
 export const pendingEdits = (): Promise<unknown> | null => queue;
 
-/** Makes an edit; tells what was done, or what went wrong. */
+/** Makes an edit; notifies what was done, or what went wrong. */
 export function perform(edit: AnyEdit, options: { quiet?: boolean } = {}): Promise<boolean> {
   return enqueue(() => api.edit(edit), options.quiet ? null : capitalize);
 }
@@ -44,7 +44,7 @@ function enqueue(request: () => Promise<Done>, tell: ((said: string) => string) 
   return mine;
 }
 
-/** Waits until the page was told what its edit changed; before: the state when the edit was sent. */
+/** Waits until the page knows what its edit changed; before: the state when the edit was sent. */
 function whenShown(before: ProjectState): Promise<void> {
   const isOver = (now: ProjectState) => !now.connected || now.own !== before.own || now.hellos !== before.hellos;
   return new Promise((pass) => {

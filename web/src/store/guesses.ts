@@ -75,7 +75,7 @@ async function fetchGuesses(): Promise<Partial<GuessesState>> {
   }
 }
 
-/** Puts the guess for the first open rule into the hand, unless that is full or put it down before. */
+/** Offers the guess for the first open rule as the action in hand, unless there is one or the guess was skipped. */
 async function offer(): Promise<void> {
   const { asset, error } = useGuesses.getState();
   if (asset === null || error !== null) return;

@@ -1,4 +1,4 @@
-// Hulls that are pointed out in the view and the thumbnails, while the pointer is over what is about them.
+// Hulls that are highlighted in the view and the thumbnails, while the pointer is over what is about them.
 import type { AssetView, Reach } from "../wire";
 import { useProject } from "./project";
 import { type Highlight, setHighlight, useWorkspace } from "./workspace";

@@ -21,28 +21,28 @@ beforeEach(() => {
   useToasts.setState({ toasts: [] });
 });
 
-it("says why labels cannot be carried over", () => {
+it("says why labels cannot be propagated", () => {
   expect(whyNotPropagate()).toBeNull();
   useProject.setState({ jobs: [job] });
   expect(whyNotPropagate()).toContain("now");
   useProject.setState({ jobs: [{ ...job, state: "done" }], cards: { a: whole } });
-  expect(whyNotPropagate()).toContain("Every hull");
+  expect(whyNotPropagate()).toContain("labelled every hull");
   useProject.setState({ cards: { a: { ...whole, given: 0 } } });
   expect(whyNotPropagate()).toContain("one asset first");
   useProject.setState({ project: emptyProject.project });
-  expect(whyNotPropagate()).toContain("called");
+  expect(whyNotPropagate()).toContain("names of the labels");
   useProject.setState({ order: [] });
   expect(whyNotPropagate()).toContain("no assets");
 });
 
-it("is one key in the stage of labels, which tells where it cannot be done", async () => {
+it("is one key in the stage of labels, which says where it cannot be done", async () => {
   const begun = vi.spyOn(api, "startJob").mockResolvedValue(job);
   await commandFor("P", labelCommands)?.run();
   expect(begun).toHaveBeenCalledWith({ kind: "propagate" });
   useProject.setState({ project: emptyProject.project });
   await commandFor("P", labelCommands)?.run();
   expect(begun).toHaveBeenCalledTimes(1);
-  expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Say first what the parts are called."]);
+  expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Type the names of the labels first."]);
   useWorkspace.setState({ stage: "review" });
   expect(commandFor("P", labelCommands)).toBeUndefined();
 });

@@ -12,18 +12,18 @@ export function whyNotApply(): string | null {
   if (program.error) return `The program cannot be read: ${program.error}`;
   if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
   if (project.problem) return project.problem;
-  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "It is being applied now." : null;
+  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "The program is being applied now." : null;
 }
 
-/** Why labels cannot be carried over, null where they can. */
+/** Why labels cannot be propagated, null where they can. */
 export function whyNotPropagate(): string | null {
   const { cards, project, order, jobs } = useProject.getState();
   const { hulls, given } = givenLabels(cards);
-  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "It is being done now.";
+  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "Labels are being propagated now.";
   if (!order.length) return "There are no assets yet.";
-  if (!project.vocabulary.length) return "Say first what the parts are called.";
+  if (!project.vocabulary.length) return "Type the names of the labels first.";
   if (!given) return "Label the hulls of one asset first.";
-  return given === hulls ? "Every hull is labelled by you or a file." : null;
+  return given === hulls ? "You or a file labelled every hull." : null;
 }
 
 /** Begins a job, and gives its id; null where it cannot be begun. */

@@ -36,7 +36,7 @@ describe("what the last edit of all labels changed", () => {
     expect(countChanges(found, "changed")).toEqual({ hulls: 1, assets: 1 });
   });
 
-  it("is pointed out in the family, and no longer", () => {
+  it("is highlighted in the family, and no longer", () => {
     highlightLabelChanges(found, "changed");
     expect(useWorkspace.getState().highlight?.assets).toEqual({ c: [0] });
     clearLabelChanges();
@@ -66,7 +66,7 @@ describe("what the last edit of all labels changed", () => {
     expect(labelChangesOf("c")).toBeNull();
   });
 
-  it("is put aside, until it comes anew", () => {
+  it("is dismissed, until it comes anew", () => {
     const changed = vi.fn();
     const stop = watchLabelChanges(changed);
     dismissLabelChanges();

@@ -1,4 +1,4 @@
-// What the last edit of all labels changed, as long as it was the last one and nobody put it aside.
+// What the last edit of all labels changed, as long it was the last one and nobody dismissed it.
 import { useMemo } from "react";
 import { create } from "zustand";
 import type { Relabelled, RelabelledAsset } from "../wire";
@@ -11,10 +11,10 @@ export type ChangeKind = "new" | "changed";
 
 const WHAT = "relabelled";
 
-/** The one that was put aside. */
+/** The one that was dismissed. */
 const useDismissed = create<{ what: Relabelled | null }>()(() => ({ what: null }));
 
-/** What changed; null where the last edit was another one, or this was put aside. */
+/** What changed; null where the last edit was another one, or this was dismissed. */
 export function currentLabelChanges(): Relabelled | null {
   const { relabelled } = useProject.getState();
   return relabelled === useDismissed.getState().what ? null : relabelled;
@@ -37,7 +37,7 @@ export const labelChangesOf = (asset: string): RelabelledAsset | null => {
   return relabelled && (rowsOf(relabelled).get(asset) ?? null);
 };
 
-/** The label that each hull of an asset as it comes had before, by name; hulls whose label stayed are not among them. */
+/** The label that each hull of an original asset had before, by name; hulls whose label stayed are not among them. */
 export function useFormerLabels(asset: string, own: readonly { name: string }[]): ReadonlyMap<string, string> {
   const found = useLabelChangesOf(asset);
   return useMemo(() => {

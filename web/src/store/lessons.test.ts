@@ -44,14 +44,14 @@ const reach = {
 };
 
 describe("the summary of a lesson", () => {
-  it("says that all readings agree once it is settled", () => {
+  it("says that all readings agree once it is unambiguous", () => {
     const said = summarizeLesson(lesson({ settled: true, looked_at: 60 }), 60);
-    expect(said).toEqual({ mood: "good", title: "Settled", more: "All readings agree on your 60 assets." });
+    expect(said).toEqual({ mood: "good", title: "Unambiguous", more: "All readings select the same hulls on your 60 assets." });
   });
 
   it("says so where not all assets were looked at", () => {
     const said = summarizeLesson(lesson({ settled: true, looked_at: 400 }), 12_000);
-    expect(said.more).toBe("All readings agree on the 400 assets looked at, of your 12,000 assets.");
+    expect(said.more).toBe("All readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
     const spread = { hulls: 12, assets: 9, lookedAt: 400 };
     expect([coverageText(spread, 12_000), coverageText(spread, 400), coverageText({ ...spread, hulls: 0 }, 400)]).toEqual([
       "12 hulls on 9 assets of the 400 looked at",
@@ -62,14 +62,14 @@ describe("the summary of a lesson", () => {
 
   it("names where a less believable reading differs", () => {
     const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
-    expect(summarizeLesson(lesson({ readings }), 3).more).toBe("Rule 1 might mean something else on x and y.");
+    expect(summarizeLesson(lesson({ readings }), 3).more).toBe("Rule 1 may select other hulls on x and y.");
   });
 
   it("has words for every outcome", () => {
     const statuses = ["found", "ambiguous", "repair", "none", "timeout", "error"] as const;
     const titles = statuses.map((status) => summarizeLesson(lesson({ status, why: "so", error: "broken" }), 2).title);
     expect(new Set(titles).size).toBe(statuses.length);
-    expect(summarizeLesson(null, 2).title).toBe("Nothing is demonstrated yet");
+    expect(summarizeLesson(null, 2).title).toBe("No demonstration yet");
   });
 
   it("gives the reason why there is no program", () => {
@@ -79,7 +79,7 @@ describe("the summary of a lesson", () => {
 });
 
 describe("what a rule reaches", () => {
-  it("is pointed out on the assets on which the program runs", () => {
+  it("is highlighted on the assets on which the program runs", () => {
     expect(highlightOfRule(reach, 1)).toEqual({ what: "rule 1", assets: { one: [0, 2], two: [] } });
   });
 

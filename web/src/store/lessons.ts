@@ -14,38 +14,38 @@ const BELIEVABLE = 0.005;
 
 /** assets: how many there are to be learned from. */
 export function summarizeLesson(lesson: LessonView | null, assets: number): Summary {
-  if (!lesson) return summary("plain", "Nothing is demonstrated yet", "Show the steps on an asset; the program comes by itself.");
+  if (!lesson) return summary("plain", "No demonstration yet", "Demonstrate the steps on an asset; MeshForge then learns the program.");
   switch (lesson.status) {
     case "found":
       return lesson.settled ? summarizeUnambiguous(lesson.looked_at, assets) : summarizeFound(lesson);
     case "ambiguous":
-      return summary("warn", "One question is open", "The program does what you showed; your answer decides the rest.");
+      return summary("warn", "One question is open", "The program fits your demonstrations; your answer decides the rest.");
     case "repair": {
       const labels = countText(lesson.repairs.length, "label");
-      return summary("warn", `${labels} may be wrong`, "With that mended, there is a program.");
+      return summary("warn", `${labels} may be wrong`, `With ${lesson.repairs.length === 1 ? "it" : "them"} repaired, a program fits.`);
     }
     case "none":
-      return summary("bad", `No program${lesson.nearest ? ` yet: rule ${lesson.nearest.rule} cannot be told` : ""}`, lesson.why);
+      return summary("bad", `No program${lesson.nearest ? ` yet: rule ${lesson.nearest.rule} cannot be expressed` : ""}`, lesson.why);
     case "timeout":
-      return summary("warn", `Stopped at rule ${lesson.rules.length + 1}`, "The rules before it are there. Learn again, or show that rule on another asset.");
+      return summary("warn", `Stopped at rule ${lesson.rules.length + 1}`, "The earlier rules are learned. Learn again, or demonstrate this rule on another asset.");
     case "error":
-      return summary("bad", "Learning did not work", lesson.error);
+      return summary("bad", "Learning failed", lesson.error);
   }
 }
 
 function summarizeUnambiguous(lookedAt: number, assets: number): Summary {
   const all = assets === 1 ? "your one asset" : `your ${countText(assets, "asset")}`;
   const where = lookedAt < assets ? `the ${countText(lookedAt, "asset")} looked at, of ${all}` : all;
-  return summary("good", "Settled", `All readings agree on ${where}.`);
+  return summary("good", "Unambiguous", `All readings select the same hulls on ${where}.`);
 }
 
 function summarizeFound(lesson: LessonView): Summary {
   const open = lesson.readings.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
-  if (!open.length) return summary("good", "A program fits all that you showed", null);
+  if (!open.length) return summary("good", "A program fits all your demonstrations", null);
   const rules = [...new Set(open.map((reading) => reading.rule))].sort((a, b) => a - b);
   const assets = [...new Set(open.flatMap((reading) => reading.differs_on))].sort();
   const who = `Rule${rules.length > 1 ? "s" : ""} ${listText(rules.map(String))}`;
-  return summary("good", "Almost settled", `${who} might mean something else on ${listText(assets.map(shortName), 3)}.`);
+  return summary("good", "Almost unambiguous", `${who} may select other hulls on ${listText(assets.map(shortName), 3)}.`);
 }
 
 const summary = (mood: Summary["mood"], title: string, more: string | null): Summary => ({ mood, title, more });

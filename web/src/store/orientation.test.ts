@@ -38,7 +38,7 @@ describe("a clicked direction", () => {
     expect(withPair({ snap: false, pairs: [up, front] }, side).pairs).toEqual([up, side]);
   });
 
-  it("is told by two different labels", () => {
+  it("is set by two different labels", () => {
     expect(pairFromClicks("+Z", "leg", "table top")).toEqual({ direction: "+Z", from: "Is(leg)", to: 'Is("table top")' });
     expect(pairFromClicks("+Z", "leg", null)).toMatch(/label it first/);
     expect(pairFromClicks("+Z", "leg", "leg")).toMatch(/two different labels/);

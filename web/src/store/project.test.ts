@@ -28,7 +28,7 @@ describe("what the server says", () => {
     expect(begun.ready).toBe(true);
   });
 
-  it("changes only the cards that are told", () => {
+  it("changes only the cards that are sent", () => {
     const after = applyEvent(begun, { kind: "cards", cards: [card("a", { demonstrated: true })], gone: [] });
     expect(after.cards["a"]?.demonstrated).toBe(true);
     expect(after.cards["b"]).toBe(begun.cards["b"]);
@@ -72,7 +72,7 @@ describe("what the server says", () => {
   });
 });
 
-it("what the last edit of all labels did is there until it is told otherwise", () => {
+it("what the last edit of all labels did is there until the server says otherwise", () => {
   const relabelled = { entry: 1, way: "propagate", assets: [], settled: 0 } as const;
   const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
   expect(told.relabelled?.entry).toBe(1);

@@ -24,7 +24,7 @@ export interface ProjectState {
   tour: boolean;
   /** Engines whose limits can be checked. */
   engines: readonly EngineView[];
-  /** How often everything was told anew, and of how many edits of this page. */
+  /** How often everything was sent anew, and of how many edits of this page. */
   hellos: number;
   own: number;
   /** Counts up for each asset whose details changed, so that what is kept of it is fetched anew. */

@@ -42,10 +42,10 @@ function isSame(a: readonly number[] | undefined, b: readonly number[] | undefin
   return a === b || (a !== undefined && b !== undefined && a.length === b.length && a.every((k) => b.includes(k)));
 }
 
-/** So many of the most believable readings are told apart; the others hardly matter. */
+/** So many of the most believable readings are distinguished; the others hardly matter. */
 const RIVALS = 8;
 
-/** Assets on which an answer tells a reading from the others of its rule. */
+/** Assets on which an answer distinguishes a reading from the others of its rule. */
 export async function findSeparatingAssets({ id, rule, extractor, differs_on }: ReadingView): Promise<string[]> {
   const readings = (useProject.getState().lesson?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
   const rivals = [...readings].sort((a, b) => b.belief - a.belief).slice(0, RIVALS);

@@ -36,17 +36,17 @@ describe("results in groups", () => {
       failed: ["c"],
       flagged: ["d", "e"],
       stale: ["f"],
-      telling: [],
+      informative: [],
       open: ["b"],
       accepted: ["a"],
       none: ["g", "h"],
     });
   });
 
-  it("keeps those that tell most apart, the most telling first, and only where nobody reviewed them", () => {
+  it("keeps those that tell most apart, the most informative first, and only where nobody reviewed them", () => {
     const rows = groupCards([...family, card("x"), card("y")], ["y", "gone", "a", "c", "e", "f", "g", "b"]);
     const names = (group: Group) => rows[group].map((one) => one.asset);
-    expect([names("telling"), names("open")]).toEqual([["y", "b"], ["x"]]);
+    expect([names("informative"), names("open")]).toEqual([["y", "b"], ["x"]]);
     const rest = groupCards(family);
     for (const group of ["failed", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
   });

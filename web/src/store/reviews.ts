@@ -3,10 +3,10 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import type { Card, EditedHeader, HullView } from "../wire";
 
-export type Group = "failed" | "flagged" | "stale" | "telling" | "open" | "accepted" | "none";
+export type Group = "failed" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none";
 
 /** In the order in which they want a look. */
-export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "telling", "open", "accepted", "none"];
+export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "informative", "open", "accepted", "none"];
 
 /** Where the result of an asset belongs; sample: the assets whose results tell best whether the program is right. */
 export function groupOf(card: Card, sample: readonly string[] = []): Group {
@@ -15,21 +15,21 @@ export function groupOf(card: Card, sample: readonly string[] = []): Group {
   if (card.review === "flagged" || (card.flags.length > 0 && card.review === null)) return "flagged";
   if (card.stale.length) return "stale";
   if (card.review === "accepted") return "accepted";
-  return sample.includes(card.asset) ? "telling" : "open";
+  return sample.includes(card.asset) ? "informative" : "open";
 }
 
 /** The cards by group, in the family's order; those that tell most, in the order of the sample. */
 export function groupCards(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
-  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], telling: [], open: [], accepted: [], none: [] };
+  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], informative: [], open: [], accepted: [], none: [] };
   for (const card of cards) rows[groupOf(card, sample)].push(card);
-  rows.telling.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
+  rows.informative.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
   return rows;
 }
 
-/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most telling ahead. */
+/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most informative ahead. */
 export function reviewQueue(cards: readonly Card[], sample: readonly string[]): readonly string[] {
-  const { failed, flagged, telling, open } = groupCards(cards, sample);
-  return [...failed, ...flagged, ...telling, ...open].map((card) => card.asset);
+  const { failed, flagged, informative, open } = groupCards(cards, sample);
+  return [...failed, ...flagged, ...informative, ...open].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */
@@ -101,7 +101,7 @@ const STALE: Readonly<Record<string, string>> = {
   output: "written files are gone",
 };
 
-/** Assets a second, from when a job was first seen; null before that can be told. */
+/** Assets a second, from when a job was first seen; null before that is known. */
 export function rateOf(first: { done: number; at: number }, done: number, now: number): number | null {
   const seconds = (now - first.at) / 1000;
   return seconds < 0.5 || done <= first.done ? null : (done - first.done) / seconds;

@@ -25,7 +25,7 @@ test("who asks at the same time, and later, gets one answer", async () => {
   expect([asset.mock.calls.length, shapes.mock.calls.length]).toEqual([1, 1]);
 });
 
-test("an asset that cannot be read is asked for once per revision, and told in the view alone", async () => {
+test("an asset that cannot be read is asked for once per revision, and reported in the view alone", async () => {
   const failing = () => Promise.reject(new ServerProblem(problem, 400));
   const [asset, shapes] = [vi.spyOn(api, "asset").mockImplementation(failing), vi.spyOn(api, "shapes").mockImplementation(failing)];
   prefetch("bad");

@@ -10,7 +10,7 @@ import { openAsset, show, type Showing, useWorkspace, type WorkspaceState } from
 
 export interface SceneHull extends HullView {
   readonly shape: Shape;
-  /** Whether the asset as it comes does not have it. */
+  /** Whether the original asset lacks it. */
   readonly made: boolean;
 }
 
@@ -22,7 +22,7 @@ export interface Scene {
   readonly hulls: readonly SceneHull[];
   readonly opaque: readonly (OpaqueView & { shape: Shape })[];
   readonly contacts: readonly (readonly [string, string])[];
-  /** Header of the edit that led here; null for the asset as it comes. */
+  /** Header of the edit that led here; null for the original asset. */
   readonly edit: EditedHeader | null;
 }
 
@@ -94,7 +94,7 @@ function sceneFrom(
   return { asset, showing, view, hulls, opaque, contacts, edit: edit?.header ?? null };
 }
 
-/** Fetches an asset ahead of time; failing is told only once it is opened. */
+/** Fetches an asset ahead of time; a failure is reported only once it is opened. */
 export function prefetch(asset: string): void {
   void getDetails(asset).catch(() => undefined);
 }

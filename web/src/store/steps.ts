@@ -88,7 +88,7 @@ export function amountText(step: Pick<StepView, "select"> | undefined): string {
 }
 
 interface OfferState {
-  /** The step that was last sent or put down; it is not offered until the asset is another. */
+  /** The step that was last sent or cancelled; it is not offered until the asset is another. */
   last: string;
   /** Steps that were left open on purpose; they are not offered. */
   declined: ReadonlySet<string>;

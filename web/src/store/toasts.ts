@@ -30,7 +30,7 @@ export function reportError(error: unknown): void {
   if (error instanceof ServerProblem) return reportProblem(error.problem);
   if (error instanceof DOMException && error.name === "AbortError") return;
   const message = error instanceof Error ? error.message : String(error);
-  const remedy = "This is a fault of the studio; reloading the page loses nothing.";
+  const remedy = "This is a bug in the studio. Reload the page: nothing is lost.";
   reportProblem({ message, where: null, remedy, conflict: false });
 }
 

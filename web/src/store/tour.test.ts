@@ -37,11 +37,11 @@ test("doing what a mark asks for goes on by itself", () => {
   const stop = followTour();
   moveTour(1);
   useWorkspace.setState({ stage: "demonstrate" });
-  expect(title()).toBe("Pick the splinters");
+  expect(title()).toBe("Select the splinters");
   const hulls = [{ name: "h1", label: "misc" }, { name: "h2", label: "leg" }];
   useScenes.setState({ scene: { hulls } as never });
   useWorkspace.setState({ selection: new Set(["h1", "h2"]) });
-  expect(title()).toBe("Pick the splinters");
+  expect(title()).toBe("Select the splinters");
   useWorkspace.setState({ selection: new Set(["h1"]) });
   expect(title()).toBe("Delete them");
   rules(1);
@@ -51,7 +51,7 @@ test("doing what a mark asks for goes on by itself", () => {
   useProject.setState({ cards: { a: card, b: card } });
   useWorkspace.setState({ stage: "learn" });
   useWorkspace.setState({ stage: "review" });
-  expect(title()).toBe("Do it to all");
+  expect(title()).toBe("Apply to all tables");
   useProject.setState({ cards: { a: { ...card, output: "edited" } } });
   expect(title()).toBe("That is all");
   stop();
@@ -73,6 +73,6 @@ test("who goes back stays there until Next", () => {
   useWorkspace.setState({ hover: "x" });
   expect(title()).toBe("Four stages");
   moveTour(1);
-  expect(title()).toBe("Pick the splinters");
+  expect(title()).toBe("Select the splinters");
   stop();
 });

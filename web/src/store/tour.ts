@@ -31,43 +31,43 @@ export const TOUR_STOPS: readonly TourStop[] = [
     title: "A family of tables",
     text:
       "Each table is a set of convex hulls, and every hull has a label: that is its colour. " +
-      "You show on one table what is to be done; MeshForge learns it and does it to all.",
+      "You demonstrate an edit on one table. MeshForge learns it and applies it to all.",
   },
   {
     at: "stages",
     title: "Four stages",
-    text: "The labels are there already. Go on to 2 Demonstrate.",
+    text: "The tables are already labelled. Open 2 Demonstrate.",
     done: (_, workspace) => workspace.stage === "demonstrate",
   },
   {
     at: "view",
-    title: "Pick the splinters",
+    title: "Select the splinters",
     text:
-      "What lies on the tables, and splinters of the cutting, are labelled misc. " +
-      "Click one, then press Shift+L: all hulls with its label are selected.",
+      "Objects on the tables and splinters of the decomposition are labelled misc. " +
+      "Click one, then press Shift+L to select all hulls with its label.",
     done: (project, workspace) => onlyHas(workspace, "misc") || project.project.rules.length > 0,
   },
   {
     at: "panel",
     title: "Delete them",
-    text: "Press X: what will go is dashed. Enter makes it the first step.",
+    text: "Press X. The hulls to delete are dashed. Press Enter to make this the first step.",
     done: (project) => project.project.rules.length > 0,
   },
   {
     at: "view",
     title: "Make the table top one box",
-    text: "Click a hull of the top, Shift+L for all of it, then R, choose box, and Enter.",
+    text: "Click a hull of the top, press Shift+L for all of it, then R, choose box, and press Enter.",
     done: (project) => project.project.rules.length > 1,
   },
   {
     at: "panel",
     title: "The second table is easier",
-    text: "Press Tab to go to another table. Both steps are guessed there: accept each with Enter, or correct it.",
+    text: "Press Tab to open another table. MeshForge guesses both steps: accept each with Enter, or correct it.",
     done: (project) => countDemonstrated(project) > 1,
   },
   {
     at: "stages",
-    title: "It has learned meanwhile",
+    title: "MeshForge has learned",
     text: "Open 3 Learn to see the program.",
     done: (_, workspace) => workspace.stage === "learn",
   },
@@ -75,22 +75,22 @@ export const TOUR_STOPS: readonly TourStop[] = [
     at: "panel",
     title: "The program, in words",
     text:
-      "Point at a rule, and its hulls light up on all tables. " +
-      "What is still open is asked: choose the picture that you mean. Then go on to 4 Review.",
+      "Point at a rule to highlight its hulls on all tables. " +
+      "MeshForge asks what is still ambiguous: choose the right picture. Then open 4 Review.",
     done: (_, workspace) => workspace.stage === "review",
   },
   {
     at: "panel",
-    title: "Do it to all",
-    text: "Press Apply to all: the program edits every table, each into a file of its own.",
+    title: "Apply to all tables",
+    text: "Press Apply to all. The program edits every table and writes each to its own file.",
     done: (project) => Object.values(project.cards).some((card) => card.output === "edited"),
   },
   {
     at: "panel",
     title: "That is all",
     text:
-      "Compare before and after, accept what is right, flag what is not, or correct it by hand; then export. " +
-      "Press ? for all keys. Undo takes anything back.",
+      "Compare before and after. Accept what is right; flag or correct what is wrong; then export. " +
+      "Press ? for all keys. You can undo everything.",
   },
 ];
 

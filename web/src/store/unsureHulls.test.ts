@@ -151,7 +151,7 @@ describe("the queue of unsure hulls", () => {
     for (const key of ["N", "1", "Enter", "2"]) await press(key);
     expect(sent.map((edit) => "hulls" in edit && [edit.asset, ...edit.hulls])).toEqual([["a", "x"], ["b", "x"], ["b", "z"]]);
     expect(inHand()).toEqual(["b", "z"]);
-    expect(toasts()).toEqual(["Every label is sure."]);
+    expect(toasts()).toEqual(["No unsure label is left."]);
   });
 
   it("takes up again what is unsure once more, as after undo", async () => {

@@ -60,7 +60,7 @@ export function isUnsure(card: Card | undefined, own: readonly { name: string }[
 /** The hull that the queue has put in hand. */
 let current: (Place & { hull: string }) | null = null;
 
-/** Positions that were labelled since a card was told. */
+/** Positions that were labelled since a card was sent. */
 const labelledPlaces = new WeakMap<Card, Set<number>>();
 
 /** Labels the selected hulls, or, where none is, arms the label so that clicks paint it; null takes labels away. */
@@ -95,7 +95,7 @@ async function labelAndGoOn(asset: string, hulls: readonly string[], label: stri
 }
 
 /** Opens the asset of the next unsure hull, or of the one before, selects the hull and looks at it.
- * labelled: one was just labelled, so that it is told where it was the last. */
+ * labelled: one was just labelled, so that the person is notified where it was the last. */
 export async function goToUnsure(by: 1 | -1 = 1, labelled = false): Promise<void> {
   const { asset, selection } = useWorkspace.getState();
   const { order } = useProject.getState();
@@ -104,7 +104,7 @@ export async function goToUnsure(by: 1 | -1 = 1, labelled = false): Promise<void
   const isSelected = (hull: { name: string }) => selection.has(hull.name);
   const at = by === 1 ? own.findLastIndex(isSelected) : own.findIndex(isSelected);
   const next = nextUnsure(cardsLeft(), order, asset === null ? null : { asset, position: at }, by);
-  if (!next) return labelled ? notify("Every label is sure.") : undefined;
+  if (!next) return labelled ? notify("No unsure label is left.") : undefined;
   openStage("label");
   openAsset(next.asset);
   setLayout({ gallery: false });
@@ -132,7 +132,7 @@ function noteLabelled(asset: string, names: readonly string[]): void {
   labelledPlaces.set(card, new Set([...(labelledPlaces.get(card) ?? []), ...places]));
 }
 
-/** The cards without what was labelled since they were told. */
+/** The cards without what was labelled since they were sent. */
 function cardsLeft(): Record<string, Card> {
   const { cards } = useProject.getState();
   const left = (card: Card) => card.unsure.filter((position) => !labelledPlaces.get(card)?.has(position));

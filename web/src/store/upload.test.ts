@@ -33,10 +33,10 @@ test("files of the system are left out; nothing but such files is no upload", as
   await addAssets([file("a/.DS_Store"), file("__MACOSX/a.urdf")]);
   expect(stage).not.toHaveBeenCalled();
   expect(take).not.toHaveBeenCalled();
-  expect(said()).toEqual(["There is no file in what was given."]);
+  expect(said()).toEqual(["There are no files to add."]);
 });
 
-test("a file that is refused keeps no other from going, and is told", async () => {
+test("a file that is refused keeps no other from going, and is reported", async () => {
   stage.mockRejectedValueOnce(problem(413));
   await addAssets([file("big.obj"), file("a.urdf")]);
   expect(take).toHaveBeenCalledOnce();
@@ -68,7 +68,7 @@ test("one can stop between files", async () => {
   expect(useUpload.getState().sending).toBe(null);
 });
 
-test("what the server cannot read is told with its remedy", async () => {
+test("what the server cannot read is reported with its remedy", async () => {
   take.mockRejectedValue(problem(400));
   await addAssets([file("a.obj")]);
   expect(useToasts.getState().toasts[0]).toMatchObject({ kind: "problem", remedy: "Make it smaller." });

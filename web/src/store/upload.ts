@@ -22,11 +22,11 @@ export function stopUpload(): void {
   useUpload.setState({ stopped: true });
 }
 
-/** Sends files and has them taken as assets; tells what came of it. */
+/** Sends files and has them taken as assets; notifies what came of it. */
 export async function addAssets(given: readonly PlacedFile[]): Promise<void> {
-  if (useUpload.getState().sending) return notify("Files are being added already; these can follow when they are there.");
+  if (useUpload.getState().sending) return notify("Other files are being added. Add these when they are done.");
   const files = given.filter(({ path }) => !isHidden(path));
-  if (files.length === 0) return notify("There is no file in what was given.");
+  if (files.length === 0) return notify("There are no files to add.");
   useUpload.setState({ stopped: false });
   try {
     if (await sendAll(files)) await takeAll();
@@ -40,7 +40,7 @@ async function sendAll(files: readonly PlacedFile[]): Promise<boolean> {
   const refused: ServerProblem[] = [];
   for (const [done, { path, file }] of files.entries()) {
     if (useUpload.getState().stopped) {
-      notify("Stopped; nothing was added.");
+      notify("Stopped: no asset was added.");
       return false;
     }
     useUpload.setState({ sending: { done, total: files.length, path } });

@@ -18,8 +18,8 @@ describe("words", () => {
     expect(shortName("c.urdf")).toBe("c.urdf");
   });
 
-  it("says a belief in words that grow surer", () => {
-    expect([0.99, 0.8, 0.5, 0.2].map(confidenceText)).toEqual(["almost certain", "likely", "about as likely as not", "a guess"]);
+  it("says a belief in words that grow more certain", () => {
+    expect([0.99, 0.8, 0.5, 0.2].map(confidenceText)).toEqual(["almost certain", "likely", "about even", "a guess"]);
   });
 
   it("says a share as one asset in so many", () => {

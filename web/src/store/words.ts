@@ -22,7 +22,7 @@ export function sampleText(lookedAt: number, assets: number): string {
   return lookedAt < assets ? ` of the ${lookedAt.toLocaleString("en-GB")} looked at` : "";
 }
 
-/** Who gave a label: `by you`, `carried over`. */
+/** Who gave a label: `by you`, `propagated`. */
 export function sourceText(source: string): string {
   return SOURCES[source] ?? "by machine";
 }
@@ -32,7 +32,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   name: "from its name",
   user: "by you",
   repair: "by you",
-  propagated: "carried over",
+  propagated: "propagated",
   vlm: "by a model",
   edit: "by an edit",
 };
@@ -46,7 +46,7 @@ export function shortName(asset: string): string {
 export function confidenceText(belief: number): string {
   if (belief >= 0.95) return "almost certain";
   if (belief >= 0.75) return "likely";
-  return belief >= 0.45 ? "about as likely as not" : "a guess";
+  return belief >= 0.45 ? "about even" : "a guess";
 }
 
 /** A share in 0..1 as `about 1 asset in 5`. */

@@ -6,7 +6,7 @@ import type { Next } from "../wire";
 export type StageName = Next["stage"];
 export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
 
-/** Which state of the asset is shown: as it comes, after some of its own steps, or edited. */
+/** Which state of the asset is shown: original, after some of its own steps, or edited. */
 export type Showing =
   | { kind: "source" }
   | { kind: "steps"; steps: number }
@@ -175,7 +175,7 @@ export function selectMore(names: Iterable<string>, how: "replace" | "add" | "to
   select(after);
 }
 
-/** Takes a tool into the hand; landmarks are clicked anew. */
+/** Chooses a tool; landmarks are clicked anew. */
 export function setTool(tool: Tool): void {
   set({ tool, landmarks: [] });
 }

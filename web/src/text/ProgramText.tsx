@@ -20,13 +20,13 @@ export function ProgramText({ text, onChange, marks, readOnly }: ProgramTextProp
     changed.current = onChange;
   }, [onChange]);
   useEffect(loadLanguage, []);
-  const told = EditorView.updateListener.of((update) => {
+  const listener = EditorView.updateListener.of((update) => {
     if (update.docChanged) changed.current?.(update.state.doc.toString());
   });
   const box = useEditor(text, marks, () =>
     readOnly
       ? [viewerExtensions("Program"), EditorState.readOnly.of(true)]
-      : [editorExtensions(false, "Program"), told, lineNumbers(), highlightActiveLine()],
+      : [editorExtensions(false, "Program"), listener, lineNumbers(), highlightActiveLine()],
   );
   return <div ref={box} className={css.program} data-testid="program-text" />;
 }

@@ -39,7 +39,7 @@ from meshforge.symbolic import Asset, Surface
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
 _SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
-_LEAST = 0.005  # shares below are told as none
+_LEAST = 0.005  # shares below count as none
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -111,8 +111,8 @@ def _decompose_source(
     hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
     names = free_names(source.base, len(hulls), taken)
     made = dict(zip(names, map(hull_digest, hulls), strict=True))
-    told = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
-    return Replacement(source.what, source.kind, surface_digest(source.surface), made, told), hulls
+    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
+    return Replacement(source.what, source.kind, surface_digest(source.surface), made, remarks), hulls
 
 
 def _drop_decompositions(before: Preparation, only: Sequence[str]) -> Preparation:

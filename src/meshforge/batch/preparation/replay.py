@@ -95,8 +95,8 @@ def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, a
         return asset.with_geoms(_splice(asset.geoms, old, parts))
     gone = next((piece for piece in asset.opaque if piece.name == entry.what), None) if entry.kind == "opaque" else None
     body, parent = (gone.body, gone.name) if gone else (entry.what, None)
-    said = gone.mentions if gone else ()
-    made = (Geom(name, body, shape, parent, mentions=said) for name, shape in shapes.items())
+    mentions = gone.mentions if gone else ()
+    made = (Geom(name, body, shape, parent, mentions=mentions) for name, shape in shapes.items())
     return replace(
         asset, geoms=(*asset.geoms, *made), opaque=tuple(piece for piece in asset.opaque if piece is not gone)
     )

@@ -40,10 +40,10 @@ def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: V
             remedy=f"Choose --at within it: it reaches from ({_format_point(box.min)}) to ({_format_point(box.max)}), "
             "in the frame that the asset comes in.",
         )
-    told = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
+    remarks = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
     settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
     return _add_step(
-        asset, before, geom, PreparationStep("cut", settings, software_versions(), ()), (below, above), told
+        asset, before, geom, PreparationStep("cut", settings, software_versions(), ()), (below, above), remarks
     )
 
 
@@ -75,10 +75,10 @@ def split_hull(
             where=name,
             remedy="Set a lower threshold, or cut it by a plane.",
         )
-    told = [f"{parting.lost:.0%} of its volume is in no part"]
-    told += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
+    remarks = [f"{parting.lost:.0%} of its volume is in no part"]
+    remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
     step = PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
-    return _add_step(asset, before, geom, step, parting.parts, [*told, *notes])
+    return _add_step(asset, before, geom, step, parting.parts, [*remarks, *notes])
 
 
 def _find_hull(asset: Asset, before: Preparation, name: str) -> Geom:
@@ -106,13 +106,18 @@ def _find_divider(asset: Asset, geom: Geom) -> Surface:
 
 
 def _add_step(
-    asset: Asset, before: Preparation, geom: Geom, step: PreparationStep, parts: Sequence[Polytope], told: Sequence[str]
+    asset: Asset,
+    before: Preparation,
+    geom: Geom,
+    step: PreparationStep,
+    parts: Sequence[Polytope],
+    notes: Sequence[str],
 ) -> Preparation:
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
     names = free_names(geom.name, len(parts), taken)
     made = dict(zip(names, map(hull_digest, parts), strict=True))
-    remarks = "; ".join([pluralize(len(parts), "hull"), *told])
-    entry = Replacement(geom.name, "hull", digest(geom.shape), made, remarks)
+    description = "; ".join([pluralize(len(parts), "hull"), *notes])
+    entry = Replacement(geom.name, "hull", digest(geom.shape), made, description)
     return before.with_step(PreparationStep(step.do, step.settings, step.software, (entry,)), parts)
 
 

@@ -108,7 +108,7 @@ def remove_preparation(folder: Path) -> None:
 def _read_steps(path: Path) -> tuple[PreparationStep, ...]:
     """The steps in a record. Raises OSError, and AssetError where it is damaged."""
     content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
-    from pydantic import TypeAdapter, ValidationError  # a tenth of a second, and only projects have preparations
+    from pydantic import TypeAdapter, ValidationError  # lazy: 0.1 s, only preparations need it
 
     try:
         return TypeAdapter(_Record).validate_json(content).steps

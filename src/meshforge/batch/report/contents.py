@@ -174,7 +174,7 @@ def read_job(job: AssetJob) -> SymbolicMesh:
 def _try_read(reader: MeshReader) -> SymbolicMesh | None:
     try:
         return reader()
-    except Exception:  # why it cannot be read is told already, or is not what the report is about
+    except Exception:  # why it cannot be read is reported already, or is not what the report is about
         return None
 
 

@@ -50,7 +50,6 @@ STATUSES: tuple[ReportStatus, ...] = (
 )
 """In the order of the page."""
 _SETTINGS = {
-    "content_policy": "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'",
     "picture_size": PICTURE_SIZE,
     "check_size": CHECK_PICTURE_SIZE,
     "ordinary": ORDINARY,
@@ -149,15 +148,15 @@ def _load_template() -> Any:
     own = files("meshforge.batch.report")
     lines = (own / "page.html.j2").read_text("utf-8").splitlines()
     template = Environment(autoescape=True, undefined=StrictUndefined).from_string("".join(map(str.strip, lines)))
-    template.globals |= {
-        "style": (own / "page.css").read_text("utf-8"),
-        "script": (own / "page.js").read_text("utf-8"),
-        "pluralize": pluralize,
-        "join_names": join_names,
-        "format_change": format_change,
-        "format_duration": format_duration,
-        "describe_findings": _describe_findings,
-    }
+    template.globals.update(
+        style=(own / "page.css").read_text("utf-8"),
+        script=(own / "page.js").read_text("utf-8"),
+        pluralize=pluralize,
+        join_names=join_names,
+        format_change=format_change,
+        format_duration=format_duration,
+        describe_findings=_describe_findings,
+    )
     return template
 
 

@@ -35,12 +35,14 @@ class _MassDoubt:
 
 
 def check_masses(mesh: SymbolicMesh) -> Iterator[Finding]:
-    """What is odd about the masses that the asset of a mesh tells: a finding for each rule, with its bodies."""
+    """What is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
     doubts = list(_find_doubts(mesh))
     for rule, remedy in _REMEDIES.items():
-        told = [f"body {doubt.body!r}: {doubt.problem}" for doubt in doubts if doubt.rule == rule]
-        if told:
-            yield Finding(f"physics-{rule}", "error" if rule == "mass" else "warning", (), join_names(told, 3), remedy)
+        problems = [f"body {doubt.body!r}: {doubt.problem}" for doubt in doubts if doubt.rule == rule]
+        if problems:
+            yield Finding(
+                f"physics-{rule}", "error" if rule == "mass" else "warning", (), join_names(problems, 3), remedy
+            )
 
 
 def _find_doubts(mesh: SymbolicMesh) -> Iterator[_MassDoubt]:
@@ -72,16 +74,16 @@ def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[_Mass
     volume = sum(shape.volume for shape in shapes)
     density = inertial.mass / volume
     if not LIGHTEST <= density <= HEAVIEST:
-        told = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
-        yield _MassDoubt("density", inertial.body, told)
+        problem = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
+        yield _MassDoubt("density", inertial.body, problem)
     box = Aabb.union(shape.aabb for shape in shapes)
     beyond = float(np.maximum(box.min - inertial.centre, inertial.centre - box.max).max())
     if beyond > _OUTSIDE * box.diagonal:
-        told = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
-        yield _MassDoubt("centre", inertial.body, told)
+        problem = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
+        yield _MassDoubt("centre", inertial.body, problem)
     _, solid = inertia(shapes, inertial.mass)
     ratio = np.linalg.eigvalsh(inertial.inertia) / np.linalg.eigvalsh(solid)
     worst = float(ratio[np.abs(np.log(ratio)).argmax()])
     if not 1 / OFF <= worst <= OFF:
-        told = f"its inertia is {worst:.3g} times that of its hulls at that mass"
-        yield _MassDoubt("inertia", inertial.body, told)
+        problem = f"its inertia is {worst:.3g} times that of its hulls at that mass"
+        yield _MassDoubt("inertia", inertial.body, problem)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Any
 
 from meshforge.geometry import Pose
 from meshforge.symbolic import Hull, Joint, SymbolicMesh
@@ -94,9 +95,9 @@ class ContactRules:
     def __init__(self, mesh: SymbolicMesh) -> None:
         geoms = {geom.name: geom for geom in mesh.asset.geoms} if mesh.asset else {}
         sources = [hull.parent or hull.name for hull in mesh.hulls]
-        told = [dict(geoms[name].contact) if name in geoms else {} for name in sources]
+        attributes = [dict(geoms[name].contact) if name in geoms else {} for name in sources]
         self.hulls: tuple[Hull, ...] = mesh.hulls
-        self.contacts = [_parse_contact(attributes) for attributes in told]
+        self.contacts = [_parse_contact(own) for own in attributes]
         mechanism = mesh.asset.mechanism if mesh.asset else None
         self.apart = {frozenset(pair) for pair in mechanism.apart} if mechanism else set()
         self.paired = set(_number_pairs(mechanism.paired, sources)) if mechanism else set()
@@ -109,15 +110,12 @@ class ContactRules:
         return bodies not in self.apart and self.contacts[first].can_meet(self.contacts[second])
 
 
-def _parse_contact(told: dict[str, str]) -> ContactAttributes:
-    usual = ContactAttributes()
-    return ContactAttributes(
-        contype=int(told.get("contype", usual.contype)),
-        conaffinity=int(told.get("conaffinity", usual.conaffinity)),
-        condim=int(told.get("condim", usual.condim)),
-        priority=int(told.get("priority", usual.priority)),
-        friction=tuple(float(number) for number in told["friction"].split()) if "friction" in told else usual.friction,
-    )
+def _parse_contact(attributes: dict[str, str]) -> ContactAttributes:
+    numbers = ("contype", "conaffinity", "condim", "priority")
+    parsed: dict[str, Any] = {name: int(attributes[name]) for name in numbers if name in attributes}
+    if "friction" in attributes:
+        parsed["friction"] = tuple(map(float, attributes["friction"].split()))
+    return ContactAttributes(**parsed)
 
 
 def _number_pairs(pairs: tuple[tuple[str, str], ...], sources: list[str]) -> Iterator[frozenset[int]]:

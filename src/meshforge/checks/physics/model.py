@@ -29,7 +29,7 @@ def compile_model(mesh: SymbolicMesh, tree: JointTree, *, everything: bool = Fal
     apart. On the plane, a hull rubs as the file has it. Joints are damped, so that what swings comes to rest. Raises
     ValueError where MuJoCo refuses the model.
     """
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     spec = mujoco.MjSpec()
     spec.option.timestep = STEP
@@ -110,7 +110,7 @@ def _set_mass(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, m
 
 
 def _add_joint(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> None:
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     mass, length = reach
     kinds = {
@@ -134,8 +134,8 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[f
         names += tree.children_of(body)
     hulls = [hull for hull in mesh.hulls if hull.body in names]
     inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
-    told = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
-    mass = sum(told.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
+    known = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
+    mass = sum(known.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
     ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
     length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
     return max(mass, _LEAST), length
@@ -143,7 +143,7 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[f
 
 def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
     """Add a hull: a native shape as itself, any other as a mesh."""
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     geoms = mujoco.mjtGeom
     shape: Shape = hull.shape.move(local)

@@ -52,7 +52,7 @@ class Rest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Physics:
-    """What MuJoCo says of an asset; rest: None where it could not be simulated, of which `refused` tells the reason."""
+    """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`."""
 
     scale: float
     rest: Rest | None
@@ -113,7 +113,7 @@ def simulate(mesh: SymbolicMesh) -> Physics:
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     """The rest of a mesh; None where the simulation blows up."""
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     model = compile_model(mesh, tree)
     data = mujoco.MjData(model)
@@ -170,16 +170,16 @@ def _report_refusal(refused: str | None) -> Iterator[Finding]:
         message = "it does not come to rest: the simulation blew up"
         yield Finding("physics-unstable", "error", (), message, "Look at overlaps of bodies, masses and thin hulls.")
     elif refused and "refuses" in refused:
-        yield Finding("physics-refused", "error", (), refused, "Mend what the message names.")
+        yield Finding("physics-refused", "error", (), refused, "Fix what the message names.")
 
 
 def _report_overlaps(found: Physics) -> Iterator[Finding]:
     deep = [overlap for overlap in found.overlaps if overlap.depth > DEEP * found.scale and not overlap.excluded]
     if not deep:
         return
-    told = [f"{o.hulls[0]} and {o.hulls[1]} ({o.depth:.3g} m{', joined' if o.joined else ''})" for o in deep]
+    overlaps = [f"{o.hulls[0]} and {o.hulls[1]} ({o.depth:.3g} m{', joined' if o.joined else ''})" for o in deep]
     names = tuple(dict.fromkeys(name for overlap in deep for name in overlap.hulls))
-    message = f"hulls of bodies that move against each other overlap at rest pose: {join_names(told)}"
+    message = f"hulls of bodies that move against each other overlap at rest pose: {join_names(overlaps)}"
     remedy = "Shrink or delete one, or exclude the pair from contact in the file."
     yield Finding("physics-overlap", "warning", names, message, remedy)
 
@@ -219,7 +219,7 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
 
     Contacts that the file excludes count for themselves. Raises ValueError where MuJoCo refuses the model.
     """
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     model = compile_model(mesh, tree, everything=True)
     data = mujoco.MjData(model)

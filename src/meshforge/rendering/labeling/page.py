@@ -30,14 +30,14 @@ _STRENGTH = np.array([0, 70, 215, 235], np.uint16)  # of no line, a crease, a bo
 _FLAT = 0.3  # up is drawn as a ring when it is seen this short, as seen along its axis
 
 
-def draw_surfaces(hits: RayHits, colors: Floats, stage: ViewFrame, camera: Camera) -> PagePixels:
+def draw_surfaces(hits: RayHits, colors: Floats, view_frame: ViewFrame, camera: Camera) -> PagePixels:
     """What the pixels show; colors: (k, 3), sRGB in 0..1, of the scene's things."""
     scene = hits.scene
     height, width = hits.item.shape
     page = np.full((height, width), 0xFFFFFFFF, np.uint32)
     table = np.full((len(scene.item) + 1, 4), 255, np.uint8)
     if len(scene.item):
-        bright = shade(np.asarray(colors, np.float64)[scene.item], scene.normals, camera, stage.upright)
+        bright = shade(np.asarray(colors, np.float64)[scene.item], scene.normals, camera, view_frame.upright)
         table[:-1, :3] = np.rint(bright * 255)
     page[hits.window] = table.view(np.uint32).ravel().take(hits.triangle[hits.window])
     return page.view(np.uint8).reshape(height, width, 4)
@@ -76,7 +76,7 @@ def lay_ink(page: PagePixels, share: LineStrengths, strength: float = 1.0) -> No
 
 def to_square_image(page: PagePixels, size: int, top: int) -> Image:
     """A page as a square picture, `top` pixels below its upper edge."""
-    from PIL import Image
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
 
     whole = np.full((size, size, 4), 255, np.uint8)
     whole[top : top + len(page)] = page

@@ -63,9 +63,9 @@ class LabelingPicture:
 
 @dataclass(frozen=True, eq=False)
 class LabelingCanvas:
-    """Where a sitter's pictures are drawn; size: pixels along each side."""
+    """Where a subject's pictures are drawn; size: pixels along each side."""
 
-    sitter: LabelingSubject
+    subject: LabelingSubject
     size: int
 
     @property
@@ -75,14 +75,14 @@ class LabelingCanvas:
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
         """The picture of an arrangement from one side."""
-        from PIL import ImageDraw
+        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-        sitter, top = self.sitter, head_height(self.size)
+        subject, top = self.subject, head_height(self.size)
         camera = arrangement.camera(view, self.drawing_size)
         hits = arrangement.cast_solid(camera)
         items = arrangement.hull_pixels(hits)
         drawing, faint = trace_ink(hits, self._line_width), self._trace_faint(arrangement, hits, camera)
-        colors = sitter.colors[list(arrangement.solid)]
+        colors = subject.colors[list(arrangement.solid)]
         marked = to_square_image(self._draw_page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
         taken: list[tuple[int, int, int, int]] = []
         if arrangement.close:
@@ -91,11 +91,11 @@ class LabelingCanvas:
         draw = ImageDraw.Draw(marked)
         numbered = self._write_numbers(draw, arrangement, items, camera, taken, top)
         draw_head(draw, self.size, arrangement.describe(view), camera, arrangement.view_frame.upright)
-        self._legend.draw(draw, numbered, sitter.colors)
+        self._legend.draw(draw, numbered, subject.colors)
         plain = self._draw_visual(arrangement, camera)
         if plain is None:
             plain = self._draw_page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
-        hulls = sitter.mesh.hulls
+        hulls = subject.mesh.hulls
         counts = count_pixels(items, len(hulls)).tolist()
         return LabelingPicture(
             arrangement.describe(view),
@@ -107,11 +107,11 @@ class LabelingCanvas:
 
     @cached_property
     def _legend(self) -> NumberLegend:
-        return NumberLegend(self.sitter.number_texts, self.size)
+        return NumberLegend(self.subject.number_texts, self.size)
 
     @cached_property
     def _number_sizes(self) -> dict[int, dict[int, TextSize]]:
-        return number_sizes(self.sitter.number_texts, self.size)
+        return number_sizes(self.subject.number_texts, self.size)
 
     @property
     def _line_width(self) -> int:
@@ -145,8 +145,8 @@ class LabelingCanvas:
         if visual is None:
             return None
         hits, steps = visual
-        page = draw_surfaces(hits, self.sitter.visuals[1], arrangement.view_frame, camera)
-        lay_ink(page, trace_ink(hits, self._line_width, steps, self.sitter.smooth))
+        page = draw_surfaces(hits, self.subject.visuals[1], arrangement.view_frame, camera)
+        lay_ink(page, trace_ink(hits, self._line_width, steps, self.subject.smooth))
         return page
 
     def _paste_inset(
@@ -170,7 +170,7 @@ class LabelingCanvas:
             column, row = ((first + last) / 2).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
         places = place_numbers(items, self._number_sizes, known, taken)
-        draw_numbers(draw, places, self.sitter.number_texts, self.sitter.colors, top)
+        draw_numbers(draw, places, self.subject.number_texts, self.subject.colors, top)
         return sorted(place.item for place in places)
 
 
@@ -195,15 +195,15 @@ def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
 
     size: pixels along the sides of the picture that it is put on.
     """
-    from PIL import ImageDraw
+    from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-    sitter, side = arrangement.sitter, round(_INSET_SHARE * size)
-    whole, about = Arrangement.in_place(sitter), Arrangement(sitter, arrangement.close, sitter.points)
+    subject, side = arrangement.subject, round(_INSET_SHARE * size)
+    whole, about = Arrangement.in_place(subject), Arrangement(subject, arrangement.close, subject.points)
     camera = whole.camera(view, (side, side))
     hits, shining = whole.cast_solid(camera), about.cast_solid(camera)
     page = draw_surfaces(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.view_frame, camera)
     lay_ink(page, trace_ink(hits, 2), 0.6)
-    lit = draw_surfaces(shining, sitter.colors[list(arrangement.close)], whole.view_frame, camera)
+    lit = draw_surfaces(shining, subject.colors[list(arrangement.close)], whole.view_frame, camera)
     page[shining.item >= 0] = lit[shining.item >= 0]
     image = to_square_image(page, side, 0)
     draw = ImageDraw.Draw(image)

@@ -33,7 +33,7 @@ _MANY = 1500  # triangles
 _CLEAR = 0.05  # visuals this little opaque are not drawn
 
 PREVIEW_SIZE = 128
-"""Pixels along the small pictures that tell what a sight shows."""
+"""Pixels along the small pictures that tell what a view shows."""
 _MARGIN = 0.06
 _FAR = 30.0  # hulls this many times the frame away from it are not drawn: rays are too short for them
 _HULLS_NAMED = 6  # hulls that a name lists one by one
@@ -98,7 +98,7 @@ class LabelingSubject:
 
     @cached_property
     def points(self) -> Floats:
-        """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any sight."""
+        """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
         return outermost_points(points_to_frame(self.render_meshes, [*self.visuals[0], *self.opaque]), self.up)
 
     @cached_property
@@ -106,16 +106,16 @@ class LabelingSubject:
         """The frame that the whole mesh is drawn in."""
         return ViewFrame(Aabb.of_points(self.points), up_vector(self.up))
 
-    def visual_scene(self, stage: ViewFrame) -> RayScene:
+    def visual_scene(self, view_frame: ViewFrame) -> RayScene:
         """The visual mesh, ready to be drawn in a frame."""
-        return self._whole_visual_scene if stage is self.view_frame else self._build_visual_scene(stage)
+        return self._whole_visual_scene if view_frame is self.view_frame else self._build_visual_scene(view_frame)
 
     @cached_property
     def _whole_visual_scene(self) -> RayScene:
         return self._build_visual_scene(self.view_frame)
 
-    def _build_visual_scene(self, stage: ViewFrame) -> RayScene:
-        return prepare_for_rays(build_scene(self.visuals[0], stage.bounds.center, stage.unit), None)
+    def _build_visual_scene(self, view_frame: ViewFrame) -> RayScene:
+        return prepare_for_rays(build_scene(self.visuals[0], view_frame.bounds.center, view_frame.unit), None)
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """The corners (n, 3) [m] of some hulls."""
@@ -128,29 +128,29 @@ class LabelingSubject:
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """A sitter's hulls as a picture shows them.
+    """A subject's hulls as a picture shows them.
 
     solid: the hulls that are drawn in full, all others faintly; frame: the points (k, 3) [m] that the picture holds;
     push: how far hulls stand away from the middle of all, beyond where they belong, as a share of that distance;
     close: the hulls that the picture is about, where it holds only a part of the mesh.
     """
 
-    sitter: LabelingSubject
+    subject: LabelingSubject
     solid: tuple[int, ...]
     frame: Floats
     push: float = 0.0
     close: tuple[int, ...] = ()
 
     @staticmethod
-    def in_place(sitter: LabelingSubject) -> Arrangement:
+    def in_place(subject: LabelingSubject) -> Arrangement:
         """All hulls in their places."""
-        return Arrangement(sitter, tuple(range(len(sitter.render_meshes))), sitter.points)
+        return Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points)
 
     @staticmethod
-    def explode(sitter: LabelingSubject, push: float) -> Arrangement:
+    def explode(subject: LabelingSubject, push: float) -> Arrangement:
         """All hulls, pushed away from the middle of all."""
-        every = tuple(range(len(sitter.render_meshes)))
-        moved = Arrangement(sitter, every, sitter.points, push)
+        every = tuple(range(len(subject.render_meshes)))
+        moved = Arrangement(subject, every, subject.points, push)
         return replace(moved, frame=np.concatenate([s.vertices for s in moved.render_meshes]))
 
     def describe(self, view: View) -> str:
@@ -158,7 +158,7 @@ class Arrangement:
         words = VIEW_WORDS[view]
         if self.push:
             return f"{words}, drawn apart"
-        if len(self.solid) < len(self.sitter.render_meshes):
+        if len(self.solid) < len(self.subject.render_meshes):
             return f"{_list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
         return f"{words}, close up of {_list_hulls(self.close)}" if self.close else words
 
@@ -166,22 +166,22 @@ class Arrangement:
     def render_meshes(self) -> list[RenderMesh]:
         """All hulls where they are drawn."""
         if not self.push:
-            return self.sitter.render_meshes
-        middles = self.sitter.box_centers
+            return self.subject.render_meshes
+        middles = self.subject.box_centers
         moves = self.push * (middles - (middles.min(axis=0) + middles.max(axis=0)) / 2)
-        return [replace(s, vertices=s.vertices + m) for s, m in zip(self.sitter.render_meshes, moves, strict=True)]
+        return [replace(s, vertices=s.vertices + m) for s, m in zip(self.subject.render_meshes, moves, strict=True)]
 
     @cached_property
     def view_frame(self) -> ViewFrame:
-        sitter = self.sitter
+        subject = self.subject
         return (
-            sitter.view_frame
-            if self.frame is sitter.points
-            else ViewFrame(Aabb.of_points(self.frame), up_vector(sitter.up))
+            subject.view_frame
+            if self.frame is subject.points
+            else ViewFrame(Aabb.of_points(self.frame), up_vector(subject.up))
         )
 
     def camera(self, view: View, size: tuple[int, int]) -> Camera:
-        return aim_camera(view, self.sitter.up, size, self.view_frame.to_unit(self.frame), _MARGIN)
+        return aim_camera(view, self.subject.up, size, self.view_frame.to_unit(self.frame), _MARGIN)
 
     def preview(self, view: View, shape: float = 1.0) -> ViewPreview:
         """What a small picture, `shape` times as high as wide, shows of each hull (n,)."""
@@ -205,9 +205,9 @@ class Arrangement:
         drawn alone: what is around them would hide all.
         """
         hidden = bool(self.close) and len(self.solid) < len(self.render_meshes)
-        if self.push or hidden or not self.sitter.visuals[0]:
+        if self.push or hidden or not self.subject.visuals[0]:
             return None
-        return cast_rays_with_steps(self.sitter.visual_scene(self.view_frame), camera)
+        return cast_rays_with_steps(self.subject.visual_scene(self.view_frame), camera)
 
     def hull_pixels(self, hits: RayHits) -> Ints:
         """The index of the hull that each pixel (h, w) shows in full, -1 for none."""
@@ -222,7 +222,7 @@ class Arrangement:
 
     @cached_property
     def _preview_scene(self) -> RayScene:
-        """The solid hulls for glimpses from all sides, in which it is no matter which of two in one place is seen."""
+        """The solid hulls for previews from all sides, in which it is no matter which of two in one place is seen."""
         return prepare_for_rays(self._solid_scene, None)
 
     @cached_property
@@ -230,10 +230,10 @@ class Arrangement:
         near = self.view_frame.bounds
         reach = _FAR * self.view_frame.unit
         others = sorted(set(range(len(self.render_meshes))) - set(self.solid))
-        low, high = self.sitter.mesh.corners
+        low, high = self.subject.mesh.corners
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
-        skins = [self.render_meshes[k] for k in near_by] + ([] if self.push else self.sitter.opaque)
-        return prepare_for_rays(build_scene(skins, near.center, self.view_frame.unit), None)
+        render_meshes = [self.render_meshes[k] for k in near_by] + ([] if self.push else self.subject.opaque)
+        return prepare_for_rays(build_scene(render_meshes, near.center, self.view_frame.unit), None)
 
 
 def _list_hulls(hulls: tuple[int, ...]) -> str:

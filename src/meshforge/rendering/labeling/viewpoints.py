@@ -27,19 +27,19 @@ VIEW_WORDS: Mapping[View, str] = {
     "back-left-below": "from the back left, below",
     "back-right-below": "from the back right, below",
 }
-"""What each sight is called; those that people know things best by come first."""
+"""What each view is called; those that people know things best by come first."""
 VIEW_PREFERENCES: Mapping[View, float] = {view: 1.0 - 0.015 * k for k, view in enumerate(VIEW_WORDS)}
-"""How much each sight is liked: one from below must show clearly more to be preferred."""
+"""How much each view is liked: one from below must show clearly more to be preferred."""
 FIRST_VIEWS: tuple[View, ...] = ("front-right-above", "front-left-above", "back-left-above", "back-right-above")
-"""The sights that tell best what a thing is, one of which is always drawn."""
+"""The views that tell best what a thing is, one of which is always drawn."""
 _WELL = 1 / 250  # the share of a picture from which on a hull is seen as well as it needs to be
 
-_AGAIN = 0.25  # what a second good sight of a hull is worth
-_WORTHLESS = 0.05  # a sight that adds less than this a hull is not drawn
+_AGAIN = 0.25  # what a second good view of a hull is worth
+_WORTHLESS = 0.05  # a view that adds less than this a hull is not drawn
 
 
 def outermost_points(points: Floats, up: Up) -> Floats:
-    """Those of points (n, 3) that are the outermost in a picture from some sight."""
+    """Those of points (n, 3) that are the outermost in a picture from some view."""
     along = np.concatenate([axes_of(view, up)[:2] for view in VIEW_WORDS]) @ points.T
     kept: Floats = points[np.unique(np.concatenate([along.argmin(axis=1), along.argmax(axis=1)]))]
     return kept
@@ -69,7 +69,7 @@ class ViewPreview:
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
-    """At most so many sights, the most telling first; quality: how well each shows each hull (n,), from 0 to 1."""
+    """At most so many views, the most telling first; quality: how well each shows each hull (n,), from 0 to 1."""
     taken: list[View] = []
     while len(taken) < min(most, len(quality)):
         before = _value_of(taken, quality)
@@ -82,7 +82,7 @@ def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
 
 
 def _value_of(views: Sequence[View], quality: Mapping[View, Floats]) -> float:
-    """What the best two sights of each hull are worth."""
+    """What the best two views of each hull are worth."""
     if not views:
         return 0.0
     ranked = np.sort([quality[view] for view in views], axis=0)[::-1]

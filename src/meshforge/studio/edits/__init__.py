@@ -6,37 +6,26 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.studio.edits.assets import CorrectByHand, CutHull, DropCorrections, ReviewAssets, Unprepare
-from meshforge.studio.edits.labels import LabelFromFiles, LabelFromNames, LabelHulls, RenameLabel, SetVocabulary
-from meshforge.studio.edits.program import (
-    AnswerQuestion,
-    DeleteRule,
-    MoveRule,
-    SetOrientation,
-    SetSteps,
-    SettleRepair,
-    TakeBack,
-    WriteProgram,
-)
+from meshforge.studio.edits import assets, labels, program
 
 AnyEdit = Annotated[
-    LabelHulls
-    | LabelFromFiles
-    | LabelFromNames
-    | SetVocabulary
-    | RenameLabel
-    | SetSteps
-    | MoveRule
-    | DeleteRule
-    | SetOrientation
-    | AnswerQuestion
-    | SettleRepair
-    | TakeBack
-    | WriteProgram
-    | CutHull
-    | Unprepare
-    | ReviewAssets
-    | CorrectByHand
-    | DropCorrections,
+    labels.LabelHulls
+    | labels.LabelFromFiles
+    | labels.LabelFromNames
+    | labels.SetVocabulary
+    | labels.RenameLabel
+    | program.SetSteps
+    | program.MoveRule
+    | program.DeleteRule
+    | program.SetOrientation
+    | program.AnswerQuestion
+    | program.SettleRepair
+    | program.TakeBack
+    | program.WriteProgram
+    | assets.CutHull
+    | assets.Unprepare
+    | assets.ReviewAssets
+    | assets.CorrectByHand
+    | assets.DropCorrections,
     Field(discriminator="kind"),
 ]

@@ -139,7 +139,7 @@ class LearningScheduler:
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
         try:
             reach = future.result()
-        except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured anew
+        except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
             return
         if number == self._number:
             self._pages.set_reach(number, reach)
@@ -165,9 +165,7 @@ class Learner:
         A run that is interrupted has the status `timeout`; one that fails has an error.
         """
         self.interrupt()
-        return self._queue.put(
-            "learn", process.learn, self._folder, self._cancel_flag.make_token("learn"), number, take
-        )
+        return self._put("learn", process.learn, number, take)
 
     def reach(self, program: str) -> Future[tuple[Reach, ...]]:
         """What a program does on every asset that `process.compute_reach` looks at.
@@ -175,20 +173,15 @@ class Learner:
         Raises ProgramError for a text that is no program, or a template that is not there.
         """
         self._cancel_flag.cancel("reach")
-        return self._queue.put(
-            "reach", process.compute_reach, self._folder, self._cancel_flag.make_token("reach"), program
-        )
+        return self._put("reach", process.compute_reach, program)
 
     def generalise(self, extractor: str, rule: int, program: str | None) -> Future[Generalised]:
-        """What an extractor selects on the same assets as a rule of that number meets them, after those of a program.
+        """What an extractor selects on these assets before the rule of that number, after the rules before it.
 
         Raises ProgramError for a text that is no extractor.
         """
         self._cancel_flag.cancel("generalise")
         return self._put("generalise", process.generalise, extractor, rule, program)
-
-    def _put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
-        return self._queue.put(kind, function, self._folder, self._cancel_flag.make_token(kind), *args)
 
     def interrupt(self) -> None:
         """End the learning run and the reach that are under way, soon."""
@@ -199,3 +192,6 @@ class Learner:
         self._queue.close()
         self._workers.close()
         self._cancel_flag.close()
+
+    def _put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
+        return self._queue.put(kind, function, self._folder, self._cancel_flag.make_token(kind), *args)

@@ -24,8 +24,8 @@ PacketRow = tuple[wire.ShapeRow, RenderMesh]
 
 def pack_asset(mesh: SymbolicMesh) -> bytes:
     """The shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
-    opaque = [(piece.name, piece.surface) for piece in mesh.asset.opaque if piece.surface] if mesh.asset else []
-    return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(name, surface) for name, surface in opaque)])
+    pieces = mesh.asset.opaque if mesh.asset else ()
+    return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(p.name, p.surface) for p in pieces if p.surface)])
 
 
 def pack_visual(mesh: SymbolicMesh) -> bytes:

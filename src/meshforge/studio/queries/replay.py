@@ -62,12 +62,13 @@ class AssetReplay:
         number = len(self.results) + 1
 
         def change() -> _Change:
-            return _Change.of(self.mesh, language.apply_action(self.mesh, mask, action, templates, label, self.used))
+            done = language.apply_action(self.mesh, mask, action, templates, label, self.used)
+            return _Change(None if done.mesh is self.mesh else done.mesh, done.made, done.note, done.used)
 
-        kept = again and not action.templates  # files may change
+        is_cached = again and not action.templates  # files may change
         key = (mask, action, label, self.used)
         try:
-            done = memoize(self.mesh, key, _Change, change) if kept else change()
+            done = memoize(self.mesh, key, _Change, change) if is_cached else change()
         except MeshForgeError as error:
             raise error.at(f"{self.asset}, rule {number}") from None
         mesh = done.mesh or self.mesh
@@ -101,11 +102,6 @@ class _Change:
     made: tuple[str, ...]
     note: str | None
     used: frozenset[str]
-
-    @staticmethod
-    def of(before: SymbolicMesh, applied: language.ActionResult) -> _Change:
-        mesh = None if applied.mesh is before else applied.mesh
-        return _Change(mesh, applied.made, applied.note, applied.used)
 
 
 def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> AssetReplay:

@@ -1,4 +1,4 @@
-"""Cards and the view of the project, made anew in the background after every change."""
+"""Makes cards and the view of the project in the background after every change."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def initial_view(project: Project) -> ProjectView:
 class Refresher:
     """Makes cards and the view of the project, and shows how far the first reading is.
 
-    project: the project that is open at the time; queue: what is to be refreshed, worked off in its thread.
+    project: gives the project that is open now; queue: the assets that are still to be refreshed.
     """
 
     def __init__(
@@ -136,11 +136,11 @@ class RefreshQueue:
             return len(self._urgent | self._rest)
 
     def is_closed(self) -> bool:
-        """Whether what is being done is to stop."""
+        """Whether the queue is closed, so that the refresh that is running is to stop."""
         return self._closed
 
     def close(self) -> None:
-        """Stop, and wait for the end of what is being done."""
+        """Stop, and wait for the end of the refresh that is running."""
         with self._wake:
             self._closed = True
             self._wake.notify()

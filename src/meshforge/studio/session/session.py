@@ -164,7 +164,7 @@ class Session:
                 self.announce((self.history.last_entry,), "edit")
 
     def note_output(self, asset: str) -> None:
-        """The output of an asset was written anew."""
+        """The output of an asset was written."""
         self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
 
     def update(self, names: Iterable[str]) -> None:
@@ -194,8 +194,8 @@ class Session:
     def _end_learning(self, lesson: LessonView) -> None:
         """A learning run is over: it wrote its program, unless a person's is there."""
         with self._mutex:
-            taking, self._take_learned = self._take_learned, False
-            if taking and lesson.program and self.learning.is_latest(lesson.number):
+            take, self._take_learned = self._take_learned, False
+            if take and lesson.program and self.learning.is_latest(lesson.number):
                 self.edit(TakeLearned())
                 return
             self._file_sync.show_program()

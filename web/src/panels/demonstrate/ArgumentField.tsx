@@ -190,7 +190,7 @@ interface FieldProps {
   hint?: string;
   /** Whether the name stands beside the control. */
   inline?: boolean;
-  /** Whether only screen readers are told the name. */
+  /** Whether the name is for screen readers only. */
   hidden?: boolean;
   children: ReactNode;
 }

@@ -40,7 +40,7 @@ function Preparation() {
   const view = useAssetView();
   if (!view) return null;
   return (
-    <Section title="Preparing this asset">
+    <Section title="Prepare this asset">
       <div className={css.buttons}>
         <Split />
         <Decompose asset={view.asset} pieces={view.opaque.length} />
@@ -53,7 +53,7 @@ function Preparation() {
             ))}
           </ol>
           <Button icon={Undo2} onClick={() => void perform({ kind: "unprepare", asset: view.asset })}>
-            Take back the last
+            Undo the last
           </Button>
         </>
       )}
@@ -65,7 +65,7 @@ function Split() {
   const cutting = useWorkspace((workspace) => workspace.tool === "cut");
   const one = useWorkspace((workspace) => workspace.selection.size === 1);
   if (cutting) return <Button onClick={() => setTool("select")}>Stop splitting</Button>;
-  if (!one) return <p className={css.hint}>To split a hull by a plane, select it alone.</p>;
+  if (!one) return <p className={css.hint}>To split a hull by a plane, select only that hull.</p>;
   return (
     <Button icon={Slice} onClick={startCut} tip="By a plane, before any step" keys="K">
       Split the selected hull
@@ -78,13 +78,13 @@ function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
   const sources = useProject((state) => state.cards[asset]?.sources ?? 0);
   const busy = useProject((state) => state.jobs.some((job) => job.kind === "decompose" && job.state === "running"));
   if (!sources) return null;
-  const what = pieces ? countText(pieces, "piece") : "what has none";
+  const what = pieces ? countText(pieces, "piece") : "geometry without hulls";
   return (
     <Button
       icon={Boxes}
       disabled={busy}
       onClick={() => void api.startJob({ kind: "decompose", assets: [asset] }).catch(reportError)}
-      tip="Makes convex hulls of geometry that has none"
+      tip="Decompose geometry without hulls into convex hulls"
     >
       {busy ? "Making hulls…" : `Make hulls of ${what}`}
     </Button>

@@ -49,7 +49,7 @@ function isAcceptKey({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): 
 function Hint() {
   const selected = useWorkspace((workspace) => workspace.selection.size);
   return (
-    <p className={css.hint}>{selected ? "Choose what happens to them." : "Select hulls in the view, then choose."}</p>
+    <p className={css.hint}>{selected ? "Choose an action." : "Select hulls in the view, then choose an action."}</p>
   );
 }
 
@@ -80,13 +80,13 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
         Each connected part separately
       </CheckBox>
       {form.makes && (
-        <Field name="Label of what is made" inline>
+        <Field name="Label of new hulls" inline>
           <LabelSelect value={draft.label} onChange={(label) => changeDraft({ label })} />
         </Field>
       )}
       {!isReview && <RulePlace draft={draft} form={form} />}
       <div className={css.ending}>
-        <PreviewNote lacking={lacking ? `Still needed: ${lacking.wants}.` : null} />
+        <PreviewNote lacking={lacking ? `Missing: ${lacking.wants}.` : null} />
         <div className={css.buttons}>
           <Button
             type="submit"
@@ -98,7 +98,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           >
             {isReview ? "Keep this edit" : draft.editing === null ? "Add step" : `Keep as step ${draft.editing + 1}`}
           </Button>
-          <Button onClick={() => void dropDraft().catch(reportError)} keys="Esc" tip="Put the action down">
+          <Button onClick={() => void dropDraft().catch(reportError)} keys="Esc" tip="Cancel the action">
             Cancel
           </Button>
         </div>
@@ -171,7 +171,7 @@ function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
       <Field name="Rule" inline>
         <select
           className={css.input}
-          aria-label="Rule that it shows"
+          aria-label="Rule that it demonstrates"
           value={draft.editing ?? "new"}
           onChange={(event) =>
             changeDraft({ editing: event.target.value === "new" ? null : Number(event.target.value) })
@@ -190,7 +190,7 @@ function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
   );
 }
 
-/** A rule does the same everywhere: told where it would not. */
+/** A rule does the same everywhere: warns where it would not. */
 function Differs({ place, text }: { place: number; text: string }) {
   const asset = useWorkspace((workspace) => workspace.asset);
   const rule = useProject((state) => state.project.rules[place]);
@@ -198,10 +198,10 @@ function Differs({ place, text }: { place: number; text: string }) {
   if (!rule || rule.action === text || !others.length) return null;
   return (
     <Note mood="warn">
-      A rule does the same everywhere; on {listText(others.map(shortName), 2)} this one is {rule.action}.
+      A rule does the same on every asset. On {listText(others.map(shortName), 2)} this rule is {rule.action}.
       <div className={css.buttons}>
-        <Button onClick={() => changeDraft({ editing: null })}>Make it a new rule</Button>
-        <Button onClick={() => void changeActionOn(others, place, text)}>Change it there, too</Button>
+        <Button onClick={() => changeDraft({ editing: null })}>Make this a new rule</Button>
+        <Button onClick={() => void changeActionOn(others, place, text)}>Change it there too</Button>
       </div>
     </Note>
   );
@@ -213,11 +213,11 @@ function LabelSelect({ value, onChange }: { value: string; onChange: (value: str
   return (
     <select
       className={css.input}
-      aria-label="Label of what is made"
+      aria-label="Label of new hulls"
       value={value}
       onChange={(event) => onChange(event.target.value)}
     >
-      <option value="">as what it is made of</option>
+      <option value="">same as its source</option>
       {vocabulary.map(({ name }) => (
         <option key={name} value={name}>
           {name}

@@ -28,7 +28,7 @@ export function FamilyRules() {
   const open = openPlaces(rules, view);
   const said = rules.length - open.length;
   return (
-    <Section title="Rules of the family" aside={loading ? "guessing…" : `${said} of ${rules.length} shown here`}>
+    <Section title="Rules of the family" aside={loading ? "guessing…" : `${said} of ${rules.length} demonstrated here`}>
       {error && open.length > 0 && <Note mood="warn">No guesses: {error}</Note>}
       <ol className={css.rules}>
         {rules.map((rule, place) => (
@@ -43,7 +43,7 @@ export function FamilyRules() {
         ))}
       </ol>
       {!open.length && rules.length > 0 && (
-        <p className={css.hint}>All rules are shown on this asset. Another one may show a case that differs.</p>
+        <p className={css.hint}>All rules are demonstrated on this asset. Demonstrate a different case on another asset.</p>
       )}
     </Section>
   );
@@ -80,7 +80,7 @@ function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
       <button
         type="button"
         className={css.ruleText}
-        title={isOpen ? "Show it here" : "Change what is shown here"}
+        title={isOpen ? "Demonstrate it here" : "Change this step"}
         onClick={() => runInTurn(() => draftStep(place, isOpen ? guess?.select : undefined))}
         onFocus={() => highlightStep(view, names, place)}
         onBlur={clearStepHighlight}
@@ -134,7 +134,7 @@ function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
           </Button>
         )}
         <Button onClick={() => runInTurn(() => draftStep(place, sound?.select))} tip="Select the hulls yourself">
-          {count ? "Correct…" : "Show it…"}
+          {count ? "Correct…" : "Demonstrate…"}
         </Button>
         {isNext && (count > 0 || !sound) && (
           <Button

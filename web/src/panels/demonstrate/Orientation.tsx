@@ -1,4 +1,4 @@
-// Which way is up on every asset: told by landmarks, which are clicked, or written as text.
+// Which way is up on every asset: set by landmarks, which are clicked, or written as text.
 import { Crosshair, Pencil, X } from "lucide-react";
 import { type FormEvent, useEffect, useState } from "react";
 import { startLandmarks } from "../../commands/demonstrate";
@@ -27,13 +27,13 @@ export function Orientation() {
   const unturned = useAssetView()?.unturned;
   const [writing, setWriting] = useState(false);
   const directive = parseDirective(text);
-  const edit = <IconButton icon={Pencil} name="Write it as text" on={writing} onClick={() => setWriting(!writing)} />;
+  const edit = <IconButton icon={Pencil} name="Write as text" on={writing} onClick={() => setWriting(!writing)} />;
   return (
     <Section title="Orientation" aside={edit}>
       <p className={text ? undefined : css.hint}>
-        {sentence || "Directions are those of the files. If assets lie in different ways, tell which way is up:"}
+        {sentence || "Directions are those of the files. If the assets lie in different directions, set which way is up:"}
       </p>
-      {unturned && <Note mood="warn">This asset cannot be turned: {unturned}</Note>}
+      {unturned && <Note mood="warn">This asset cannot be oriented: {unturned}</Note>}
       {writing ? (
         <OrientationText text={text} onDone={() => setWriting(false)} />
       ) : (
@@ -61,7 +61,7 @@ function Pairs({ directive }: { directive: Directive }) {
             </span>
             <IconButton
               icon={X}
-              name={`Take ${pair.direction} away`}
+              name={`Remove ${pair.direction}`}
               onClick={() => orient(withoutPair(directive, k))}
             />
           </li>
@@ -87,9 +87,9 @@ function LandmarkClicks({ directive }: { directive: Directive }) {
       <Button
         icon={Crosshair}
         onClick={startLandmarks}
-        tip="Click a hull at the start and one at the end of a direction"
+        tip="Click a hull where the direction starts and one where it ends"
       >
-        {directive.pairs.length ? "Another direction by clicking" : "Tell it by clicking"}
+        {directive.pairs.length ? "Set another by clicking" : "Set by clicking"}
       </Button>
     );
   }
@@ -168,7 +168,7 @@ function OrientationText({ text, onDone }: { text: string; onDone: () => void })
           onDone();
         }}
       />
-      <p className={css.hint}>A direction, a colon, from where to where; a second pair after a comma. Empty: none.</p>
+      <p className={css.hint}>Direction, colon, start -&gt; end; a second pair after a comma. Empty: no orientation.</p>
       <div className={css.buttons}>
         <Button look="primary" type="submit">
           Save

@@ -19,7 +19,7 @@ import css from "./getLabels.module.css";
 export function GetLabels() {
   const { files, names, model } = useSources();
   return (
-    <Section title="Ways to get labels">
+    <Section title="Get labels">
       <ul className={css.ways}>
         <FromAssets />
         <FromFiles files={files} />
@@ -81,7 +81,7 @@ function FromFiles({ files }: { files: number }) {
     <Button
       onClick={() => void perform({ kind: "label-files" })}
       aria-label={`From files ${beside}: take`}
-      tip="Take over the labels files that lie beside the assets"
+      tip="Use the labels files beside the assets"
     >
       Take
     </Button>
@@ -97,7 +97,7 @@ function FromNames({ names }: { names: number }) {
     <Button
       onClick={() => void perform({ kind: "label-names" })}
       aria-label={`From names ${of}: take`}
-      tip="Where the name of a hull or of its body holds a label"
+      tip="Use labels found in the names of hulls and bodies"
     >
       Take
     </Button>
@@ -107,7 +107,7 @@ function FromNames({ names }: { names: number }) {
 
 const PROPAGATE_TITLE = "From labelled assets";
 
-/** Labels carried over from the assets that a person or a file has labelled to all others. */
+/** Labels propagated from the assets that a person or a file has labelled to all others. */
 function FromAssets() {
   const job = useJob("propagate");
   if (job?.state === "running") return <PropagateRunning job={job} />;
@@ -124,11 +124,11 @@ function PropagateReady({ job }: { job: Job | null }) {
       look={why === null && (!carried || unused > 0) ? "primary" : "plain"}
       disabled={why !== null}
       onClick={() => void propagateLabels()}
-      aria-label={carried ? "Carry labels over again" : "Carry labels over"}
-      tip="Label all other hulls as those that are most like them"
+      aria-label={carried ? "Propagate labels again" : "Propagate labels"}
+      tip="Label all other hulls like the labelled hulls that they resemble most"
       keys="P"
     >
-      {carried ? "Carry over again" : "Carry over"}
+      {carried ? "Propagate again" : "Propagate"}
     </Button>
   );
   const text = why ?? (carried ? sinceThen(unused) : given);
@@ -142,23 +142,23 @@ function PropagateReady({ job }: { job: Job | null }) {
 }
 
 const sinceThen = (unused: number): string =>
-  unused ? `${countText(unused, "label")} not used yet` : "All you labelled is used";
+  unused ? `${countText(unused, "label")} not propagated yet` : "All your labels are propagated";
 
 function useGiven(): string {
   const { given, assets } = givenLabels(useProject((state) => state.cards));
   return `${countText(given, "label")} on ${countText(assets, "asset")}`;
 }
 
-/** The asset that would help most if it were labelled. */
+/** The asset that helps most if you label it. */
 function Best({ asset }: { asset: string }) {
   const isOpen = useWorkspace((workspace) => workspace.asset === asset);
   return (
     <div className={css.best}>
-      <span title={`${asset} would help most if it were labelled`}>
-        Best labelled next: <b>{asset}</b>
+      <span title={`${asset} helps most if you label it`}>
+        Label next: <b>{asset}</b>
       </span>
       {!isOpen && (
-        <IconButton icon={ArrowRight} name={`Open ${asset}, and label it`} onClick={() => openAsset(asset)} />
+        <IconButton icon={ArrowRight} name={`Open ${asset} and label it`} onClick={() => openAsset(asset)} />
       )}
     </div>
   );
@@ -169,7 +169,7 @@ function PropagateRunning({ job }: { job: Job }) {
   const reading = job.done < job.total;
   const text = reading ? `Reading assets: ${job.done} of ${job.total}` : "Comparing all hulls…";
   const stop = (
-    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop carrying labels over">
+    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop propagating labels">
       Stop
     </Button>
   );
@@ -204,7 +204,7 @@ function FromModel({ model }: { model: Model | null }) {
   const [chosen, setChosen] = useState<Chosen>({ mode: model?.mode ?? "balanced", limit, forecast: null });
   if (asking?.state === "running") return <ModelRunning job={asking} stop="Stop asking" />;
   if (counting?.state === "running") return <ModelRunning job={counting} stop="Stop counting" />;
-  if (!model) return <SourceRow icon={Eye} title={MODEL_TITLE} text="Name one under [vlm] in meshforge.toml" action={null} />;
+  if (!model) return <SourceRow icon={Eye} title={MODEL_TITLE} text="Set a model under [vlm] in meshforge.toml" action={null} />;
   return <ModelReady model={model} asked={asking} chosen={chosen} choose={(next) => setChosen({ ...chosen, ...next })} />;
 }
 
@@ -218,9 +218,9 @@ interface ModelReadyProps {
 function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
   const { mode, limit, forecast } = chosen;
   const vocabulary = useProject((state) => state.project.vocabulary.join("\n"));
-  const told = useProject((state) => state.jobs.find((job) => job.id === forecast?.job) ?? null);
+  const forecastJob = useProject((state) => state.jobs.find((job) => job.id === forecast?.job) ?? null);
   const isFor = forecast?.mode === mode && forecast.vocabulary === vocabulary;
-  const isTold = isFor && told?.state === "done";
+  const isKnown = isFor && forecastJob?.state === "done";
   const most = limit.trim() === "" ? null : Number(limit);
   const isLimit = most === null || (Number.isFinite(most) && most >= 0);
 
@@ -231,7 +231,7 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
   async function ask() {
     if (await askModel(mode, most)) choose({ forecast: null });
   }
-  const action = isTold ? (
+  const action = isKnown ? (
     <Button look="primary" disabled={!isLimit} onClick={() => void ask()} aria-label={`Ask ${model.name}`}>
       Ask
     </Button>
@@ -262,9 +262,9 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
           </label>
         </div>
       )}
-      {isTold && <Note>{told.message}</Note>}
-      {isFor && told?.state === "failed" && <Note mood="bad">{told.message}</Note>}
-      {asked && !isTold && <Note mood={MOODS[asked.state]}>{asked.message}</Note>}
+      {isKnown && <Note>{forecastJob.message}</Note>}
+      {isFor && forecastJob?.state === "failed" && <Note mood="bad">{forecastJob.message}</Note>}
+      {asked && !isKnown && <Note mood={MOODS[asked.state]}>{asked.message}</Note>}
     </SourceRow>
   );
 }

@@ -28,7 +28,7 @@ function Brush() {
   return (
     <div className={css.brush} role="status">
       <Note>
-        <span>Painting {brush ? <strong>{brush}</strong> : "labels away"}: click hulls, or drag over them.</span>
+        <span>Painting {brush ? <strong>{brush}</strong> : "no label"}: click hulls, or drag over them.</span>
         <Button look="quiet" onClick={() => setBrush(null)} keys="Esc" tip="Select again">
           Stop
         </Button>
@@ -71,7 +71,7 @@ function UnsureHull({ hull }: { hull: SceneHull }) {
           look="primary"
           icon={Check}
           onClick={() => void confirmLabels()}
-          tip="It is right; go on to the next"
+          tip="Confirm the label and go to the next"
           keys="Enter"
         >
           Right

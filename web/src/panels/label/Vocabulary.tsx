@@ -21,7 +21,7 @@ export function Vocabulary() {
   return (
     <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
       {vocabulary.length === 0 && (
-        <Note>What are the parts called? Type their names: the same ones on every asset.</Note>
+        <Note>Type the names of the parts. They are the same on every asset.</Note>
       )}
       <ul className={css.labels}>
         {vocabulary.map((label, place) => (
@@ -89,7 +89,7 @@ function AddLabels({ names }: { names: readonly string[] }) {
       <IconButton icon={Plus} name="Add labels" type="submit" disabled={labels.length === names.length} />
       {known && (
         <p role="status" className={css.known}>
-          It is in the list already.
+          This label is in the list already.
         </p>
       )}
     </form>

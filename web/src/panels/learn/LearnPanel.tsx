@@ -58,7 +58,7 @@ function LearnHead() {
           look={wanted ? "primary" : "plain"}
           icon={GraduationCap}
           disabled={!taught}
-          tip={taught ? "Learn the program from all that was shown and said" : "Show the steps on an asset first"}
+          tip={taught ? "Learn the program from your demonstrations and answers" : "Demonstrate the steps on an asset first"}
           keys="Ctrl+Enter"
           onClick={() => void learnNow()}
         >
@@ -80,7 +80,7 @@ function LearnState() {
       <Icon size={18} aria-hidden className={learning ? css.spinning : undefined} />
       <div>
         <strong>{learning ? "Learning…" : said.title}</strong>
-        {said.more && <p>{learning ? "What stands below is from before." : said.more}</p>}
+        {said.more && <p>{learning ? "The program below is the previous one." : said.more}</p>}
       </div>
     </div>
   );
@@ -96,10 +96,10 @@ const MOOD_ICONS: Record<Summary["mood"], typeof Check> = {
 /** Which asset is best demonstrated next. */
 function NextDemonstration({ hint }: { hint: HintView }) {
   return (
-    <Section title="To be surer">
+    <Section title="Next demonstration">
       <div className={css.split}>
         <p>
-          Best to demonstrate next: <strong title={hint.asset}>{shortName(hint.asset)}</strong>
+          Demonstrate next: <strong title={hint.asset}>{shortName(hint.asset)}</strong>
           <span className={css.dim}> ({hint.why})</span>
         </p>
         <Button icon={ArrowRight} aria-label={`Demonstrate ${hint.asset}`} onClick={() => demonstrate(hint.asset)}>
@@ -119,7 +119,7 @@ function AnswerList() {
   const stale = useProject((state) => state.lesson?.stale);
   if (!said.length) return null;
   return (
-    <Section title="Said so far" aside={countText(said.length, "thing")}>
+    <Section title="Your answers" aside={countText(said.length, "answer")}>
       <ul className={css.said}>
         {said.map((line) => (
           <AnswerRow key={`${line.kind} ${line.id}`} line={line} stale={stale?.includes(line.id) ?? false} />
@@ -136,9 +136,9 @@ function AnswerRow({ line, stale }: { line: Said; stale: boolean }) {
       <Icon size={14} aria-label={KINDS[line.kind]} />
       <span title={line.asset}>
         {line.text}
-        {stale && <em className={css.stale}> no longer fits what is there, and is left out</em>}
+        {stale && <em className={css.stale}> no longer fits the demonstrations and is ignored</em>}
       </span>
-      <IconButton icon={CornerUpLeft} name={`Take back: ${line.text}`} onClick={() => void withdraw(line.id)} />
+      <IconButton icon={CornerUpLeft} name={`Withdraw: ${line.text}`} onClick={() => void withdraw(line.id)} />
     </li>
   );
 }
@@ -160,7 +160,7 @@ function NoProgram({ lesson }: { lesson: LessonView }) {
       {orient && (
         <div className={css.split}>
           <p>
-            With another orientation every rule can be told: <code className={css.code}>{orient}</code>
+            With another orientation every rule can be expressed: <code className={css.code}>{orient}</code>
           </p>
           <Button icon={RotateCw} onClick={() => void orientBy(orient)}>
             Use it
@@ -181,8 +181,8 @@ function Nearest({ nearest }: { nearest: NearestView }) {
       <p>
         On <span title={asset}>{shortName(asset)}</span> it
       </p>
-      <Difference nearest={nearest} names={extra} what="takes too much" />
-      <Difference nearest={nearest} names={missing} what="leaves out" />
+      <Difference nearest={nearest} names={extra} what="selects too much:" />
+      <Difference nearest={nearest} names={missing} what="misses" />
     </div>
   );
 }

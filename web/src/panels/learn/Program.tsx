@@ -17,7 +17,7 @@ export function ProgramSection() {
   const there = useProject((state) => state.program.text.trim() !== "" || state.program.error !== null);
   const edit = (
     <Button look="quiet" icon={Pencil} onClick={() => setEditing(true)}>
-      {there ? "Edit as text" : "Write it"}
+      {there ? "Edit as text" : "Write as text"}
     </Button>
   );
   return (
@@ -56,7 +56,7 @@ function LostResults() {
   const first = overruled?.[0];
   if (!first) return null;
   const some = overruled.length === 1 ? `the accepted result of ${shortName(first)}` : `${overruled.length} accepted results`;
-  return <Note mood="warn">No program does what is demonstrated and keeps {some}: it was learned without, look there again.</Note>;
+  return <Note mood="warn">No program fits the demonstrations and keeps {some}. The program ignores them: review them again.</Note>;
 }
 
 function HandWritten() {
@@ -64,8 +64,8 @@ function HandWritten() {
   return (
     <Note>
       <div className={css.split}>
-        <span>Written by hand; lessons don’t change it.</span>
-        {differs && <Button onClick={() => void learnNow()}>Use the learned one</Button>}
+        <span>Written by hand: learning does not change it.</span>
+        {differs && <Button onClick={() => void learnNow()}>Use the learned program</Button>}
       </div>
     </Note>
   );
@@ -74,7 +74,7 @@ function HandWritten() {
 function Outdated() {
   const learning = useProject((state) => state.learning);
   if (learning) return null;
-  return <Note mood="warn">Out of date: what it was learned from has changed, and nothing new could be learned yet.</Note>;
+  return <Note mood="warn">Out of date: the demonstrations changed, and no new program is learned yet.</Note>;
 }
 
 /** Where the program does not run. */

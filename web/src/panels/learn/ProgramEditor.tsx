@@ -29,7 +29,7 @@ export function ProgramEditor({ onClose }: { onClose: () => void }) {
           Line {mark.line}, column {mark.column}: {mark.message}
         </Note>
       )}
-      {elsewhere && <Note mood="warn">It was changed elsewhere meanwhile: copy your text, cancel, and edit again.</Note>}
+      {elsewhere && <Note mood="warn">Another window changed the program: copy your text, cancel, and edit again.</Note>}
       <div className={css.row}>
         <Button
           look="primary"

@@ -24,16 +24,16 @@ export function QuestionCard({ question }: { question: QuestionView }) {
         ))}
       </div>
       <div className={css.row}>
-        <Button tip="Neither is right; the next lesson looks for another reading" keys="N" onClick={() => void answer(question, null)}>
+        <Button tip="Neither is right: MeshForge looks for another reading" keys="N" onClick={() => void answer(question, null)}>
           Neither
         </Button>
         <Button
           look="quiet"
           icon={Crosshair}
-          tip="Open this asset with the hulls selected that it is about"
+          tip="Open this asset and select the hulls in question"
           onClick={() => showQuestion(question)}
         >
-          Show me there
+          Show in the view
         </Button>
       </div>
       <p className={css.dim}>{worthText(harm)}</p>
@@ -42,7 +42,7 @@ export function QuestionCard({ question }: { question: QuestionView }) {
 }
 
 function worthText(harm: number): string {
-  return `Without an answer ${shareText(harm)} would come out wrong.`;
+  return `Without an answer ${shareText(harm)} would be edited wrongly.`;
 }
 
 function answerByKey(event: KeyboardEvent, question: QuestionView): void {
@@ -82,7 +82,7 @@ function ChoiceButton({ question, place, picture }: { question: QuestionView; pl
           <kbd>{place + 1}</kbd> {choiceText(choices, place)}
         </strong>
         <span className={css.dim}>{choice.sentence}</span>
-        {hidden.length > 0 && <span className={css.facts}>{listText(hidden, 2)} not in sight here</span>}
+        {hidden.length > 0 && <span className={css.facts}>{listText(hidden, 2)} not visible here</span>}
       </span>
     </button>
   );

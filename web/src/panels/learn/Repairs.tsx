@@ -28,7 +28,7 @@ function RepairCard({ repair }: { repair: RepairView }) {
   return (
     <article className={css.repair} aria-label={`${hull} of ${asset}`}>
       <div className={css.repairPicture}>
-        <HullsPicture picture={picture} hulls={hulls} label={`${shortName(asset)} with ${hull} pointed out`} />
+        <HullsPicture picture={picture} hulls={hulls} label={`${shortName(asset)} with ${hull} highlighted`} />
       </div>
       <div className={css.repairText}>
         <p>
@@ -49,7 +49,7 @@ function RepairCard({ repair }: { repair: RepairView }) {
         <Button look="primary" icon={Check} onClick={() => void answerRepair(repair, true)}>
           Accept
         </Button>
-        <Button icon={X} tip="The label is right as it is; it is not proposed again" onClick={() => void answerRepair(repair, false)}>
+        <Button icon={X} tip="The label is right; this repair is not proposed again" onClick={() => void answerRepair(repair, false)}>
           Reject
         </Button>
         <Button look="quiet" icon={Crosshair} tip="Open the asset with this hull selected" onClick={() => showRepair(repair)}>

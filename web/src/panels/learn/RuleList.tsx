@@ -28,7 +28,7 @@ export function RuleList() {
     );
   }
   if (program.error) return null;
-  if (!sofar.length) return <p className={css.dim}>It stands here as soon as a step is shown on an asset.</p>;
+  if (!sofar.length) return <p className={css.dim}>The program appears here after the first demonstrated step.</p>;
   return (
     <>
       <p className={css.orient}>So far:</p>
@@ -43,7 +43,7 @@ function Learned() {
   if (!rules.length) return null;
   return (
     <details className={css.learned}>
-      <summary>What was learned in place of it</summary>
+      <summary>The learned program</summary>
       <Rows rules={rules} accepted={false} learned />
     </details>
   );
@@ -67,7 +67,7 @@ interface RuleRowProps {
   learned: boolean;
 }
 
-/** A rule in its own text with its sentence; what it selects lights up on all pictures while one points at it. */
+/** A rule in its own text with its sentence; what it selects is highlighted on all pictures while one points at it. */
 const RuleRow = memo(function RuleRow({ rule, accepted, learned }: RuleRowProps) {
   const [open, setOpen] = useState(false);
   const point = useRuleHighlight(rule, accepted);
@@ -126,13 +126,13 @@ function Readings({ rule }: { rule: RuleView }) {
   const lesson = useProject((state) => state.lesson);
   const readings = readingsOf(lesson, rule);
   const own = extractorOf(rule.text);
-  if (!readings.length) return <p className={css.noReadings}>There is no other reading of it in the last lesson.</p>;
+  if (!readings.length) return <p className={css.noReadings}>Learning found no other reading of this rule.</p>;
   return (
     <ul className={css.readings} aria-label={`Readings of rule ${rule.rule}`}>
       {readings.slice(0, MOST).map((reading) => (
         <ReadingRow key={reading.id} reading={reading} own={reading.extractor === own} />
       ))}
-      {readings.length > MOST && <li className={css.dim}>and {readings.length - MOST} less believable ones</li>}
+      {readings.length > MOST && <li className={css.dim}>and {readings.length - MOST} less probable readings</li>}
     </ul>
   );
 }
@@ -146,7 +146,7 @@ function ReadingRow({ reading, own }: { reading: ReadingView; own: boolean }) {
     <li className={css.reading} data-own={own} onPointerEnter={point.on} onPointerLeave={point.off} onFocus={point.on} onBlur={point.off}>
       <RuleText text={extractor} />
       <span className={css.sentence}>{sentence}</span>
-      <span className={css.belief} title="How believable it is, and of how many parts it is made: shorter ones are more believable">
+      <span className={css.belief} title="Its probability and its number of parts: shorter readings are more probable">
         <span className={css.bar} aria-hidden>
           <span style={{ width: `${percent}%` }} />
         </span>
@@ -154,8 +154,8 @@ function ReadingRow({ reading, own }: { reading: ReadingView; own: boolean }) {
       </span>
       {own ? <span className={css.facts}>in the program</span> : <Elsewhere assets={differs} />}
       {!own && differs.length > 0 && (
-        <Button tip="Answers for the assets that tell this reading from the others" onClick={() => void chooseReading(reading)}>
-          Mean this one
+        <Button tip="Answers the question on the assets where this reading differs from the others" onClick={() => void chooseReading(reading)}>
+          Choose this reading
         </Button>
       )}
     </li>
@@ -164,7 +164,7 @@ function ReadingRow({ reading, own }: { reading: ReadingView; own: boolean }) {
 
 /** The assets on which a reading selects something else than the program's. */
 function Elsewhere({ assets }: { assets: readonly string[] }) {
-  if (!assets.length) return <span className={css.facts}>does the same on all your assets</span>;
+  if (!assets.length) return <span className={css.facts}>selects the same on all your assets</span>;
   return (
     <span className={css.facts}>
       differs on{" "}

@@ -41,7 +41,7 @@ export function useExtractorHighlight(extractor: string, rule: number): { on: ()
     stop.current = mine;
     api.generalise(extractor, rule, mine.signal).then(
       ({ assets }) => mine.signal.aborted || setHighlight({ what: extractor, assets }),
-      () => undefined, // pointing at it is no request to be told about; using it is
+      () => undefined, // pointing at it reports no error; using it does
     );
   };
   return { on, off };

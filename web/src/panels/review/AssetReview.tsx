@@ -25,14 +25,14 @@ export function AssetReview() {
 function OneAsset({ asset }: { asset: string }) {
   const of = useResultKind(asset);
   const result = useResult(asset, of);
-  const told = useProject((state) => state.cards[asset]?.error != null);
+  const hasError = useProject((state) => state.cards[asset]?.error != null);
   const correcting = useWorkspace((state) => state.draft !== null);
   return (
     <>
       <VerdictSection asset={asset} />
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
-      {result.kind === "problem" && !told && (
+      {result.kind === "problem" && !hasError && (
         <Section title="Result">
           <Note mood="bad">
             {result.problem.message}
@@ -68,7 +68,7 @@ function VerdictSection({ asset }: { asset: string }) {
             look={stale ? "plain" : "primary"}
             icon={Check}
             disabled={stale}
-            tip={stale ? "It is not up to date: apply first" : "Accept, and go to the next that wants a look"}
+            tip={stale ? "It is not up to date: apply first" : "Accept and go to the next result to review"}
             keys="Y"
             onClick={() => void accept(asset)}
           >
@@ -82,11 +82,11 @@ function VerdictSection({ asset }: { asset: string }) {
         )}
         {card.review && (
           <Button icon={Undo2} onClick={() => void withdrawReview(asset)}>
-            {card.review === "accepted" ? "Not accepted" : "Take flag back"}
+            {card.review === "accepted" ? "Undo accept" : "Remove flag"}
           </Button>
         )}
         {some && (
-          <Button look="quiet" icon={SkipForward} tip="The next that failed, is flagged, or not reviewed" keys="N" onClick={nextToReview}>
+          <Button look="quiet" icon={SkipForward} tip="Next failed, flagged or unreviewed result" keys="N" onClick={nextToReview}>
             Next
           </Button>
         )}

@@ -20,7 +20,7 @@ export function CheckAll() {
         <Button
           icon={Gauge}
           disabled={why !== null}
-          tip="Fit, free space, rest and limits of engines, beside the assets as they come; seconds a result, in the background"
+          tip="Fit, free space, rest and engine limits, compared with the original assets; seconds for each result, in the background"
           onClick={() => void checkAll()}
         >
           Check all results ({left} to do)

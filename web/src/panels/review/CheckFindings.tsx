@@ -23,14 +23,14 @@ export function CheckFindings({ asset, findings }: { asset: string; findings: re
   );
 }
 
-/** Whether no finding of its rule comes before: what can be done is told once. */
+/** Whether no finding of its rule comes before: the remedy is shown once. */
 const isFirst = (findings: readonly CheckFinding[], k: number): boolean =>
   findings.findIndex(({ rule, new: fresh }) => fresh && rule === findings[k]?.rule) === k;
 
 interface FindingProps {
   asset: string;
   finding: CheckFinding;
-  /** Whether what can be done is told, too. */
+  /** Whether the remedy is shown, too. */
   remedied: boolean;
 }
 

@@ -22,7 +22,7 @@ export function CheckPictures(of: PartId) {
   return (
     <div className={css.pictures}>
       <Button look="quiet" aria-expanded={on} onClick={() => showPictures(of.part, !on)}>
-        {on ? "Hide the pictures" : of.part === "fit" ? "Show where" : "Show what space"}
+        {on ? "Hide the pictures" : of.part === "fit" ? "Show where" : "Show the space"}
       </Button>
       {on && <Pictures {...of} />}
     </div>
@@ -41,7 +41,7 @@ function Pictures({ asset, version, part }: PartId) {
       </p>
     );
   }
-  if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to be drawn.</p>;
+  if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to draw.</p>;
   return drawn.pictures.map(({ name, text }) => (
     <figure key={name}>
       <EnlargeablePicture source={api.checkPicture(asset, name, version)} text={toSentence(text)} />
@@ -78,7 +78,7 @@ function focusWhole(event: Event): void {
 function EnlargeablePicture({ source, text }: { source: string; text: string }) {
   return (
     <Dialog.Root>
-      <Dialog.Trigger className={css.small} title="Show it large">
+      <Dialog.Trigger className={css.small} title="Enlarge">
         <img src={source} alt={text} />
       </Dialog.Trigger>
       <Dialog.Portal>

@@ -35,7 +35,7 @@ export function Checks({ asset }: { asset: string }) {
   return (
     <section className={ui.section} aria-label="Checks">
       <header className={ui.sectionHead}>
-        <Tip text="Measures the output beside the asset: limits of an engine, rest, free space, fit" keys="Shift+C">
+        <Tip text="Compares the output with the original: engine limits, rest, free space, fit" keys="Shift+C">
           <button type="button" className={css.toggle} aria-expanded={open} onClick={() => setChecks({ open: !open })}>
             <Icon size={14} aria-hidden /> <h3>Checks</h3>
           </button>
@@ -55,7 +55,7 @@ function Parts({ asset, version }: { asset: string; version: string }) {
   const other = useWorkspace(({ showing }) => !(showing.kind === "result" && showing.of === "output"));
   return (
     <div className={css.parts}>
-      {other && <p className={css.dim}>Of the written output; what is in view is what the program makes now.</p>}
+      {other && <p className={css.dim}>These checks are of the written output; the view shows the current program's result.</p>}
       {[...PARTS].reverse().map((part) => (
         <CheckPart key={part} asset={asset} version={version} part={part} />
       ))}
@@ -134,7 +134,7 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   // what is not legal has a section of its own
-  const told = part === "engines" ? findings.filter((one) => one.engine !== null && concerns(one, engine)) : findings;
+  const shown = part === "engines" ? findings.filter((one) => one.engine !== null && concerns(one, engine)) : findings;
   return (
     <>
       {figures.length > 0 && <FigureTable figures={figures} />}
@@ -143,11 +143,11 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
           {toSentence(note)}
         </p>
       ))}
-      <CheckFindings asset={asset} findings={told} />
-      {part === "engines" && engine !== "" && !told.length && <p className={css.good}>✓ Within all of them.</p>}
-      {gone > 0 && <p className={css.good}>✓ {countText(gone, "finding")} about the asset before {gone === 1 ? "is" : "are"} gone.</p>}
+      <CheckFindings asset={asset} findings={shown} />
+      {part === "engines" && engine !== "" && !shown.length && <p className={css.good}>✓ Within all of them.</p>}
+      {gone > 0 && <p className={css.good}>✓ {countText(gone, "finding")} of the original asset {gone === 1 ? "is" : "are"} gone.</p>}
       {pictured && <CheckPictures asset={asset} version={version} part={part} />}
-      {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m")}; what is smaller is not seen.</p>}
+      {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m")}: smaller details are missed.</p>}
     </>
   );
 }

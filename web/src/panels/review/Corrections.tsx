@@ -36,16 +36,16 @@ export function Corrections({ asset }: { asset: string }) {
       ) : (
         <div className={css.row}>
           {runs && (
-            <Button icon={Hand} tip="Mends this result alone; it is kept and done again after the program" onClick={() => startCorrection(asset)}>
+            <Button icon={Hand} tip="Fixes only this result; the edit is repeated after the program" onClick={() => startCorrection(asset)}>
               Correct by hand
             </Button>
           )}
-          <Button icon={GraduationCap} tip="Show the steps on this asset; the program is learned again" onClick={() => demonstrate(asset)}>
-            Demonstrate this one
+          <Button icon={GraduationCap} tip="Demonstrate the steps on this asset; the program is learned again" onClick={() => demonstrate(asset)}>
+            Demonstrate this asset
           </Button>
           {corrections.length > 0 && (
             <Button look="quiet" icon={RotateCcw} onClick={() => void dropCorrections(asset)}>
-              Revert to what the program makes
+              Revert to the program's result
             </Button>
           )}
         </div>
@@ -64,7 +64,7 @@ function CorrectForm({ asset }: { asset: string }) {
   }, [asset]);
   return (
     <div className={css.correcting} ref={toView}>
-      <p className={css.dim}>Select hulls of the result; the edit is kept for this asset alone, and done again after the program.</p>
+      <p className={css.dim}>Select hulls of the result. The edit applies to this asset only and is repeated after the program.</p>
       <DraftForm />
     </div>
   );
@@ -84,7 +84,7 @@ function useCorrections(asset: string): readonly CorrectionView[] {
     let wanted = true;
     getDetails(asset).then(
       ({ view }) => wanted && setGot({ asset, corrections: view.corrections }),
-      () => undefined, // the viewport tells of an asset that cannot be read
+      () => undefined, // the viewport reports an asset that cannot be read
     );
     return () => {
       wanted = false;

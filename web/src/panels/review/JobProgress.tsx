@@ -30,11 +30,11 @@ export function JobProgress({ job, unit }: { job: Job; unit: string }) {
 
 const SIGNS: Readonly<Record<JobLine["status"], string>> = { done: "✓", edited: "✓", unchanged: "=", failed: "✗", skipped: "–" };
 
-/** What became of each asset in a job. */
+/** Results by asset in a job. */
 export function JobLines({ lines }: { lines: readonly JobLine[] }) {
   if (!lines.length) return null;
   return (
-    <ul className={css.jobLines} aria-label="What became of each asset">
+    <ul className={css.jobLines} aria-label="Results by asset">
       {lines.map((line) => (
         <li key={line.asset}>
           <button type="button" data-status={line.status} title={`Open ${line.asset}`} onClick={() => openAsset(line.asset)}>

@@ -66,7 +66,7 @@ export function Findings({ edit }: { edit: EditedHeader }) {
     <Section title="Legality" aside={edit.findings.length ? countText(edit.findings.length, "finding") : null}>
       {verdict === "legal" && (
         <p className={css.legal}>
-          <CircleCheck size={15} aria-hidden /> All hulls are convex, closed and in order.
+          <CircleCheck size={15} aria-hidden /> All hulls are convex, closed and valid.
         </p>
       )}
       <ul className={css.findings}>
@@ -105,13 +105,13 @@ function Finding({ finding: { severity, text, hull } }: { finding: FindingView }
   );
 }
 
-/** What each rule did to this asset; the hulls light up while one points at a line. */
+/** What each rule did to this asset; the hulls are highlighted while one points at a line. */
 export function Trace({ asset, of, edit }: { asset: string; of: ResultKind; edit: EditedHeader }) {
   const stale = useProject((state) => of === "output" && (state.cards[asset]?.stale.includes("program") ?? false));
   if (!edit.trace.length) return null;
   return (
     <Section title="Rule by rule">
-      {stale && <p className={css.dim}>As the program was when this was written.</p>}
+      {stale && <p className={css.dim}>From the program that wrote this output.</p>}
       <ol className={css.trace}>
         {edit.trace.map((line) => (
           <TraceRow key={line.rule} line={line} asset={asset} texts={!stale} />
@@ -133,7 +133,7 @@ function TraceRow({ line, asset, texts }: { line: TraceLine; asset: string; text
       <button
         type="button"
         className={css.traceLine}
-        title={line.selected.length ? `Select what it made of ${listText(line.selected, 12)}` : undefined}
+        title={line.selected.length ? `Select the result for ${listText(line.selected, 12)}` : undefined}
         onClick={() => select(line.made.length ? line.made : line.selected)}
         onPointerEnter={light}
         onPointerLeave={dark}

@@ -27,7 +27,7 @@ const HEADS: Readonly<Record<Group, string>> = {
   failed: "Failed",
   flagged: "Flagged",
   stale: "Not up to date",
-  telling: "Look at these first",
+  informative: "Look at these first",
   open: "Not reviewed",
   accepted: "Accepted",
   none: "Not applied yet",
@@ -94,7 +94,7 @@ function AcceptLegal({ count }: { count: number }) {
     <Button
       icon={CheckCheck}
       disabled={progress !== null}
-      tip="Accepts all outputs that are up to date, without a flag, and not illegal; nobody reviewed them yet"
+      tip="Accepts all unreviewed outputs that are up to date, legal and not flagged"
       onClick={run}
     >
       {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}
@@ -178,7 +178,7 @@ function CheckCount({ card }: { card: Card }) {
 function Legality({ card }: { card: Card }) {
   const found = useVerdicts((state) => state.verdicts[verdictKey(card)]);
   useEffect(() => {
-    // one that cannot be told says nothing here; opening the asset says why
+    // one that fails says nothing here; opening the asset says why
     if (!found) getVerdict(card).catch(() => undefined);
   }, [card, found]);
   if (!found) return null;

@@ -47,7 +47,7 @@ function ApplySection() {
     <section className={css.apply} aria-label="Apply the program">
       {running ? <JobProgress job={job} unit="asset" /> : <Start />}
       {!running && job && job.state !== "done" && (
-        <Note mood={job.state === "failed" ? "bad" : "warn"}>{job.message || "Applying was stopped; what was written stays."}</Note>
+        <Note mood={job.state === "failed" ? "bad" : "warn"}>{job.message || "Stopped. Written outputs are kept."}</Note>
       )}
       <OutputCounts />
     </section>

@@ -1,4 +1,4 @@
-// One state of the asset in three.js: its hulls with outlines, opaque pieces, ghost, contact graph.
+// One state of the asset in three.js: its hulls with outlines, non-convex pieces, ghost, contact graph.
 import { Group, Scene as ThreeScene, Vector3 } from "three";
 import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
@@ -90,13 +90,13 @@ function mapValues<K extends string, A, B>(record: Record<K, A>, made: (value: A
   return Object.fromEntries(entries.map(([key, value]) => [key, made(value, key)])) as Record<K, B>;
 }
 
-/** The box around all hulls and opaque pieces, in the frame of the file; null where there is nothing. */
+/** The box around all hulls and non-convex pieces, in the frame of the file; null where there is nothing. */
 export function extentOf({ hulls, opaque }: Scene): readonly number[] | null {
   const boxes = new Float32Array([...hulls, ...opaque].flatMap(({ shape }) => boxOf(shape.positions)));
   return boxAround(boxes, [...hulls, ...opaque].keys());
 }
 
-/** The vertices of hulls and opaque pieces where they are shown, in the canonical frame; null: of all in sight. */
+/** The vertices of hulls and non-convex pieces where they are shown, in the canonical frame; null: of all in sight. */
 export function pointsOf(side: AssetDrawing, only: ReadonlySet<string> | null, explode: number): Point[] {
   const { hulls, opaque } = side.scene;
   const out: Point[] = [];

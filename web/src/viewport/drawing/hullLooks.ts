@@ -17,7 +17,7 @@ export interface Appearance {
   readonly hidden: ReadonlySet<string>;
   /** What the action in hand would take away. */
   readonly going: ReadonlySet<string>;
-  /** What was changed, so that all else stands back; null where nothing is compared. */
+  /** What was changed, so that all else is paler; null where nothing is compared. */
   readonly changed: ReadonlySet<string> | null;
   readonly ink: ThemeColors;
 }

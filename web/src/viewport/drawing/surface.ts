@@ -1,4 +1,4 @@
-// Surfaces that are no hulls: opaque pieces, and the visual mesh as a ghost.
+// Surfaces that are no hulls: non-convex pieces, and the visual mesh as a ghost.
 import { BufferAttribute, BufferGeometry, type Color, DoubleSide, Group, Mesh, ShaderMaterial } from "three";
 import type { Shape } from "../../server/packet";
 import { mergeShapes, type MergedShapes } from "../geometry/triangles";

@@ -15,7 +15,7 @@ test("a box drawn from any corner is the same box", () => {
   }
 });
 
-test("a lasso that turns inwards leaves out what is in its bay", () => {
+test("a lasso that turns inwards misses what is in its bay", () => {
   const bay: Region = [[0, 0], [10, 0], [10, 10], [5, 2], [0, 10]];
   expect(isInside(bay, [5, 1])).toBe(true);
   expect(isInside(bay, [5, 8])).toBe(false);

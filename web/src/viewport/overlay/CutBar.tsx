@@ -53,9 +53,9 @@ function Bar() {
           </Button>
         </>
       ) : (
-        <span>Click the hull to cut; hulls that a step made cannot be cut.</span>
+        <span>Click the hull to cut. Hulls made by a step cannot be cut.</span>
       )}
-      <Button look="quiet" onClick={leaveCut} tip="Put the tool down" keys="Escape">
+      <Button look="quiet" onClick={leaveCut} tip="Leave the tool" keys="Escape">
         Leave
       </Button>
     </div>

@@ -23,7 +23,7 @@ export function InfoLines() {
 
 function UnturnedNote() {
   const why = useScenes(({ scene }) => (scene?.hulls.length ? scene.view.unturned : null));
-  return why ? <div className={css.unturned}>Not turned: {why}</div> : null;
+  return why ? <div className={css.unturned}>Not oriented: {why}</div> : null;
 }
 
 function PointedHull() {
@@ -88,7 +88,7 @@ function hullCountText({ view, hulls, edit }: Scene): string {
 
 const MOST = 10;
 
-/** What the colours mean where that is not told elsewhere. */
+/** What the colours mean where that is not shown elsewhere. */
 export function Legend() {
   const colorBy = useWorkspace((workspace) => workspace.view.colorBy);
   const bodies = useScenes(({ scene }) => scene?.view.bodies);

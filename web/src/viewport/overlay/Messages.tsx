@@ -53,13 +53,13 @@ function NoHulls({ asset }: { asset: string }) {
         <p>The edits have removed all hulls of this asset.</p>
       ) : sources > 0 ? (
         <>
-          <p>This asset has no convex collision geometry yet. It can be made from {pieces(sources)} that it has.</p>
+          <p>This asset has no convex collision geometry yet. Decompose {pieces(sources)} that it has.</p>
           <Button look="primary" onClick={make}>
             Decompose into hulls
           </Button>
         </>
       ) : (
-        <p>This file has no collision geometry, and nothing that hulls could be made from.</p>
+        <p>This file has no collision geometry and no geometry to make hulls from.</p>
       )}
     </div>
   );
@@ -70,8 +70,8 @@ const pieces = (count: number): string => (count === 1 ? "the one piece" : `the 
 export function NoWebGl() {
   return (
     <div className={css.message} role="alert">
-      <h3>This browser cannot draw in three dimensions</h3>
-      <p>The view needs WebGL 2, which is switched off or missing. The list of hulls works all the same.</p>
+      <h3>This browser cannot show 3D graphics</h3>
+      <p>The view needs WebGL 2, which is switched off or missing. The list of hulls still works.</p>
       <p className={css.remedy}>
         Switch on hardware acceleration in the browser&rsquo;s settings and reload the page, or open this address in a
         recent Chrome, Edge, Firefox or Safari.

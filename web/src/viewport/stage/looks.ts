@@ -13,7 +13,7 @@ import type { Scene } from "../../store/scenes";
 import { type Tool, useWorkspace } from "../../store/workspace";
 import { useRegion } from "./drawnRegion";
 
-/** The looks of what is shown, and of the asset as it comes beside it. */
+/** The looks of what is shown, and of the asset as it is in its file beside it. */
 export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance; before: Appearance } {
   const { view, selection, hover, hidden, tool } = useWorkspace.getState();
   const { region } = useRegion.getState();
@@ -25,7 +25,7 @@ export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance
   return { shown, before: { ...shown, going: new Set() } };
 }
 
-/** Previews stand back while hulls are picked for something else. */
+/** Previews are hidden while hulls are picked for something else. */
 export const showsPreview = (tool: Tool): boolean => tool !== "cut" && tool !== "landmark";
 
 /** What was changed: in its label by the last edit of all labels, or where before and after are beside each other. */

@@ -22,7 +22,7 @@ export function hullAt(stage: Stage, x: number, y: number): string | null {
   return side ? hullOf(side, rayAt(stage, x, y), stage.settings.explode) : null;
 }
 
-/** The hull, or else the opaque piece, under a pixel. */
+/** The hull, or else the non-convex piece, under a pixel. */
 export function pieceAt(stage: Stage, x: number, y: number): string | null {
   const side = stage.sideOf(stage.paneAt(x));
   if (!side) return null;

@@ -1,4 +1,4 @@
-// The one mutable place where the picture lives; React and the stores tell it what changed, it draws.
+// The one mutable place where the picture lives; React and the stores change it, it draws.
 import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLRenderer } from "three";
 import { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf } from "../drawing/assetDrawing";

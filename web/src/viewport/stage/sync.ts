@@ -82,7 +82,7 @@ function moveCameraTo(stage: Stage, { asset, cameraOrder, selection }: Workspace
   stage.invalidate();
 }
 
-/** Fetches what goes with a scene: the asset as it comes to compare with, and the visual mesh. */
+/** Fetches what goes with a scene: the original asset to compare with, and the visual mesh. */
 function fetchBeside(stage: Stage, scene: Scene | null): void {
   const { compare, ghost } = useWorkspace.getState().view;
   const isStill = (): boolean => useScenes.getState().scene === scene;

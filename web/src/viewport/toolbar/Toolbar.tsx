@@ -53,7 +53,7 @@ export function Toolbar() {
   );
 }
 
-const TAKES = "takes hulls that are seen inside, or are inside as a whole; Shift adds, Alt takes away";
+const TAKES = "selects hulls that are visible inside or completely inside; Shift adds, Alt subtracts";
 
 /** What the left button does: one of four tools. */
 function Tools() {
@@ -63,7 +63,7 @@ function Tools() {
     <div className={css.group} role="group" aria-label="Tools">
       <IconButton
         icon={MousePointer2}
-        name="Select by clicks; Shift adds, Ctrl toggles; drags turn the view"
+        name="Select by clicking; Shift adds, Ctrl toggles; drag to orbit"
         on={tool === "select"}
         onClick={() => setTool("select")}
       />
@@ -97,11 +97,11 @@ function Switches() {
   const ghosts = useScenes(({ scene }) => scene?.view.has_visual ?? false);
   const opaque = useScenes(({ scene }) => scene?.view.opaque.length ?? 0);
   return (
-    <div className={css.group} role="group" aria-label="Shown besides">
-      <Switch what="contacts" icon={Network} name="Contact graph, with near misses dashed" />
+    <div className={css.group} role="group" aria-label="Overlays">
+      <Switch what="contacts" icon={Network} name="Contact graph; near misses are dashed" />
       <Switch what="wireframe" icon={Triangle} name="Wireframe" />
       {ghosts && <Switch what="ghost" icon={Ghost} name="Visual mesh as a ghost" />}
-      {opaque > 0 && <Switch what="opaque" icon={Grid2x2X} name={`Pieces that are no hulls (${opaque})`} />}
+      {opaque > 0 && <Switch what="opaque" icon={Grid2x2X} name={`Non-convex pieces (${opaque})`} />}
     </div>
   );
 }
@@ -127,7 +127,7 @@ function CompareChoice() {
   if (!edited) return null;
   return (
     <Choice
-      name="Compare with the asset as it comes"
+      name="Compare with the original asset"
       value={compare}
       options={OPTIONS.map(({ value, icon: Icon, name }) => ({ value, name, label: <Icon size={15} aria-hidden /> }))}
       onChange={(value) => setView({ compare: value })}
@@ -139,7 +139,7 @@ function CompareChoice() {
 function ExplodeSlide() {
   const explode = useWorkspace((workspace) => workspace.view.explode);
   return (
-    <Tip text="Exploded view; a double click puts the hulls together again">
+    <Tip text="Exploded view; double-click to reset">
       <span className={css.explode} onDoubleClick={() => setView({ explode: 0 })}>
         <Expand size={15} aria-hidden />
         <Slide name="Exploded view" value={explode} onChange={(value) => setView({ explode: value })} />

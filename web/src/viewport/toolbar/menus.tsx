@@ -52,7 +52,7 @@ function labelLines({ hulls }: Scene, vocabulary: readonly { name: string; color
   });
 }
 
-/** Which state of the asset is shown: as it comes, after some of its steps, or what the program makes of it. */
+/** Which state of the asset is shown: original, after some of its steps, or what the program makes of it. */
 export function ShowingMenu() {
   const asset = useWorkspace((workspace) => workspace.asset);
   const showing = useWorkspace((workspace) => workspace.showing);
@@ -90,7 +90,7 @@ export function ShowingMenu() {
 }
 
 function nameOf(showing: Showing): string {
-  if (showing.kind === "source" || (showing.kind === "steps" && showing.steps === 0)) return "As it comes";
+  if (showing.kind === "source" || (showing.kind === "steps" && showing.steps === 0)) return "Original";
   if (showing.kind === "steps") return `After step ${showing.steps}`;
   return showing.of === "program" ? "By the program" : "Written output";
 }

@@ -1,0 +1,78 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { FrameRate } from "./frameRate";
+
+/** Moves the camera for some frames that come so far apart [s]; the shares of the pixels that they are drawn with. */
+function turn(rate: FrameRate, apart: number, frames: number, start = 100): number[] {
+  return Array.from({ length: frames }, (_, k) => {
+    const now = start + k * apart;
+    rate.move(now);
+    return rate.begin(now);
+  });
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+describe("frames while the camera moves", () => {
+  it("are drawn finely where drawing is fast", () => {
+    expect(new Set(turn(new FrameRate(() => undefined), 0.016, 50))).toEqual(new Set([1]));
+  });
+
+  it("become coarse where drawing is slow", () => {
+    const shares = turn(new FrameRate(() => undefined), 0.1, 10);
+    expect(shares[0]).toBe(1);
+    expect(shares.at(-1)).toBeLessThan(1);
+  });
+
+  it("stay fine after a single slow one", () => {
+    const rate = new FrameRate(() => undefined);
+    turn(rate, 0.016, 20);
+    rate.move(100.36);
+    expect(rate.begin(100.36)).toBe(1);
+    expect(turn(rate, 0.016, 20, 100.37).at(-1)).toBe(1);
+  });
+
+  it("are not slow because the person paused", () => {
+    expect(new Set(turn(new FrameRate(() => undefined), 0.5, 20))).toEqual(new Set([1]));
+  });
+});
+
+describe("a camera that rests", () => {
+  it("is drawn finely again, for which it asks by itself", () => {
+    const rested = vi.fn();
+    const rate = new FrameRate(rested);
+    turn(rate, 0.1, 10);
+    expect(rested).not.toHaveBeenCalled();
+    vi.advanceTimersByTime(200);
+    expect(rested).toHaveBeenCalledOnce();
+    expect(rate.begin(102)).toBe(1);
+  });
+
+  it("asks for nothing where it was drawn finely all the time", () => {
+    const rested = vi.fn();
+    turn(new FrameRate(rested), 0.016, 50);
+    vi.advanceTimersByTime(1000);
+    expect(rested).not.toHaveBeenCalled();
+  });
+
+  it("asks for nothing any more once the picture is gone", () => {
+    const rested = vi.fn();
+    const rate = new FrameRate(rested);
+    turn(rate, 0.1, 10);
+    rate.stop();
+    vi.advanceTimersByTime(1000);
+    expect(rested).not.toHaveBeenCalled();
+  });
+});
+
+it("tries another asset finely at first", () => {
+  const rate = new FrameRate(() => undefined);
+  expect(turn(rate, 0.1, 10).at(-1)).toBeLessThan(1);
+  rate.restart();
+  expect(turn(rate, 0.016, 3, 200).at(-1)).toBe(1);
+});
