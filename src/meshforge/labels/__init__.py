@@ -5,11 +5,11 @@ from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
 from meshforge.labels.label_store import LabelStore
-from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, label_new_hulls
+from meshforge.labels.merge import LabelOutcome, OutcomeCallback, label_new_hulls
 from meshforge.labels.names.label_by_names import PatternPairs
 from meshforge.labels.offers import LabelOffers, OfferCache
 from meshforge.labels.progress import SourceTally, Tally
-from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage, ignore_stage
+from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage
 from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
 from meshforge.labels.propose import Proposal, Proposals
 from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
@@ -42,8 +42,6 @@ __all__ = [
     "VlmResult",
     "check_vlm_settings",
     "endpoint_of",
-    "ignore_report",
-    "ignore_stage",
     "label_file_beside",
     "label_new_hulls",
     "propagate",

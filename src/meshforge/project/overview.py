@@ -9,12 +9,11 @@ from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project.accept import program_state_of
-from meshforge.project.advice import advise
 from meshforge.project.demonstrate import find_unknown_hulls
 from meshforge.project.family import suggest_first_demonstration
 from meshforge.project.review import output_digest
 from meshforge.project.run import build_jobs, build_task
-from meshforge.project.status import AssetStatus, OutputState, Status
+from meshforge.project.status import AssetStatus, OutputState, Status, advise
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 

@@ -9,13 +9,12 @@ from meshforge.store.feedback import (
     LabelBefore,
     RepairLine,
     Review,
-    ReviewFile,
     RuleSelection,
     Verdict,
     repair_id,
 )
 from meshforge.store.folder import add_assets, create_folder, find_assets
-from meshforge.store.layout import Layout, json_text, read_json, write_json
+from meshforge.store.layout import json_text, read_json, write_json
 from meshforge.store.meshes import AssetFiles, hull_digests
 from meshforge.store.program import ProgramRecord
 from meshforge.store.settings import (
@@ -35,9 +34,6 @@ from meshforge.store.steps import (
     action_text,
     action_text_without_each,
     parse_action_text,
-    read_corrections,
-    to_correction_lines,
-    to_step_lines,
 )
 from meshforge.store.store import Store
 
@@ -50,11 +46,9 @@ __all__ = [
     "CorrectionsFile",
     "DemonstrationFile",
     "LabelBefore",
-    "Layout",
     "ProgramRecord",
     "RepairLine",
     "Review",
-    "ReviewFile",
     "RuleSelection",
     "Settings",
     "StepLine",
@@ -74,14 +68,11 @@ __all__ = [
     "orientation",
     "orientation_text",
     "parse_action_text",
-    "read_corrections",
     "read_json",
     "read_settings",
     "repair_id",
     "set_value",
     "survey",
-    "to_correction_lines",
-    "to_step_lines",
     "toml_value",
     "write_json",
 ]
