@@ -1,8 +1,8 @@
 """Work on many assets: which they are, preparations, programs and checks run in worker processes, outcomes, outputs
 in place, and the report."""
 
-from meshforge.batch.apply import apply
-from meshforge.batch.check import CheckOutcome, CheckTask, check_asset, check_assets
+from meshforge.batch.apply import apply, inputs_of
+from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
 from meshforge.batch.corrections import Correction, replay_corrections
 from meshforge.batch.discovery import (
     OWN_FOLDERS,
@@ -14,7 +14,6 @@ from meshforge.batch.discovery import (
     expand,
     find_assets_in,
 )
-from meshforge.batch.edit import inputs_of
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
     APPLY_DEFAULTS,
@@ -27,7 +26,6 @@ from meshforge.batch.jobs import (
     read_template,
     template_folders,
 )
-from meshforge.batch.journal import CheckJournal, open_journal
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import (
     AssetOutcome,
@@ -42,8 +40,13 @@ from meshforge.batch.outcome import (
 )
 from meshforge.batch.plan import plan_run
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
-from meshforge.batch.preparation.record import Preparation, Replacement, find_sources
-from meshforge.batch.preparation.replay import apply_preparation, replay_preparation
+from meshforge.batch.preparation.record import (
+    Preparation,
+    Replacement,
+    apply_preparation,
+    find_sources,
+    replay_preparation,
+)
 from meshforge.batch.preparation.split import cut_hull, split_hull
 from meshforge.batch.preparation.storage import (
     RECORD_FILE,
@@ -83,8 +86,6 @@ from meshforge.batch.workers import (
     EXECUTION_DEFAULTS,
     IN_PROCESS,
     TIMEOUT,
-    UNBOUNDED,
-    Backend,
     ExecutionOptions,
     WorkerFailure,
     count_processors,
@@ -106,13 +107,11 @@ __all__ = [
     "SETTINGS",
     "STATE",
     "TIMEOUT",
-    "UNBOUNDED",
     "ApplyOptions",
     "ApplyTask",
     "AssetJob",
     "AssetOutcome",
     "AssetSet",
-    "Backend",
     "CheckJournal",
     "CheckOutcome",
     "CheckTask",

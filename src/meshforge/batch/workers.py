@@ -164,7 +164,7 @@ def worker_context() -> Any:
     if sys.platform != "linux":
         return _keep_locks(get_context("spawn"))
     context = get_context("forkserver")
-    context.set_forkserver_preload(["meshforge.batch.edit"])
+    context.set_forkserver_preload(["meshforge.batch.apply"])
     return _keep_locks(context)
 
 

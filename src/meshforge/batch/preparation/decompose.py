@@ -13,15 +13,16 @@ import numpy as np
 
 from meshforge.batch.preparation.record import (
     DecompositionSource,
+    PieceProblem,
     Preparation,
     PreparationStep,
     Replacement,
     find_sources,
     free_names,
     hull_digest,
+    replay_preparation,
     surface_digest,
 )
-from meshforge.batch.preparation.replay import PieceProblem, replay_preparation
 from meshforge.common import MeshForgeError, join_names, pluralize
 from meshforge.geometry import (
     DecomposeSettings,

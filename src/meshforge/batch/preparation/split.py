@@ -12,11 +12,11 @@ from meshforge.batch.preparation.record import (
     Preparation,
     PreparationStep,
     Replacement,
+    apply_preparation,
     free_names,
     hull_digest,
     merge_visuals,
 )
-from meshforge.batch.preparation.replay import apply_preparation
 from meshforge.common import GeometryError, nearest_name, pluralize
 from meshforge.geometry import DecomposeSettings, Floats, Polytope, cut, digest, partition
 from meshforge.symbolic import Asset, Geom, Surface

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.batch.preparation.record import Preparation, PreparationStep, hull_digest
-from meshforge.batch.preparation.replay import apply_preparation
+from meshforge.batch.preparation.record import Preparation, PreparationStep, apply_preparation, hull_digest
 from meshforge.common import AssetError, first_validation_error, write_atomically
 from meshforge.formats import MeshPart, format_obj, read, read_triangles
 from meshforge.geometry import Polytope
