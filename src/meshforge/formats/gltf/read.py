@@ -150,9 +150,10 @@ class SceneSurfaces(LazySurfaces):
             with report_damage(str(self._path)):
                 scene = GltfScene.of(self._source, self._path)
                 for index in visible_nodes(scene, convention_of(scene)):
-                    mesh, *place = scene.place_mesh(scene.placements[index])
+                    mesh, linear, offset = scene.place_mesh(scene.placements[index])
+                    body = self._bodies.get(index)
                     for part, rgba in split_by_color(scene, scene.placements[index].node["mesh"], mesh):
-                        surface = place_surface(part.vertices, part.faces, *place, self._bodies.get(index))
+                        surface = place_surface(part.vertices, part.faces, linear, offset, body)
                         found.append(replace(surface, rgba=rgba))
         except MeshForgeError:
             return []
