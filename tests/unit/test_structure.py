@@ -21,6 +21,7 @@ def modules(folder: Path, **texts: str) -> dict[str, Module]:
     return found
 
 
+@pytest.mark.slow
 def test_the_source_keeps_every_limit(capsys: pytest.CaptureFixture[str]) -> None:
     assert structure.main([]) == 0, capsys.readouterr().err
 
