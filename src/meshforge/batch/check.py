@@ -32,7 +32,7 @@ _START = b'{"asset": '
 class CheckInputs:
     """What decides what is found of an asset, and what was written for it.
 
-    files: the digest of each file by its path; asked: the digest of what was to be found out, and by which software.
+    files: the digest of each file by its path; request: the digest of what was to be found out, and by which software.
     """
 
     files: dict[str, str]

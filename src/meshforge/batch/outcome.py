@@ -27,7 +27,7 @@ class RuleEffect:
 
 
 @dataclass(frozen=True, slots=True)
-class Completed:
+class RunOutcome:
     """What the outcomes of a run that came to its end have in common.
 
     out: the file that was written, or that would be on a dry run; before, after: numbers of hulls;
@@ -45,17 +45,17 @@ class Completed:
 
 
 @dataclass(frozen=True, slots=True)
-class Edited(Completed):
+class Edited(RunOutcome):
     """The program changed the hulls of the asset."""
 
 
 @dataclass(frozen=True, slots=True)
-class Unchanged(Completed):
+class Unchanged(RunOutcome):
     """The program ran and changed nothing; the asset is written as it was."""
 
 
 @dataclass(frozen=True, slots=True)
-class Skipped(Completed):
+class Skipped(RunOutcome):
     """The output of an earlier run is up to date; rules, counts and notes are those of that run."""
 
 

@@ -40,8 +40,8 @@ class HullFit:
 class FitGroup:
     """The hulls of a body, or of all, with the visual mesh that they are held against.
 
-    seen, skin: the triangles of the visual mesh and of the hulls; outside: the cells of `grid` that a path leads to
-    from outside without crossing the visual mesh.
+    visual_surface, hull_surface: their triangles; owner: the hull of each triangle of `hull_surface`; outside: the
+    cells of `grid` that a path leads to from outside without crossing the visual mesh.
     """
 
     hulls: tuple[Hull, ...]

@@ -49,8 +49,8 @@ class LabelingPicture:
     marked: each hull in its own colour, edges drawn, its number on it or beside it at the end of a line.
     plain: the same camera and size without words: the visual mesh where the asset has one, else the hulls in one
     material.
-    seen: how many pixels of `marked` show each hull, by name, 0 for hidden ones and those drawn faintly; what is
-    written over the drawing is not taken off.
+    visible_pixels: how many pixels of `marked` show each hull, by name, 0 for hidden ones and those drawn faintly; what
+    is written over the drawing is not taken off.
     numbered: the hulls whose number stands on `marked`.
     """
 
