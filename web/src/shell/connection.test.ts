@@ -1,6 +1,9 @@
 // The token of the address, why there is no connection, and where one was before the page was loaded again.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
+// each test loads the modules anew, which takes long on a busy machine
+vi.setConfig({ testTimeout: 30_000 });
+
 class Storage {
   readonly kept = new Map<string, string>();
   getItem = (key: string) => this.kept.get(key) ?? null;

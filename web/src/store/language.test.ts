@@ -1,5 +1,8 @@
 import { beforeEach, expect, it, vi } from "vitest";
 
+// each test loads the modules anew, which takes long on a busy machine
+vi.setConfig({ testTimeout: 30_000 });
+
 const view = { actions: [{ name: "Delete" }, { name: "Merge" }], operators: [], directions: [] };
 
 /** The module as a page has it that was just loaded. */

@@ -1,6 +1,7 @@
 // Messages at the foot of the window.
 import { beforeEach, expect, test } from "vitest";
-import { dismissToast, notify, useToasts } from "./toasts";
+import { ServerProblem } from "../server/http";
+import { dismissToast, notify, reportError, reportProblem, useToasts } from "./toasts";
 
 beforeEach(() => useToasts.setState({ toasts: [] }));
 
@@ -20,4 +21,36 @@ test("a message goes when it is dismissed", () => {
   notify("Saved.");
   dismissToast(useToasts.getState().toasts[0]?.id ?? -1);
   expect(useToasts.getState().toasts).toEqual([]);
+});
+
+test("a problem says where it is, and how to fix it", () => {
+  reportProblem({ message: "no mesh", where: "a.urdf", remedy: "Add the file.", conflict: false });
+  reportProblem({ message: "the disk is full", where: null, remedy: null, conflict: false });
+  expect(useToasts.getState().toasts.map(({ kind, text, remedy }) => [kind, text, remedy])).toEqual([
+    ["problem", "a.urdf: no mesh", "Add the file."],
+    ["problem", "the disk is full", null],
+  ]);
+});
+
+test("an error of the server is reported as it is, any other as a bug", () => {
+  reportError(new ServerProblem({ message: "changed elsewhere", where: null, remedy: "Reload.", conflict: true }, 409));
+  reportError(new TypeError("x is undefined"));
+  reportError("odd");
+  const [server, bug, odd] = useToasts.getState().toasts;
+  expect([server?.text, server?.remedy]).toEqual(["changed elsewhere", "Reload."]);
+  expect([bug?.text, odd?.text]).toEqual(["x is undefined", "odd"]);
+  expect(bug?.remedy).toContain("bug in the studio");
+});
+
+test("what the page stopped itself is no error", () => {
+  reportError(new DOMException("stopped", "AbortError"));
+  expect(useToasts.getState().toasts).toEqual([]);
+});
+
+test("each message has a number of its own, so that one is dismissed alone", () => {
+  notify("one");
+  notify("one");
+  const [first] = useToasts.getState().toasts;
+  dismissToast(first?.id ?? -1);
+  expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["one"]);
 });

@@ -1,0 +1,104 @@
+// Keys that label.
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { api } from "../server/api";
+import { emptyProject, useProject } from "../store/project";
+import { sampleCard } from "../store/sample.test-help";
+import { useScenes } from "../store/scenes";
+import { useToasts } from "../store/toasts";
+import { initialWorkspace, select, useWorkspace } from "../store/workspace";
+import type { AnyEdit } from "../wire";
+import { labelCommands } from "./label";
+import { commandFor } from "./list";
+
+const command = (key: string) => commandFor(key, labelCommands);
+const press = (key: string) => command(key)?.run();
+const hulls = ["x", "y"].map((name) => ({ name, label: null, confidence: null, source: null }));
+let sent: AnyEdit[] = [];
+
+beforeEach(() => {
+  sent = [];
+  const vocabulary = ["leg", "top"].map((name) => ({ name, color: "#000000", used: 0 }));
+  const cards = { a: sampleCard({ asset: "a", hulls: 2, labels: [-1, -1] }) };
+  useProject.setState({ ...emptyProject, order: ["a"], cards, project: { ...emptyProject.project, vocabulary } }, true);
+  useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);
+  useScenes.setState({ scene: { asset: "a", hulls, view: { hulls } } as never });
+  useToasts.setState({ toasts: [] });
+  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "", nothing: true }));
+});
+
+afterEach(() => {
+  vi.restoreAllMocks();
+});
+
+describe("a digit", () => {
+  it("labels the selection with the label in that place", async () => {
+    select(["y"]);
+    press("2");
+    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["y"], label: "top" }]));
+  });
+
+  it("arms the brush where nothing is selected, and disarms it the second time", () => {
+    press("1");
+    expect(useWorkspace.getState().brush).toBe("leg");
+    press("2");
+    expect(useWorkspace.getState().brush).toBe("top");
+    press("2");
+    expect(useWorkspace.getState().brush).toBeNull();
+  });
+
+  it("means nothing beyond the list of labels, and in other stages", () => {
+    expect(command("3")).toBeUndefined();
+    useWorkspace.setState({ stage: "learn" });
+    expect(command("1")).toBeUndefined();
+  });
+});
+
+describe("nought", () => {
+  it("removes the label, or arms a brush that does", async () => {
+    press("0");
+    expect(useWorkspace.getState().brush).toBe("");
+    select(["x"]);
+    press("0");
+    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]));
+    expect(useWorkspace.getState().brush).toBeNull();
+  });
+});
+
+describe("Escape", () => {
+  it("stops painting, and means nothing otherwise", () => {
+    expect(command("Escape")).toBeUndefined();
+    press("1");
+    press("Escape");
+    expect(useWorkspace.getState().brush).toBeNull();
+  });
+});
+
+describe("P", () => {
+  it("propagates labels, or says why it cannot", async () => {
+    const started = vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
+    press("P");
+    expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Label the hulls of one asset first."]);
+    expect(started).not.toHaveBeenCalled();
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], given: 1 }) } });
+    await press("P");
+    expect(started).toHaveBeenCalledWith({ kind: "propagate" });
+  });
+});
+
+describe("unsure hulls", () => {
+  it("have keys only where there are some", () => {
+    expect([command("N"), command("Shift+N")]).toEqual([undefined, undefined]);
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [0, 0], unsure: [1] }) } });
+    expect([command("N")?.id, command("Shift+N")?.id]).toEqual(["label-next-unsure", "label-previous-unsure"]);
+  });
+
+  it("are confirmed by Enter only where one of them is selected", () => {
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [0, 0], unsure: [1] }) } });
+    select(["x"]);
+    expect(command("Enter")).toBeUndefined();
+    select(["x", "y"]);
+    expect(command("Enter")?.id).toBe("label-right");
+    useWorkspace.setState({ asset: "b" });
+    expect(command("Enter")).toBeUndefined();
+  });
+});

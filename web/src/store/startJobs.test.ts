@@ -1,0 +1,110 @@
+// Starting and stopping long work, and why it cannot be started.
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { api } from "../server/api";
+import { ServerProblem } from "../server/http";
+import type { Job } from "../wire";
+import {
+  applyTo,
+  askModel,
+  cancelJob,
+  checkAll,
+  exportTo,
+  forecastModel,
+  makeHulls,
+  propagateLabels,
+  whyNotApply,
+  whyNotCheck,
+} from "./jobs";
+import { emptyProject, type ProjectState, useProject } from "./project";
+import { sampleCard } from "./sample.test-help";
+import { useToasts } from "./toasts";
+
+const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, state, message: "", lines: [], out: null });
+const set = (state: Partial<ProjectState>) => useProject.setState(state);
+const program = { ...emptyProject.program, text: "All => Delete" };
+const refusal = new ServerProblem({ message: "another job runs", where: null, remedy: "Stop it.", conflict: true }, 409);
+const toasts = () => useToasts.getState().toasts.map(({ text, remedy }) => [text, remedy]);
+
+beforeEach(() => {
+  useProject.setState({ ...emptyProject, order: ["a"], cards: { a: sampleCard() }, program }, true);
+  useToasts.setState({ toasts: [] });
+  vi.spyOn(api, "startJob").mockResolvedValue(job("apply"));
+});
+
+afterEach(() => {
+  vi.restoreAllMocks();
+});
+
+describe("a job", () => {
+  it("is asked for as the server has it", async () => {
+    await applyTo(null);
+    await applyTo(["a"]);
+    await propagateLabels();
+    await checkAll();
+    await exportTo("out", true);
+    await askModel("exact", 2.5);
+    makeHulls(["a"]);
+    expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
+      { kind: "apply", assets: null },
+      { kind: "apply", assets: ["a"] },
+      { kind: "propagate" },
+      { kind: "check" },
+      { kind: "export", folder: "out", accepted_only: true },
+      { kind: "ask", mode: "exact", max_cost: 2.5 },
+      { kind: "decompose", assets: ["a"] },
+    ]);
+  });
+
+  it("that begins says so, and a forecast gives its number", async () => {
+    expect(await applyTo(null)).toBe(true);
+    expect(await forecastModel("cheap")).toBe("apply");
+  });
+
+  it("that cannot begin is reported with its remedy", async () => {
+    vi.mocked(api.startJob).mockRejectedValue(refusal);
+    expect(await applyTo(null)).toBe(false);
+    expect(await forecastModel("cheap")).toBeNull();
+    makeHulls(["a"]);
+    await vi.waitFor(() => expect(toasts()).toHaveLength(3));
+    expect(toasts()[0]).toEqual(["another job runs", "Stop it."]);
+  });
+
+  it("is stopped by its number; one that cannot be stopped is reported", async () => {
+    const stop = vi.spyOn(api, "cancelJob").mockRejectedValue(refusal);
+    cancelJob("7");
+    expect(stop).toHaveBeenCalledWith("7");
+    await vi.waitFor(() => expect(toasts()).toHaveLength(1));
+  });
+});
+
+describe("the program can be applied", () => {
+  it("where there are assets, and a program that can be read", () => {
+    expect(whyNotApply()).toBeNull();
+  });
+
+  it.each([
+    ["no assets", { order: [] }],
+    ["cannot be read: line 2", { program: { ...program, error: "line 2" } }],
+    ["no program yet", { program: { ...program, text: " \n" } }],
+    ["settings are broken", { project: { ...emptyProject.project, problem: "settings are broken" } }],
+    ["being applied now", { jobs: [job("apply")] }],
+  ] as [string, Partial<ProjectState>][])("but not where it says: %s", (why, state) => {
+    set(state);
+    expect(whyNotApply()).toContain(why);
+  });
+
+  it("again once the last time is over, and beside other jobs", () => {
+    set({ jobs: [job("apply", "done"), job("export")] });
+    expect(whyNotApply()).toBeNull();
+  });
+});
+
+describe("results can be checked", () => {
+  it("where something is written, and no check runs", () => {
+    expect(whyNotCheck()).toContain("apply the program");
+    set({ cards: { a: sampleCard({ check: "digest" }) } });
+    expect(whyNotCheck()).toBeNull();
+    set({ jobs: [job("check")] });
+    expect(whyNotCheck()).toContain("checked now");
+  });
+});
