@@ -95,7 +95,7 @@ def label_by_links(
     semantics = {one.link: one.name for one in read_semantics(path)}
     links = {body.name for body in mesh.asset.bodies} if mesh.asset else set()
     if links.isdisjoint(semantics):
-        raise AssetError("it names no link of this asset", where=str(path))
+        raise AssetError("it lists no link of this asset", where=str(path))
     labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
     for own in names_of_mesh(mesh):
         if own.body not in semantics:
